@@ -1,0 +1,1 @@
+//! The vector field (Sec. 3).

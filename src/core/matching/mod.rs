@@ -1,0 +1,1 @@
+//! The bijection between source and target (Sec. 3).

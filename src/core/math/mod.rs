@@ -1,0 +1,3 @@
+//! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
+
+pub mod rng;

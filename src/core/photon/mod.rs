@@ -1,0 +1,1 @@
+//! Caustic photons (Sec. 2).

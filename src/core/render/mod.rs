@@ -1,0 +1,1 @@
+//! From photons to pictures (Sec. 4).

@@ -1,0 +1,1 @@
+//! What is lit (Sec. 2): meshes, materials, lights, camera, receiver.

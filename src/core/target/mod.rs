@@ -1,0 +1,1 @@
+//! Where the photons should go (Sec. 3).

@@ -1,0 +1,3 @@
+//! Lightloom, the program: the command line over [`lightloom_core`].
+
+pub mod cli;
