@@ -1,8 +1,62 @@
-//! The commands and their arguments.
+//! The commands: arguments in, files and exit codes out. No algorithm lives here.
+
+mod args;
+mod check;
+mod fit;
+mod job;
+mod progress;
+mod render;
 
 use std::process::ExitCode;
 
-/// Parses the arguments, runs the command, returns its exit code.
+use clap::Parser as _;
+use lightloom_core::Error;
+use lightloom_core::project::Project;
+
+use args::{Cli, Command};
+
+/// Exit code where all frames are there, but some hold values that had to be replaced.
+const BAD_FRAMES: u8 = 4;
+
+/// Parses the arguments, runs the command, returns its exit code (listed in the README).
 pub fn main() -> ExitCode {
-    ExitCode::SUCCESS
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version also come this way, and are no failure. A closed pipe cannot be told anything.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let done = match &cli.command {
+        Command::Render(args) => render::run(args),
+        Command::Fit(args) => fit::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Schema => schema(),
+    };
+    match done {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            eprintln!("lightloom: {error}");
+            ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+fn schema() -> Result<u8, Error> {
+    println!("{:#}", Project::json_schema());
+    Ok(0)
+}
+
+/// One code per cause, so that a render farm can tell a bad project from a full disk.
+fn exit_code(error: &Error) -> u8 {
+    match error {
+        Error::Value { place, .. } if place.starts_with("--") => 2,
+        Error::Format { .. } | Error::Value { .. } => 3,
+        Error::Io { action: "read" | "find the folder", .. } => 3,
+        Error::Io { .. } => 5,
+        Error::Limit { .. } => 6,
+        Error::Numeric { .. } => 7,
+        Error::Cancelled => 130,
+    }
 }

@@ -1,7 +1,33 @@
 //! Lightloom's core: from a glass and a picture to a rendered caustic animation.
+//!
+//! # Layout
+//!
+//! ```text
+//! Project ──check──► plan ──► Scene ──► Photons ──► Matching ──► fit_segment ──► Fields ──► passes ──► frames
+//! project            pipeline scene     photon      target       flow            flow       render     export
+//!                                                   matching
+//! ```
+//!
+//! | of the paper (Baeza et al. 2020) | stands in |
+//! |---|---|
+//! | Sec. 2, photon tracing | [`scene`], [`photon`] |
+//! | Sec. 3, target points and matching | [`target`], [`matching`] |
+//! | Eq. (1), the field | `flow/field.rs` |
+//! | Eq. (2), guidance | `flow/guidance.rs` |
+//! | Eqs. (3) to (5) and (7), the fit | `flow/fit.rs`, `flow/bending.rs` |
+//! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
+//! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
+//!
+//! # What is absent
+//!
+//! [`flow`] has never heard of a scene; [`scene`] has never heard of a flow; nothing here has heard of a window or of
+//! command-line arguments. No stage but [`project`] looks at JSON. Modules use only those above them in the list below
+//! (`tests/tidy.rs` watches it).
 
 pub mod error;
 pub mod progress;
+
+pub mod files;
 
 pub mod math;
 

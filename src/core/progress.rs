@@ -2,21 +2,30 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use crate::{Error, Result};
 
 /// Shared by the thread that works and the one that watches. Cheap to clone.
 #[derive(Clone, Default)]
-pub struct Progress(Arc<Inner>);
+pub struct Progress {
+    cancelled: Arc<AtomicBool>,
+    work: Arc<Work>,
+}
 
 #[derive(Default)]
-struct Inner {
-    cancelled: AtomicBool,
+struct Work {
     done: AtomicU64,
     total: AtomicU64,
-    stage: Mutex<Option<(&'static str, Instant)>>,
+    road: Mutex<Road>,
+}
+
+/// The stages ahead with the seconds each is expected to take, and the one at work.
+#[derive(Default)]
+struct Road {
+    expected: Vec<(&'static str, f64)>,
+    stage: Option<(&'static str, Instant)>,
 }
 
 /// What the watcher sees.
@@ -26,8 +35,10 @@ pub struct Snapshot {
     pub stage: Option<&'static str>,
     /// Done share of the stage, 0..=1.
     pub fraction: f64,
-    /// Seconds since the stage began.
-    pub elapsed: f64,
+    /// Done share of the whole road, 0..=1, by the seconds each stage was expected to take.
+    pub overall: f64,
+    /// Seconds still to go, by the pace of this stage so far.
+    pub remaining: f64,
 }
 
 impl Progress {
@@ -36,26 +47,36 @@ impl Progress {
         Self::default()
     }
 
+    /// Declares the stages ahead, in order, with the seconds each is expected to take.
+    pub fn set_road(&self, stages: Vec<(&'static str, f64)>) {
+        self.road().expected = stages;
+    }
+
+    /// Work inside a stage that counts for itself: cancelled with the whole, but not shown.
+    pub fn inner(&self) -> Self {
+        Self { cancelled: self.cancelled.clone(), work: Arc::default() }
+    }
+
     /// Begins a stage of `total` units of work.
     pub fn begin(&self, stage: &'static str, total: u64) {
-        self.0.done.store(0, Relaxed);
-        self.0.total.store(total.max(1), Relaxed);
-        *self.0.stage.lock().unwrap_or_else(PoisonError::into_inner) = Some((stage, Instant::now()));
+        self.work.done.store(0, Relaxed);
+        self.work.total.store(total.max(1), Relaxed);
+        self.road().stage = Some((stage, Instant::now()));
     }
 
     /// Counts `units` of the stage as done.
     pub fn advance(&self, units: u64) {
-        self.0.done.fetch_add(units, Relaxed);
+        self.work.done.fetch_add(units, Relaxed);
     }
 
     /// Asks the work to stop; it does within a fraction of a second.
     pub fn cancel(&self) {
-        self.0.cancelled.store(true, Relaxed);
+        self.cancelled.store(true, Relaxed);
     }
 
     /// Whether someone asked to stop.
     pub fn is_cancelled(&self) -> bool {
-        self.0.cancelled.load(Relaxed)
+        self.cancelled.load(Relaxed)
     }
 
     /// `Err(Cancelled)` once someone asked to stop.
@@ -65,12 +86,55 @@ impl Progress {
 
     /// How far it is now.
     pub fn snapshot(&self) -> Snapshot {
-        let stage = *self.0.stage.lock().unwrap_or_else(PoisonError::into_inner);
-        let total = self.0.total.load(Relaxed).max(1) as f64;
+        let total = self.work.total.load(Relaxed).max(1) as f64;
+        let fraction = (self.work.done.load(Relaxed) as f64 / total).min(1.0);
+        let road = self.road();
+        let at = road.stage.and_then(|(name, _)| road.expected.iter().position(|(stage, _)| *stage == name));
+        let sum = |stages: &[(&str, f64)]| stages.iter().map(|(_, seconds)| seconds).sum::<f64>();
+        let (before, now, after) = match at {
+            Some(i) => (sum(&road.expected[..i]), road.expected[i].1, sum(&road.expected[i + 1..])),
+            None => (0.0, 0.0, sum(&road.expected)),
+        };
+        // The expectation carries until enough of the stage is done to judge by its own pace.
+        let elapsed = road.stage.map_or(0.0, |(_, since)| since.elapsed().as_secs_f64());
+        let stage_left = if fraction > 0.05 { elapsed / fraction * (1.0 - fraction) } else { now * (1.0 - fraction) };
         Snapshot {
-            stage: stage.map(|(name, _)| name),
-            fraction: (self.0.done.load(Relaxed) as f64 / total).min(1.0),
-            elapsed: stage.map_or(0.0, |(_, since)| since.elapsed().as_secs_f64()),
+            stage: road.stage.map(|(name, _)| name),
+            fraction,
+            overall: (before + now * fraction) / (before + now + after).max(1e-9),
+            remaining: stage_left + after,
         }
+    }
+
+    fn road(&self) -> MutexGuard<'_, Road> {
+        self.work.road.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_whole_counts_each_stage_by_its_expected_seconds() {
+        let progress = Progress::new();
+        progress.set_road(vec![("trace", 1.0), ("render", 3.0)]);
+        progress.begin("render", 10);
+        progress.advance(5);
+        let seen = progress.snapshot();
+        assert_eq!((seen.stage, seen.fraction), (Some("render"), 0.5));
+        assert!((seen.overall - 2.5 / 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn inner_work_is_cancelled_with_the_whole_but_not_shown() {
+        let progress = Progress::new();
+        progress.begin("render", 10);
+        let inner = progress.inner();
+        inner.begin("trace", 1);
+        inner.advance(1);
+        assert_eq!(progress.snapshot().fraction, 0.0);
+        progress.cancel();
+        assert!(inner.check().is_err());
     }
 }

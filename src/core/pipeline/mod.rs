@@ -1,1 +1,283 @@
-//! The only place that knows the whole road.
+//! The only place that knows the whole road: Project -> Scene -> photons -> matching -> flow -> passes -> frames.
+//!
+//! Each stage remembers the input it was made from: a new gamma refits and traces nothing; a new camera renders anew
+//! and fits nothing. Preview and final are the same code at two [`Quality`] values.
+
+mod batch;
+mod check;
+mod finish;
+mod meter;
+mod motion;
+mod passes;
+mod plan;
+mod quality;
+mod slots;
+mod stage;
+mod summary;
+mod supply;
+mod tracks;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::Vec2;
+
+pub use check::CheckReport;
+pub use meter::StageCost;
+pub use plan::{LeftOut, Plan};
+pub use quality::Quality;
+pub use summary::{BadValues, Energy, FlowNumbers, Summary};
+
+use crate::photon::Tracer;
+use crate::project::{AssetFolder, Project};
+use crate::render::density::radius_of_pass;
+use crate::render::{Image, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for};
+use crate::scene::{Scene, SceneDesc};
+use crate::{Error, Progress, Result};
+use batch::Batch;
+use finish::Finisher;
+use meter::Meter;
+use motion::{Motion, MotionInput};
+use passes::{Account, Exposer};
+use slots::Slots;
+use stage::Stage;
+use summary::Done;
+use supply::Supplies;
+
+/// The stages of one project, with what they remember.
+pub struct Pipeline {
+    assets: AssetFolder,
+    scene: Stage<SceneDesc, LoadedScene>,
+    visible: Stage<ViewInput, Arc<Visible>>,
+    background: Stage<ViewInput, Arc<Image>>,
+    motion: Stage<MotionInput, Arc<Motion>>,
+}
+
+/// A scene, and what the artist should know of it.
+type LoadedScene = (Arc<Scene>, Arc<Vec<String>>);
+
+/// What the camera's stages are made from.
+#[derive(Clone, PartialEq)]
+struct ViewInput {
+    scene: Option<SceneDesc>,
+    render: RenderSettings,
+    extent: Vec2,
+    seed: u64,
+    layout: Option<TextureLayout>,
+}
+
+/// What every command begins with.
+struct Prepared {
+    scene: Option<Arc<Scene>>,
+    extent: Vec2,
+    supplies: Supplies,
+    slots: Slots,
+    plan: Plan,
+    notes: Vec<String>,
+}
+
+impl Pipeline {
+    /// A pipeline that has done nothing yet and finds files through `assets`.
+    pub fn new(assets: AssetFolder) -> Self {
+        Self {
+            assets,
+            scene: Stage::default(),
+            visible: Stage::default(),
+            background: Stage::default(),
+            motion: Stage::default(),
+        }
+    }
+
+    /// Renders the project's frames into the folder `out`, which must be there. `saved` is told of each file.
+    ///
+    /// A run that is cancelled after its first pass still writes all frames, at the quality reached.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files, before any frame is written; input and output; cancelled before
+    /// the first pass was complete.
+    pub fn render(
+        &mut self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Summary> {
+        let mut meter = Meter::default();
+        let prepared = self.prepare(project, &mut meter)?;
+        progress.set_road(prepared.plan.stages.clone());
+        let (visible, background) = self.look(project, &prepared, &mut meter, progress)?;
+        let tracer = learn(&prepared, project, &mut meter, progress)?;
+        let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
+
+        let first = first_radius(&project.render, prepared.extent);
+        let render = ProgressiveRender::new(*visible.layout(), first, prepared.slots.moments.len(), out)?;
+        let (passes, account) = meter.measure("render", || {
+            render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress)
+        })?;
+        let finisher = Finisher { project, render: &render, visible: &visible, background: &background, out, saved };
+        let bad_values = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
+        let done = Done { command: "render", passes, motion: &motion, account, bad_values };
+        Ok(Summary::new(project, prepared, done, &meter))
+    }
+
+    /// Fits the flow and writes `tracks.npy`, `flux.npy` and `fields.npz` into the folder `out`.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files; input and output; cancelled.
+    pub fn fit(
+        &mut self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Summary> {
+        let mut meter = Meter::default();
+        let project = &tracks::with_guides_alone(project);
+        let prepared = self.prepare(project, &mut meter)?;
+        if project.keys.len() < 2 {
+            return Err(Error::value("keys", "there is one key frame, so there is no flow to fit; add another"));
+        }
+        progress.set_road(prepared.plan.stages.clone());
+        let tracer = learn(&prepared, project, &mut meter, progress)?;
+        let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
+        let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
+        let account = meter.measure("write", || tracks::write(batch, &motion, project, out, progress, saved))?;
+        let done = Done { command: "fit", passes: 0, motion: &motion, account, bad_values: BadValues::default() };
+        Ok(Summary::new(project, prepared, done, &meter))
+    }
+
+    /// What would be done and what it would cost. Opens every file the project names.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&mut self, project: &Project) -> Result<CheckReport> {
+        let prepared = self.prepare(project, &mut Meter::default())?;
+        Ok(CheckReport::new(project, &prepared))
+    }
+
+    fn prepare(&mut self, project: &Project, meter: &mut Meter) -> Result<Prepared> {
+        project.check()?;
+        let frames = project.frames()?;
+        let assets = self.assets.clone();
+        meter.measure("load", || {
+            let mut notes = Vec::new();
+            let scene = match &project.scene {
+                None => None,
+                Some(desc) => {
+                    let load = |desc: &SceneDesc| {
+                        let (scene, notes) = Scene::load(desc, &|path, place| assets.resolve(path, place))?;
+                        Ok::<_, Error>((Arc::new(scene), Arc::new(notes)))
+                    };
+                    let (scene, scene_notes) = self.scene.get(desc.clone(), load)?;
+                    notes.extend(scene_notes.iter().cloned());
+                    Some(scene)
+                }
+            };
+            let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
+            let supplies = Supplies::load(project, extent, &assets)?;
+            notes.extend(supplies.notes());
+            let slots = Slots::new(&project.keys, &frames);
+            let plan = plan::plan(project, extent, frames.len(), supplies.given_rows(project.matching)?);
+            Ok(Prepared { scene, extent, supplies, slots, plan, notes })
+        })
+    }
+
+    /// What the camera sees: the receiver through every pixel, and the picture without caustics.
+    fn look(
+        &mut self,
+        project: &Project,
+        prepared: &Prepared,
+        meter: &mut Meter,
+        progress: &Progress,
+    ) -> Result<(Arc<Visible>, Arc<Image>)> {
+        let Prepared { extent, plan, .. } = *prepared;
+        let scene = prepared.scene.as_deref();
+        let (render, seed) = (&project.render, project.seed);
+        let first = first_radius(render, extent);
+        let layout = layout_for(scene, extent, render, (first, radius_of_pass(first, plan.passes - 1)));
+        // The photons change nothing here but the layout, and how a picture is shown changes nothing at all.
+        let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
+        let background = ViewInput { scene: project.scene.clone(), render: seen, extent, seed, layout: None };
+        let visible = ViewInput { layout: Some(layout), ..background.clone() };
+        let visible = meter.measure("visible", || {
+            self.visible.get(visible, |_| match scene {
+                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
+                None => Ok(Arc::new(Visible::flat(extent, &layout, render))),
+            })
+        })?;
+        let background = match scene {
+            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
+            Some(scene) => meter.measure("background", || {
+                let make = |_: &_| crate::render::background(scene, render, seed, progress).map(Arc::new);
+                self.background.get(background, make)
+            })?,
+        };
+        Ok((visible, background))
+    }
+
+    /// Matches and fits all segments.
+    fn move_photons(
+        &mut self,
+        project: &Project,
+        prepared: &Prepared,
+        tracer: Option<&Tracer>,
+        meter: &mut Meter,
+        progress: &Progress,
+    ) -> Result<Arc<Motion>> {
+        let input = MotionInput::new(project, prepared.plan.photons);
+        self.motion.get(input, |_| {
+            let batch = prepared.start(project, tracer, 0, progress)?;
+            motion::fit(batch, project, prepared.extent, meter, progress).map(Arc::new)
+        })
+    }
+}
+
+impl Prepared {
+    /// The photons of one pass at the first key.
+    fn start<'a>(
+        &'a self,
+        project: &Project,
+        tracer: Option<&Tracer>,
+        pass: u64,
+        progress: &Progress,
+    ) -> Result<Batch<'a>> {
+        Batch::start(&self.supplies, tracer, project.matching, pass, self.plan.photons, &progress.inner())
+    }
+}
+
+/// Learns where the lights must aim, where a key shows the physical caustic.
+fn learn<'a>(
+    prepared: &'a Prepared,
+    project: &Project,
+    meter: &mut Meter,
+    progress: &Progress,
+) -> Result<Option<Tracer<'a>>> {
+    let Some(scene) = prepared.scene.as_deref().filter(|_| prepared.supplies.shows_physical()) else {
+        return Ok(None);
+    };
+    meter.measure("trace", || Tracer::new(scene, project.seed, progress).map(Some))
+}
+
+/// Runs the passes. Returns how many are complete and how well they kept the light.
+fn render_passes(
+    project: &Project,
+    prepared: &Prepared,
+    tracer: Option<&Tracer>,
+    motion: &Motion,
+    render: &ProgressiveRender,
+    progress: &Progress,
+) -> Result<(usize, Account)> {
+    let plan = &prepared.plan;
+    progress.begin("render", (plan.passes * prepared.slots.moments.len()) as u64);
+    let mut exposer = Exposer::new(render);
+    for pass in 0..plan.passes {
+        let done = prepared.start(project, tracer, pass as u64, progress).and_then(|batch| {
+            exposer.run(batch, &motion.segments, &prepared.slots, pass, progress)
+        });
+        match done {
+            Err(Error::Cancelled) if pass > 0 => return Ok((pass, exposer.account)),
+            other => other?,
+        }
+    }
+    Ok((plan.passes, exposer.account))
+}

@@ -1,1 +1,198 @@
-//! The document an artist saves.
+//! The document: only what an artist decides. Everything else is derived from it and never saved.
+//!
+//! The smallest project that does something needs no scene at all:
+//!
+//! ```json
+//! { "lightloom": 1,
+//!   "keys": [ { "frame": 1,  "shows": { "image": { "file": "letter_c.png" } } },
+//!             { "frame": 60, "shows": { "image": { "file": "letter_s.png" } } } ] }
+//! ```
+
+mod asset_path;
+mod describe;
+pub mod frames;
+mod keyframe;
+mod load;
+mod output;
+
+use std::path::Path;
+
+use glam::Vec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use asset_path::AssetFolder;
+pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
+pub use output::OutputSettings;
+
+use crate::flow::FlowSettings;
+use crate::matching::Method;
+use crate::render::RenderSettings;
+use crate::scene::SceneDesc;
+use crate::{Error, Result};
+
+/// The version of the format that this program writes.
+pub const VERSION: u32 = 1;
+
+/// A Lightloom project.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// Where the JSON schema of this format stands, for editors that complete and check while one types.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// Version of the format: 1.
+    pub lightloom: u32,
+    /// The project's name.
+    #[serde(default)]
+    pub name: String,
+    /// Seed of all random numbers, 0 to 9007199254740991, default 1. The same seed gives the same bytes.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// Glass, lights, camera and receiver. Without it the plane is seen straight on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneDesc>,
+    /// The plane of a project without scene.
+    #[serde(default)]
+    pub plane: PlaneSettings,
+    /// The key frames, in rising order.
+    pub keys: Vec<KeyFrame>,
+    /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
+    #[serde(default)]
+    pub matching: Method,
+    /// The vector field and the way along it.
+    #[serde(default)]
+    pub flow: FlowSettings,
+    /// Photons, passes and picture size.
+    #[serde(default)]
+    pub render: RenderSettings,
+    /// What is written.
+    #[serde(default)]
+    pub output: OutputSettings,
+}
+
+/// The plane of a project without scene: points are given in plane units, the longer side being 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlaneSettings {
+    /// Width over height, 0.01 to 100, default 1.
+    pub aspect: f32,
+    /// Power of all the light on it in watts, 1e-9 to 1e9, default 1. A plane unit counts as one metre.
+    pub watts: f32,
+}
+
+impl Default for PlaneSettings {
+    fn default() -> Self {
+        Self { aspect: 1.0, watts: 1.0 }
+    }
+}
+
+impl PlaneSettings {
+    /// Extent in plane units: the longer side is 1.
+    pub fn extent(&self) -> Vec2 {
+        Vec2::new(self.aspect.min(1.0), self.aspect.recip().min(1.0))
+    }
+
+    fn check(&self, place: &str) -> Result<()> {
+        if !(0.01..=100.0).contains(&self.aspect) {
+            let what = format!("{} is out of range; width over height is 0.01 to 100", self.aspect);
+            return Err(Error::value(format!("{place}.aspect"), what));
+        }
+        if !(1e-9..=1e9).contains(&self.watts) {
+            let what = format!("{} is out of range; give 1e-9 to 1e9 watts", self.watts);
+            return Err(Error::value(format!("{place}.watts"), what));
+        }
+        Ok(())
+    }
+}
+
+fn one() -> u64 {
+    1
+}
+
+impl Project {
+    /// Reads and checks a project file.
+    ///
+    /// # Errors
+    /// Unreadable, malformed or out of range: each names the file and the place in it.
+    pub fn load(path: &Path) -> Result<Self> {
+        load::load(path)
+    }
+
+    /// Reads and checks a project from text; `path` is only named in errors.
+    pub fn parse(text: &[u8], path: &Path) -> Result<Self> {
+        load::parse(text, path)
+    }
+
+    /// Checks every value against its range, and those that must agree with each other.
+    ///
+    /// # Errors
+    /// The first value that cannot be used, by its path in the project.
+    pub fn check(&self) -> Result<()> {
+        if self.lightloom != VERSION {
+            let what = format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
+            return Err(Error::value("lightloom", what));
+        }
+        if self.seed > 9_007_199_254_740_991 {
+            return Err(Error::value("seed", "is out of range; give 0 to 9007199254740991"));
+        }
+        if let Some(scene) = &self.scene {
+            scene.check("scene")?;
+        }
+        self.plane.check("plane")?;
+        keyframe::check(&self.keys, self.scene.is_some())?;
+        self.check_given()?;
+        self.flow.check("flow")?;
+        self.render.check("render")?;
+        self.output.check("output")
+    }
+
+    /// Pairing row with row means something only where every key is a file of points.
+    fn check_given(&self) -> Result<()> {
+        let all_points = self.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
+        if self.matching == Method::Given && !all_points {
+            let what = "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
+            return Err(Error::value("matching", what));
+        }
+        Ok(())
+    }
+
+    /// The frames asked for: the list in `output.frames`, or all from the first key to the last.
+    ///
+    /// # Errors
+    /// A malformed list, or more frames than one run may have.
+    pub fn frames(&self) -> Result<Vec<i32>> {
+        if let Some(list) = &self.output.frames {
+            return frames::parse(list, "output.frames");
+        }
+        match (self.keys.first(), self.keys.last()) {
+            (Some(first), Some(last)) => frames::parse(&format!("{}-{}", first.frame, last.frame), "keys"),
+            _ => Ok(Vec::new()),
+        }
+    }
+
+    /// The project as JSON text, keys in a fixed order, two spaces of indent.
+    ///
+    /// # Errors
+    /// Refuses a project that would not load again (a value that is not finite, say).
+    pub fn to_json(&self) -> Result<String> {
+        self.check()?;
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|e| Error::value("project", format!("cannot be written as JSON: {e}")))?;
+        Ok(text + "\n")
+    }
+
+    /// Saves the project in one step: the old file stays whole until the new one is.
+    ///
+    /// # Errors
+    /// Names the file and the system's reason; the old file is left as it was.
+    pub fn save(&self, path: &Path) -> Result<()> {
+        let text = self.to_json()?;
+        crate::files::write_atomic(path, text.as_bytes())
+    }
+
+    /// The JSON schema of the format (draft 2020-12).
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(Self).into()
+    }
+}

@@ -1,0 +1,148 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lightloom_core::export::FrameFormat;
+use lightloom_core::pipeline::Quality;
+use lightloom_core::project::{Project, frames};
+use lightloom_core::{Error, Result};
+
+/// Paint where caustics shall flow, and export the animation.
+#[derive(Parser)]
+#[command(version, about, arg_required_else_help = true)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(super) enum Command {
+    /// Render a project's frames.
+    Render(RenderArgs),
+    /// Fit the flow without rendering: photon tracks, flux and fields as NPY and NPZ.
+    Fit(FitArgs),
+    /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
+    Check(CheckArgs),
+    /// Print the JSON schema of project files.
+    Schema,
+}
+
+#[derive(Args)]
+pub(super) struct RenderArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// Folder for the frames, the contact sheet and summary.json; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct FitArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// Folder for tracks.npy, flux.npy, fields.npz and summary.json; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+}
+
+/// The project, and what differs from it in this run.
+#[derive(Args)]
+pub(super) struct ProjectArgs {
+    /// The project file.
+    #[arg(value_name = "PROJECT")]
+    pub(super) path: PathBuf,
+    /// Frames, such as 1-100, 1-100x5 or 1,5-10.
+    #[arg(long, allow_hyphen_values = true)]
+    frames: Option<String>,
+    /// Picture size, such as 1280x720.
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
+    /// Progressive passes.
+    #[arg(long)]
+    passes: Option<u32>,
+    /// Photons per pass.
+    #[arg(long)]
+    photons: Option<u64>,
+    /// Preview: few photons, coarse grid, small picture. Final: as the project says.
+    #[arg(long, value_enum, default_value = "final")]
+    quality: QualityName,
+    /// Picture formats, such as exr,png.
+    #[arg(long, value_delimiter = ',')]
+    format: Vec<String>,
+    /// Threads; the result does not depend on their number. Default: one per core.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Seed of all random numbers.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Let the project read meshes and pictures from anywhere, not only from its own folder.
+    #[arg(long)]
+    pub(super) allow_external: bool,
+    /// Print the summary as JSON.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum QualityName {
+    Preview,
+    Final,
+}
+
+impl ProjectArgs {
+    /// The project as this run shall do it.
+    pub(super) fn load(&self) -> Result<Project> {
+        let mut project = Project::load(&self.path)?;
+        if let Some(frames) = &self.frames {
+            frames::parse(frames, "--frames")?;
+            project.output.frames = Some(frames.clone());
+        }
+        if let Some(size) = &self.size {
+            (project.render.width, project.render.height) = parse_size(size)?;
+        }
+        project.render.passes = self.passes.unwrap_or(project.render.passes);
+        project.render.photons = self.photons.unwrap_or(project.render.photons);
+        project.seed = self.seed.unwrap_or(project.seed);
+        if !self.format.is_empty() {
+            project.output.formats = self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
+        }
+        let quality = match self.quality {
+            QualityName::Preview => Quality::Preview,
+            QualityName::Final => Quality::Final,
+        };
+        let project = quality.apply(&project);
+        project.check()?;
+        Ok(project)
+    }
+
+    /// Sets the number of threads for the whole process; it is set once.
+    pub(super) fn set_threads(&self) -> Result<()> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        if !(1..=1024).contains(&threads) {
+            return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
+        }
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|e| {
+            Error::value("--threads", format!("the system does not start them: {e}"))
+        })
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32)> {
+    let numbers = text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
+    numbers.ok_or_else(|| Error::value("--size", format!("'{text}' is no picture size; write it like 1280x720")))
+}
+
+fn parse_format(name: &str) -> Result<FrameFormat> {
+    let known = FrameFormat::ALL.iter().copied().find(|format| format.extension() == name.trim());
+    known.ok_or_else(|| {
+        let names: Vec<_> = FrameFormat::ALL.iter().map(|format| format.extension()).collect();
+        Error::value("--format", format!("'{name}' is not offered; give one or more of {}", names.join(",")))
+    })
+}

@@ -1,0 +1,16 @@
+//! `lightloom check`: what would be done, what is left out and why, what is wrong, what it would cost.
+
+use lightloom_core::pipeline::Pipeline;
+use lightloom_core::project::AssetFolder;
+use lightloom_core::{Progress, Result};
+
+use super::args::CheckArgs;
+
+pub(super) fn run(args: &CheckArgs) -> Result<u8> {
+    args.project.set_threads()?;
+    let project = args.project.load()?;
+    let assets = AssetFolder::new(&args.project.path, args.project.allow_external)?;
+    let report = Pipeline::new(assets).check(&project, &Progress::new())?;
+    print!("{}", if args.project.json { report.to_json() } else { report.to_text() });
+    Ok(0)
+}

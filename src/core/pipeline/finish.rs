@@ -1,0 +1,96 @@
+//! From the gathered light of all frames to files.
+
+use std::path::Path;
+use std::sync::Mutex;
+
+use rayon::prelude::*;
+
+use super::slots::Slots;
+use super::summary::BadValues;
+use crate::export::{Frame, FramePattern, Metadata, Repairs, sheet, write_frame};
+use crate::project::Project;
+use crate::render::{Image, ProgressiveRender, View, Visible};
+use crate::{Progress, Result};
+
+/// Pictures on the contact sheet.
+const SHEET_PICTURES: usize = 12;
+/// Its columns.
+const SHEET_COLUMNS: usize = 4;
+/// Width of one of its pictures in pixels.
+const SHEET_WIDTH: usize = 480;
+
+/// What every frame of a run is made with.
+pub(super) struct Finisher<'a> {
+    pub(super) project: &'a Project,
+    pub(super) render: &'a ProgressiveRender,
+    pub(super) visible: &'a Visible,
+    pub(super) background: &'a Image,
+    pub(super) out: &'a Path,
+    /// Told of each file as it is complete.
+    pub(super) saved: &'a (dyn Fn(&Path) + Sync),
+}
+
+impl Finisher<'_> {
+    /// Writes all frames and the contact sheet; returns what had to be replaced in them.
+    pub(super) fn run(&self, slots: &Slots, progress: &Progress) -> Result<BadValues> {
+        progress.begin("write", slots.frames.len() as u64);
+        let numbers: Vec<i32> = slots.frames.iter().map(|(frame, _)| *frame).collect();
+        let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
+        let view = self.project.render.view.view();
+        let thumbnails = Mutex::new(Vec::new());
+        let repairs: Vec<(i32, Repairs)> = slots
+            .frames
+            .par_iter()
+            .map(|&(frame, slot)| {
+                let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                if on_sheet.contains(&frame) {
+                    let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
+                    let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
+                    thumbnails.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((frame, small));
+                }
+                progress.advance(1);
+                Ok((frame, repairs))
+            })
+            .collect::<Result<_>>()?;
+        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
+        let path = self.out.join("contact_sheet.png");
+        sheet::write(&path, &thumbnails, SHEET_COLUMNS)?;
+        (self.saved)(&path);
+        Ok(BadValues::sum(&repairs))
+    }
+
+    /// Writes one frame in all formats; returns its beauty picture.
+    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(Repairs, Image)> {
+        let (texture, passes) = self.render.mean(slot)?;
+        let caustic = self.visible.gather(&texture);
+        let output = &self.project.output;
+        let metadata = self.metadata(frame, passes);
+        let picture = Frame { background: self.background, caustic: &caustic, metadata: &metadata };
+        let pattern = FramePattern::parse(&output.name, "output.name")?;
+        let mut all = Repairs::default();
+        for &format in &output.formats {
+            let path = pattern.path(self.out, frame, format);
+            all.add(write_frame(&path, format, &picture, view, output.png_depth())?);
+            (self.saved)(&path);
+        }
+        Ok((all, self.background.plus(&caustic)))
+    }
+
+    fn metadata(&self, frame: i32, passes: usize) -> Metadata {
+        let Project { name, seed, flow, render, output, .. } = self.project;
+        // Plain numbers and strings: writing them as JSON has nothing to fail on.
+        let json = |value: serde_json::Result<String>| value.unwrap_or_default();
+        Metadata {
+            frame,
+            frames_per_second: (output.fps[0] as i32, output.fps[1]),
+            seed: *seed,
+            passes: passes as u32,
+            settings: vec![
+                ("project".into(), name.clone()),
+                ("flow".into(), json(serde_json::to_string(flow))),
+                ("render".into(), json(serde_json::to_string(render))),
+            ],
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! What this project needs, decided once: what is left out costs neither time nor memory.
+
+use glam::Vec2;
+use serde::Serialize;
+
+use crate::matching::Method;
+use crate::project::{Project, Shows};
+
+/// A part of the road that this project does not need.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What is not done.
+    pub what: &'static str,
+    /// Why not.
+    pub why: &'static str,
+}
+
+/// What will be done, and roughly what it costs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Plan {
+    /// Photons of one pass.
+    pub photons: usize,
+    /// Progressive passes.
+    pub passes: usize,
+    /// Frames asked for.
+    pub frames: usize,
+    /// What is not needed.
+    pub left_out: Vec<LeftOut>,
+    /// The stages in order, with the seconds each is expected to take.
+    pub stages: Vec<(&'static str, f64)>,
+    /// Expected peak memory in MiB.
+    pub memory_mib: f64,
+}
+
+/// Measured on two cores of a server of 2024; only the progress bar and `check` live on them.
+mod pace {
+    /// Caustic photons landed per second.
+    pub(super) const TRACE: f64 = 1.0e6;
+    /// Points matched per second, the continuous map included.
+    pub(super) const MATCH: f64 = 0.5e6;
+    /// Points sent through a known map and made a bijection, per second.
+    pub(super) const REMATCH: f64 = 1.2e6;
+    /// Unknowns solved per second in one step of the fit.
+    pub(super) const FIT: f64 = 1.0e6;
+    /// Photons carried over one step, per second.
+    pub(super) const ADVECT: f64 = 12.0e6;
+    /// Photons counted into the texture per second.
+    pub(super) const SPLAT: f64 = 40.0e6;
+    /// Texels filtered and stored per second.
+    pub(super) const FILTER: f64 = 40.0e6;
+    /// Camera paths per second.
+    pub(super) const PATHS: f64 = 1.0e6;
+    /// Pixels gathered, encoded and written per second.
+    pub(super) const WRITE: f64 = 6.0e6;
+}
+
+/// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given.
+pub(super) fn plan(project: &Project, extent: Vec2, frames: usize, given_rows: Option<usize>) -> Plan {
+    let fixed = project.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
+    let photons = given_rows.unwrap_or(project.render.photons as usize);
+    let passes = if fixed { 1 } else { project.render.passes as usize };
+    let mut plan =
+        Plan { photons, passes, frames, left_out: left_out(project, fixed), stages: Vec::new(), memory_mib: 0.0 };
+    plan.stages = stages(project, extent, &plan);
+    plan.memory_mib = memory_mib(project, extent, &plan);
+    plan
+}
+
+fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
+    let mut left = Vec::new();
+    let mut leave = |unneeded: bool, what, why| {
+        if unneeded {
+            left.push(LeftOut { what, why });
+        }
+    };
+    let physical = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
+    let still = project.keys.len() < 2;
+    let given = project.matching == Method::Given;
+    leave(project.scene.is_none(), "background and camera", "the project has no scene; the plane is seen straight on");
+    leave(project.scene.is_none(), "photon tracing", "the project has no scene");
+    leave(project.scene.is_some() && !physical, "photon tracing", "no key shows the physical caustic");
+    leave(still, "matching, fit and advection", "there is one key frame, so nothing moves");
+    leave(!still && given, "transport map", "the rows of the point files are paired as given");
+    leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
+    leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
+    leave(fixed && project.render.passes > 1, "passes after the first", "every key is a file of points");
+    left
+}
+
+/// The texels of the receiver texture; its real size follows from the camera.
+const TEXELS: f64 = 1024.0 * 1024.0;
+
+fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
+    let render = &project.render;
+    let segments = project.keys.len().saturating_sub(1) as f64;
+    let (photons, passes) = (plan.photons as f64, plan.passes as f64);
+    let pixels = f64::from(render.width) * f64::from(render.height);
+    let steps = segments * f64::from(project.flow.steps);
+    let traced = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
+    let trace = if traced { photons / pace::TRACE } else { 0.0 };
+    let mut stages = Vec::new();
+    if project.scene.is_some() {
+        stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
+    }
+    stages.push(("visible", pixels * 16.0 / pace::PATHS / 4.0));
+    if traced {
+        stages.push(("trace", trace));
+    }
+    if segments > 0.0 {
+        stages.push(("match", segments * photons / pace::MATCH));
+        stages.push(("fit", steps * (0.01 + unknowns(project, extent) / pace::FIT)));
+    }
+    let per_pass = trace
+        + segments * photons / pace::REMATCH
+        + steps * photons / pace::ADVECT
+        + plan.frames as f64 * (photons / pace::SPLAT + TEXELS / pace::FILTER);
+    stages.push(("render", passes * per_pass));
+    stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
+    stages
+}
+
+/// Unknowns of one linear system.
+fn unknowns(project: &Project, extent: Vec2) -> f64 {
+    let nodes: f64 = project.flow.grid.cells(extent).iter().map(|cells| f64::from(*cells) + 3.0).product();
+    let both = project.flow.gamma > 0.0 && project.flow.gamma < 1.0;
+    if both { 2.0 * nodes } else { nodes }
+}
+
+fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
+    let moving = project.keys.len() > 1;
+    // Two keys' positions and flux, the pairing, the carrier's copy.
+    let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
+    let fields = if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
+    let pixels = f64::from(project.render.width) * f64::from(project.render.height);
+    let textures = 4.0 * 16.0 * TEXELS;
+    60.0 + (photons + fields + pixels * 200.0 + textures) / f64::from(1 << 20)
+}
+
+impl Plan {
+    /// Seconds of all stages.
+    pub fn seconds(&self) -> f64 {
+        self.stages.iter().map(|(_, seconds)| seconds).sum()
+    }
+}

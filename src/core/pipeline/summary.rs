@@ -1,0 +1,179 @@
+//! What was done, with its numbers: `summary.json` and the lines at the end of a command.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::Prepared;
+use super::meter::{Meter, StageCost};
+use super::motion::Motion;
+use super::passes::Account;
+use super::plan::LeftOut;
+use crate::export::Repairs;
+use crate::flow::FlowReport;
+use crate::project::Project;
+
+/// The numbers of the flow, the worst over all segments.
+#[derive(Clone, Debug, Serialize)]
+pub struct FlowNumbers {
+    /// What was seen while the fields were fitted.
+    #[serde(flatten)]
+    pub flow: FlowReport,
+    /// Mean squared distance of the matching over a lower bound of the optimum; absent where rows are paired as given.
+    pub transport_cost_ratio: Option<f64>,
+    /// Flux of all photons over that of the source, the frame farthest from 1.
+    pub flux_ratio: f64,
+}
+
+impl FlowNumbers {
+    /// The worse of both in every number.
+    pub(super) fn worst(self, other: Self) -> Self {
+        let ratios = [self.transport_cost_ratio, other.transport_cost_ratio];
+        Self {
+            flow: self.flow.worst(&other.flow),
+            transport_cost_ratio: ratios.into_iter().flatten().reduce(f64::max),
+            flux_ratio: if (other.flux_ratio - 1.0).abs() > (self.flux_ratio - 1.0).abs() {
+                other.flux_ratio
+            } else {
+                self.flux_ratio
+            },
+        }
+    }
+}
+
+/// How well the light was kept.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Energy {
+    /// Flux in the receiver texture over flux of the photons on it, the frame farthest from 1.
+    pub texture_ratio: Option<f64>,
+    /// Photons beyond the texture in the frame with most of them.
+    pub photons_outside: usize,
+}
+
+/// Values that had to be replaced so that the files hold only finite numbers.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct BadValues {
+    /// Values that were not finite, replaced by 0.
+    pub nonfinite_replaced: u64,
+    /// Values too large for half floats, clamped.
+    pub half_clamped: u64,
+    /// The frames that hold them.
+    pub frames: Vec<i32>,
+}
+
+/// The summary of one run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// "render" or "fit".
+    pub command: &'static str,
+    /// The project's name.
+    pub project: String,
+    /// This program and its version.
+    pub software: String,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Photons of one pass.
+    pub photons: usize,
+    /// Passes that were finished.
+    pub passes: usize,
+    /// Frames that were written.
+    pub frames: usize,
+    /// The flow; absent where nothing moves.
+    #[serde(flatten)]
+    pub flow: Option<FlowNumbers>,
+    /// Where the light went.
+    pub energy: Energy,
+    /// Replaced values.
+    pub bad_values: BadValues,
+    /// Seconds and peak memory of each stage.
+    pub stages: Vec<StageCost>,
+    /// Seconds of all stages.
+    pub seconds: f64,
+    /// What this project did not need.
+    pub left_out: Vec<LeftOut>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+}
+
+impl BadValues {
+    /// Over all frames.
+    pub(super) fn sum(repairs: &[(i32, Repairs)]) -> Self {
+        let bad = |r: &Repairs| r.nonfinite_replaced > 0 || r.half_clamped > 0;
+        Self {
+            nonfinite_replaced: repairs.iter().map(|(_, r)| r.nonfinite_replaced).sum(),
+            half_clamped: repairs.iter().map(|(_, r)| r.half_clamped).sum(),
+            frames: repairs.iter().filter(|(_, r)| bad(r)).map(|(frame, _)| *frame).collect(),
+        }
+    }
+}
+
+/// What a run did, for its summary.
+pub(super) struct Done<'a> {
+    pub(super) command: &'static str,
+    pub(super) passes: usize,
+    pub(super) motion: &'a Motion,
+    pub(super) account: Account,
+    pub(super) bad_values: BadValues,
+}
+
+impl Summary {
+    pub(super) fn new(project: &Project, prepared: Prepared, done: Done, meter: &Meter) -> Self {
+        let account = done.account;
+        let flow = done.motion.numbers.clone();
+        let flow = flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
+        let stages = meter.costs().to_vec();
+        Self {
+            command: done.command,
+            project: project.name.clone(),
+            software: concat!("lightloom ", env!("CARGO_PKG_VERSION")).into(),
+            seed: project.seed,
+            photons: prepared.plan.photons,
+            passes: done.passes,
+            frames: prepared.plan.frames,
+            flow,
+            energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
+            bad_values: done.bad_values,
+            seconds: stages.iter().map(|cost| cost.seconds).sum(),
+            stages,
+            left_out: prepared.plan.left_out,
+            notes: prepared.notes,
+        }
+    }
+
+    /// Whether a frame holds values that had to be replaced.
+    pub fn has_bad_frames(&self) -> bool {
+        self.bad_values.nonfinite_replaced > 0
+    }
+
+    /// As indented JSON.
+    pub fn to_json(&self) -> String {
+        // Plain numbers, strings and lists: serialisation has nothing to fail on.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// As a few lines for people.
+    pub fn to_text(&self) -> String {
+        let mut text = format!(
+            "{}: {} frames, {} passes of {} photons, {:.1} s\n",
+            self.project, self.frames, self.passes, self.photons, self.seconds
+        );
+        for cost in &self.stages {
+            let memory = cost.peak_memory_mib.map_or(String::new(), |mib| format!("  {mib:7.0} MiB"));
+            let _ = writeln!(text, "  {:<12}{:8.2} s{memory}", cost.stage, cost.seconds);
+        }
+        if let Some(FlowNumbers { flow, .. }) = &self.flow {
+            let _ = writeln!(
+                text,
+                "  endpoint error {:.1e}, peak speed {:.2}, dispersion {:.4}, {:.1} solver iterations",
+                flow.endpoint_error, flow.peak_speed_ratio, flow.dispersion, flow.solver_iterations_mean
+            );
+        }
+        for left in &self.left_out {
+            let _ = writeln!(text, "  left out: {} ({})", left.what, left.why);
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "  note: {note}");
+        }
+        text
+    }
+}

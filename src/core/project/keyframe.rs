@@ -1,0 +1,146 @@
+//! Key frames: what the light shows, and when.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::target::{ImageTarget, PointsTarget};
+use crate::{Error, Result};
+
+/// One key frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct KeyFrame {
+    /// Frame number, -1000000 to 1000000. Keys stand in rising order.
+    pub frame: i32,
+    /// What the light shows at this frame.
+    pub shows: Shows,
+    /// How the time runs from this key to the next: "smooth" (default), "linear", "in" or "out".
+    #[serde(default)]
+    pub ease: Ease,
+}
+
+/// What the light shows at a key frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Shows {
+    /// The caustic that the scene's glass and mirrors really cast. Needs a scene.
+    PhysicalCaustic,
+    /// A picture, drawn by its brightness.
+    Image(ImageTarget),
+    /// A file of points.
+    Points(PointsTarget),
+}
+
+/// How the time runs between two keys.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ease {
+    /// Starts and ends at rest.
+    #[default]
+    Smooth,
+    /// At constant pace.
+    Linear,
+    /// Starts at rest, arrives at full pace.
+    In,
+    /// Starts at full pace, comes to rest.
+    Out,
+}
+
+impl Ease {
+    /// The flow's time for the share `x` of the way from one key to the next; both 0..=1.
+    pub fn apply(self, x: f64) -> f64 {
+        let x = x.clamp(0.0, 1.0);
+        match self {
+            Self::Smooth => x * x * (3.0 - 2.0 * x),
+            Self::Linear => x,
+            Self::In => x * x,
+            Self::Out => x * (2.0 - x),
+        }
+    }
+}
+
+/// Where the frame `frame` stands between the keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Index of the segment, from key `segment` to key `segment + 1`; 0 where there is but one key.
+    pub segment: usize,
+    /// The flow's time in the segment, 0..=1.
+    pub time: f64,
+}
+
+/// Where `frame` stands: before the first key at it, after the last key at that one.
+pub fn moment(keys: &[KeyFrame], frame: i32) -> Moment {
+    let after = keys.partition_point(|key| key.frame <= frame);
+    if keys.len() < 2 || after == 0 {
+        return Moment { segment: 0, time: 0.0 };
+    }
+    if after == keys.len() {
+        return Moment { segment: keys.len() - 2, time: 1.0 };
+    }
+    let (from, to) = (&keys[after - 1], &keys[after]);
+    let share = f64::from(frame - from.frame) / f64::from(to.frame - from.frame);
+    Moment { segment: after - 1, time: from.ease.apply(share) }
+}
+
+/// At least one key, in rising order, none that needs a scene where there is none.
+pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
+    if keys.is_empty() {
+        return Err(Error::value("keys", "there is no key frame; give at least one, such as {\"frame\": 1, \"shows\": …}"));
+    }
+    for (i, key) in keys.iter().enumerate() {
+        if key.frame.abs() > 1_000_000 {
+            return Err(Error::value(
+                format!("keys[{i}].frame"),
+                format!("{} is out of range; frames go from -1000000 to 1000000", key.frame),
+            ));
+        }
+        if i > 0 && key.frame <= keys[i - 1].frame {
+            return Err(Error::value(
+                format!("keys[{i}].frame"),
+                format!("frame {} does not come after the key before it (frame {}); give keys in rising order", key.frame, keys[i - 1].frame),
+            ));
+        }
+        if key.shows == Shows::PhysicalCaustic && !has_scene {
+            return Err(Error::value(
+                format!("keys[{i}].shows"),
+                "a physical caustic needs a scene and this project has none; add \"scene\", or show an image or points",
+            ));
+        }
+        if let Shows::Image(image) = &key.shows {
+            image.check(&format!("keys[{i}].shows.image"))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(frames: &[i32]) -> Vec<KeyFrame> {
+        frames.iter().map(|&frame| KeyFrame { frame, shows: Shows::PhysicalCaustic, ease: Ease::Linear }).collect()
+    }
+
+    #[test]
+    fn a_frame_between_two_keys_belongs_to_their_segment() {
+        let keys = keys(&[1, 11, 31]);
+        assert_eq!(moment(&keys, 6), Moment { segment: 0, time: 0.5 });
+        assert_eq!(moment(&keys, 11), Moment { segment: 1, time: 0.0 });
+        assert_eq!(moment(&keys, 21), Moment { segment: 1, time: 0.5 });
+    }
+
+    #[test]
+    fn frames_outside_the_keys_rest_at_the_nearest_key() {
+        let keys = keys(&[1, 11]);
+        assert_eq!(moment(&keys, -5), Moment { segment: 0, time: 0.0 });
+        assert_eq!(moment(&keys, 11), Moment { segment: 0, time: 1.0 });
+        assert_eq!(moment(&keys, 99), Moment { segment: 0, time: 1.0 });
+    }
+
+    #[test]
+    fn every_ease_begins_at_the_key_and_ends_at_the_next() {
+        for ease in [Ease::Smooth, Ease::Linear, Ease::In, Ease::Out] {
+            assert_eq!((ease.apply(0.0), ease.apply(1.0)), (0.0, 1.0));
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Reads a project file, and says of a wrong one what is wrong and where.
+
+use std::path::Path;
+
+use super::{Project, describe};
+use crate::{Error, Result};
+
+/// Larger files are no projects: photons and pictures stand in files of their own.
+const MOST_BYTES: u64 = 64 << 20;
+
+pub(super) fn load(path: &Path) -> Result<Project> {
+    parse(&crate::files::read_regular_file(path, MOST_BYTES)?, path)
+}
+
+pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
+    let text = text(bytes, path)?;
+    let mut json = serde_json::Deserializer::from_str(text);
+    let read: Result<Project, _> = serde_path_to_error::deserialize(&mut json);
+    let project = read.map_err(|error| {
+        let field = error.path().to_string();
+        let inner = error.into_inner();
+        let place = place(&inner, &field);
+        Error::format(path, place, what(&inner, &field))
+    })?;
+    json.end().map_err(|e| Error::format(path, place(&e, "."), "more text stands after the project's closing brace"))?;
+    project.check().map_err(|error| in_file(error, path))?;
+    Ok(project)
+}
+
+/// The bytes as UTF-8 text without byte order mark.
+fn text<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str> {
+    if matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [_, 0, _, 0, ..] | [0, _, 0, _, ..]) {
+        return Err(Error::format(path, "", "is written in UTF-16; save it as UTF-8"));
+    }
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        Error::format(path, format!("byte {}", e.valid_up_to()), "is not UTF-8 text; save it as UTF-8")
+    })?;
+    let text = text.trim_start_matches('\u{feff}');
+    if text.trim().is_empty() {
+        return Err(Error::format(path, "", "is an empty project; `lightloom schema` shows what it may hold"));
+    }
+    Ok(text)
+}
+
+/// "line 3, column 7, flow.gamma"
+fn place(error: &serde_json::Error, field: &str) -> String {
+    let position = format!("line {}, column {}", error.line(), error.column());
+    if field == "." { position } else { format!("{position}, {field}") }
+}
+
+/// The parser's reason without its own position, and what the field takes.
+fn what(error: &serde_json::Error, field: &str) -> String {
+    let full = error.to_string();
+    let reason = full.rsplit_once(" at line ").map_or(full.as_str(), |(reason, _)| reason);
+    match (error.is_eof(), describe::field(&Project::json_schema(), field)) {
+        (true, _) => format!("the file ends too early ({reason}); is it cut off?"),
+        (false, Some(meaning)) => format!("{reason}. This is: {meaning}"),
+        (false, None) => reason.to_owned(),
+    }
+}
+
+/// A value error of a project that came from a file names that file too.
+fn in_file(error: Error, path: &Path) -> Error {
+    match error {
+        Error::Value { place, what } => Error::Format { path: path.to_owned(), place, what },
+        other => other,
+    }
+}

@@ -1,0 +1,57 @@
+//! What is written: formats, names, pace.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::frames;
+use crate::export::FrameFormat;
+use crate::{Error, Result};
+
+/// What is written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct OutputSettings {
+    /// File name without its ending; #### or %04d stands for the frame number. Default "frame.####".
+    pub name: String,
+    /// Frames to render, such as "1-100x5,120"; default all from the first key to the last.
+    pub frames: Option<String>,
+    /// Frames per second as a fraction, such as \[24000, 1001\]; each 1 to 1000000, default \[24, 1\].
+    pub fps: [u32; 2],
+    /// Formats: "exr", "png". Default both.
+    pub formats: Vec<FrameFormat>,
+    /// Bits per channel of PNG files, 8 (default) or 16.
+    pub png_bits: u8,
+}
+
+impl Default for OutputSettings {
+    fn default() -> Self {
+        Self {
+            name: "frame.####".into(),
+            frames: None,
+            fps: [24, 1],
+            formats: vec![FrameFormat::Exr, FrameFormat::Png],
+            png_bits: 8,
+        }
+    }
+}
+
+impl OutputSettings {
+    /// Refuses values that cannot be used, naming them below `place`.
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        let wrong = |field: &str, what: String| Err(Error::value(format!("{place}.{field}"), what));
+        if let Some(list) = &self.frames {
+            frames::parse(list, &format!("{place}.frames"))?;
+        }
+        if self.fps.iter().any(|n| !(1..=1_000_000).contains(n)) {
+            let [n, d] = self.fps;
+            return wrong("fps", format!("{n}/{d} is no frame rate; give two whole numbers from 1 to 1000000, such as [24, 1]"));
+        }
+        if self.formats.is_empty() {
+            return wrong("formats", "the list is empty; name at least one of \"exr\", \"png\"".into());
+        }
+        if ![8, 16].contains(&self.png_bits) {
+            return wrong("png_bits", format!("{} is not offered; give 8 or 16", self.png_bits));
+        }
+        Ok(())
+    }
+}
