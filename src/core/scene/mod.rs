@@ -33,7 +33,7 @@ pub use surface::{Hit, Primitive, Ray, SurfaceId};
 
 use crate::Result;
 use accel::Accel;
-use light::Light;
+
 
 /// What is lit, as saved in a project.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -71,8 +71,7 @@ pub struct Mesh {
 /// A scene resolved from its description: checked, in world space, ready to be asked by rays.
 pub struct Scene {
     meshes: Vec<Mesh>,
-    lights: Vec<Light>,
-    light_names: Vec<String>,
+    lights: Vec<LightDesc>,
     camera: camera::Camera,
     receiver: Receiver,
     environment: EnvironmentDesc,
@@ -129,14 +128,9 @@ impl Scene {
         &self.meshes
     }
 
-    /// All lights, in the order of the project.
-    pub fn lights(&self) -> &[Light] {
+    /// All lights, checked, in the order of the project.
+    pub fn lights(&self) -> &[LightDesc] {
         &self.lights
-    }
-
-    /// Names of the lights, in the order of the project.
-    pub fn light_names(&self) -> &[String] {
-        &self.light_names
     }
 
     /// From where the picture is taken.
