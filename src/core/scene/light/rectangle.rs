@@ -49,7 +49,10 @@ impl RectangleLight {
         check::within(place, "target", &self.target, -1e6, 1e6)?;
         check::within(place, "size", &self.size, 1e-6, 1e5)?;
         if self.position == self.target {
-            return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+            return Err(Error::value(
+                format!("{place}.target"),
+                "is where the light stands: move one of them",
+            ));
         }
         Ok(())
     }
