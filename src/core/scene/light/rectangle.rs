@@ -65,6 +65,12 @@ impl RectangleLight {
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
     }
 
+    /// The ball around it.
+    pub(super) fn ball(&self) -> Ball {
+        let radius = glam::Vec2::from(self.size).length() / 2.0;
+        Ball { centre: self.position.into(), radius }
+    }
+
     fn radiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.watts / (PI * self.size[0] * self.size[1]))
     }
