@@ -1,1 +1,47 @@
-//! Caustic photons (Sec. 2).
+//! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after something specular.
+
+mod aim;
+mod path;
+mod trace;
+
+use glam::{Vec2, Vec3};
+
+pub use aim::Aim;
+pub use trace::{Ledger, TraceReport, Tracer};
+
+/// Caustic photons in columns of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Photons {
+    /// Where they landed, plane units.
+    pub positions: Vec<Vec2>,
+    /// RGB flux [W], linear Rec.709. Nearly equal among photons of a scene (the mean of the channels is).
+    pub flux: Vec<Vec3>,
+    /// Index into `Scene::lights`.
+    pub light: Vec<u16>,
+    /// Index into `Scene::meshes`: the last specular object met.
+    pub mesh: Vec<u16>,
+}
+
+impl Photons {
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Sum of the flux [W].
+    pub fn total_flux(&self) -> glam::DVec3 {
+        self.flux.iter().map(|f| f.as_dvec3()).sum()
+    }
+
+    fn push(&mut self, position: Vec2, flux: Vec3, light: u16, mesh: u16) {
+        self.positions.push(position);
+        self.flux.push(flux);
+        self.light.push(light);
+        self.mesh.push(mesh);
+    }
+}

@@ -1,1 +1,160 @@
 //! What is lit (Sec. 2): meshes, materials, lights, camera, receiver.
+//!
+//! [`SceneDesc`] is what an artist saves; [`Scene::load`] resolves it once into checked, world-space geometry that the
+//! photon tracer and the picture both ask. World space is in metres, right-handed, Y up.
+
+pub mod camera;
+pub mod environment;
+pub mod light;
+pub mod material;
+pub mod mesh;
+pub mod receiver;
+
+mod accel;
+mod check;
+mod media;
+mod resolve;
+mod surface;
+
+use std::path::PathBuf;
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use camera::CameraDesc;
+pub use environment::EnvironmentDesc;
+pub use light::LightDesc;
+pub use material::Material;
+pub use media::Media;
+pub use mesh::MeshDesc;
+pub use receiver::{Receiver, ReceiverDesc};
+pub use surface::{Hit, Primitive, Ray, SurfaceId};
+
+use crate::Result;
+use accel::Accel;
+
+
+/// What is lit, as saved in a project.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SceneDesc {
+    /// Objects, at most 65 535 after splitting by material. Glass and mirrors cast the caustics.
+    pub meshes: Vec<MeshDesc>,
+    /// Light sources, at most 65 535. Default: none.
+    pub lights: Vec<LightDesc>,
+    /// From where the picture is taken.
+    pub camera: CameraDesc,
+    /// The rectangle on which the caustics fall and are animated.
+    pub receiver: ReceiverDesc,
+    /// The sky that the camera, glass and mirrors see; it casts no caustics.
+    pub environment: EnvironmentDesc,
+}
+
+/// One object of a loaded scene: all triangles of one material of one [`MeshDesc`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// The name in the project; where a file was split by material, "name/material".
+    pub name: String,
+    /// Its resolved material.
+    pub material: Material,
+    /// Lower corner of its bounds, world [m].
+    pub lower: Vec3,
+    /// Upper corner of its bounds, world [m].
+    pub upper: Vec3,
+    /// Where solids of glass overlap, the higher priority fills the place; equal priorities: the later mesh.
+    pub priority: i32,
+    /// Triangles after clean-up.
+    pub triangles: usize,
+}
+
+/// A scene resolved from its description: checked, in world space, ready to be asked by rays.
+pub struct Scene {
+    meshes: Vec<Mesh>,
+    lights: Vec<LightDesc>,
+    camera: camera::Camera,
+    receiver: Receiver,
+    environment: EnvironmentDesc,
+    accel: Accel,
+}
+
+impl Scene {
+    /// Loads, checks and indexes a scene. `assets` turns a path as written into a file that may be read, or refuses;
+    /// its second argument is the place to name in the error. Beside the scene come notes for the artist: what was
+    /// cleaned up, guessed or looks wrong. Fails with the place of the first value or file that cannot be used.
+    pub fn load(
+        desc: &SceneDesc,
+        assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
+    ) -> Result<(Self, Vec<String>)> {
+        resolve::load(desc, assets)
+    }
+
+    /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let floor = self.receiver.intersect(ray);
+        let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
+        self.accel.intersect(ray, limit).or(floor)
+    }
+
+    /// Whether anything, glass included, stands on the ray before `distance` [m]. The floor is no obstacle.
+    pub fn occluded(&self, ray: &Ray, distance: f32) -> bool {
+        self.accel.occluded(ray, distance)
+    }
+
+    /// The glass solids that `point` lies in.
+    pub fn media_at(&self, point: Vec3) -> Media {
+        let mut media = Media::default();
+        let ray = Ray::new(point, Vec3::new(0.37139, 0.80178, 0.46812).normalize());
+        let mut depth = vec![0_i32; self.meshes.len()];
+        self.accel.each_crossing(&ray, |mesh, leaving| depth[mesh as usize] += if leaving { 1 } else { -1 });
+        for (mesh, crossings) in depth.iter().enumerate() {
+            if *crossings > 0 && matches!(self.meshes[mesh].material, Material::Glass(_)) {
+                media.enter(mesh as u16);
+            }
+        }
+        media
+    }
+
+    /// The material of a surface.
+    pub fn material(&self, surface: SurfaceId) -> &Material {
+        match surface {
+            SurfaceId::Mesh(mesh) => &self.meshes[mesh as usize].material,
+            SurfaceId::Receiver | SurfaceId::Floor => self.receiver.material(),
+        }
+    }
+
+    /// All meshes; a [`SurfaceId::Mesh`] and the mesh column of the photons index this.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// All lights, checked, in the order of the project.
+    pub fn lights(&self) -> &[LightDesc] {
+        &self.lights
+    }
+
+    /// From where the picture is taken.
+    pub fn camera(&self) -> &camera::Camera {
+        &self.camera
+    }
+
+    /// The plane of the caustics and its coordinates.
+    pub fn receiver(&self) -> &Receiver {
+        &self.receiver
+    }
+
+    /// The sky.
+    pub fn environment(&self) -> &EnvironmentDesc {
+        &self.environment
+    }
+
+    /// Lower and upper corner of everything: meshes, receiver, floor [m].
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let (mut lower, mut upper) = self.receiver.bounds();
+        for mesh in &self.meshes {
+            lower = lower.min(mesh.lower);
+            upper = upper.max(mesh.upper);
+        }
+        (lower, upper)
+    }
+}

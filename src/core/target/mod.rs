@@ -1,1 +1,1 @@
-//! Where the photons should go (Sec. 3).
+//! Where photons should go: pictures and points.

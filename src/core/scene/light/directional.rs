@@ -1,0 +1,69 @@
+//! The sun: light from one direction, or from a small disk of the sky.
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::emission::{Cone, Source};
+use super::{Ball, Emission, Illumination};
+use crate::Result;
+use crate::scene::check;
+
+/// A directional light. It is infinitely far and has no total power: its strength is an irradiance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct DirectionalLight {
+    /// Shown in the list of caustics. Default "light".
+    pub name: String,
+    /// Irradiance on a surface that faces it [W/m^2], 0 to 1e9; sunlight about 1000. Default 10.
+    pub irradiance: f32,
+    /// Factor on the irradiance, linear Rec.709, 0 to 1000. Default white.
+    pub colour: [f32; 3],
+    /// Where the light goes, not where it comes from; any length but 0. Default (0, -1, 0).
+    pub direction: [f32; 3],
+    /// Width of the disk in the sky in degrees, 0 to 90; the sun has 0.53. Default 0: perfectly parallel.
+    pub angle_deg: f32,
+}
+
+impl Default for DirectionalLight {
+    fn default() -> Self {
+        let direction = [0.0, -1.0, 0.0];
+        Self { name: "light".into(), irradiance: 10.0, colour: [1.0; 3], direction, angle_deg: 0.0 }
+    }
+}
+
+impl DirectionalLight {
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        check::within(place, "irradiance", &[self.irradiance], 0.0, 1e9)?;
+        check::within(place, "colour", &self.colour, 0.0, 1e3)?;
+        check::direction(place, "direction", self.direction)?;
+        check::within(place, "angle_deg", &[self.angle_deg], 0.0, 90.0)
+    }
+
+    fn sun(&self) -> Cone {
+        let one_minus_cos = 2.0 * (self.angle_deg.to_radians() / 4.0).sin().powi(2);
+        Cone { axis: Vec3::from(self.direction).normalize_or(Vec3::NEG_Y), one_minus_cos }
+    }
+
+    /// Irradiance of a plane across the single directions, summed over the disk. A disk of even radiance L gives
+    /// E = L pi sin^2(a) on a surface that faces its middle, and L x solid angle = E x 2 / (1 + cos a) here.
+    fn normal_irradiance(&self) -> Vec3 {
+        Vec3::from(self.colour) * (self.irradiance * 2.0 / (2.0 - self.sun().one_minus_cos))
+    }
+
+    pub(super) fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+        let target = target.unwrap_or(world);
+        let area = std::f32::consts::PI * target.radius * target.radius;
+        // Starts outside everything: any point of the disk, moved back by this, has left the world.
+        let distance = world.centre.distance(target.centre) + world.radius + target.radius;
+        Emission {
+            flux: self.normal_irradiance() * area,
+            source: Source::Parallel { sun: self.sun(), target, distance },
+        }
+    }
+
+    pub(super) fn illuminate(&self, u: [f32; 2]) -> Option<Illumination> {
+        let direction = -self.sun().direction(u);
+        Some(Illumination { direction, distance: f32::INFINITY, irradiance: self.normal_irradiance() })
+    }
+}

@@ -1,0 +1,120 @@
+//! Light sources. One kind, one file: values, `check`, how photons leave it ([`Emission`]), how it lights a point.
+//!
+//! Power is in watts and colour a factor on it, so a lamp of 10 W and colour (1, 0.5, 0) sends out 10 W of red and 5 W
+//! of green. Only the sun-like directional light, which has no total, is given by its irradiance. Lights stand in
+//! nobody's way: photons and camera rays pass them.
+
+mod directional;
+mod emission;
+mod point;
+mod rectangle;
+mod sphere;
+mod spot;
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use directional::DirectionalLight;
+pub use emission::{Ball, Emission};
+pub use point::PointLight;
+pub use rectangle::RectangleLight;
+pub use sphere::SphereLight;
+pub use spot::SpotLight;
+
+use super::check;
+use crate::Result;
+
+/// A light, as saved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum LightDesc {
+    /// Shines evenly to all sides from one point.
+    Point(PointLight),
+    /// A cone of light from one point.
+    Spot(SpotLight),
+    /// The sun: parallel light, or nearly.
+    Directional(DirectionalLight),
+    /// A flat panel that shines to one side.
+    Rectangle(RectangleLight),
+    /// A glowing ball.
+    Sphere(SphereLight),
+}
+
+/// What a light does at a point that sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illumination {
+    /// Unit vector from the point to the light.
+    pub direction: Vec3,
+    /// Distance to the light [m]; infinite for a directional one.
+    pub distance: f32,
+    /// RGB irradiance on a surface that faces it [W/m^2]; for lights with a size, of one random place, whose mean is right.
+    pub irradiance: Vec3,
+}
+
+impl LightDesc {
+    /// The artist's name for it.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Point(light) => &light.name,
+            Self::Spot(light) => &light.name,
+            Self::Directional(light) => &light.name,
+            Self::Rectangle(light) => &light.name,
+            Self::Sphere(light) => &light.name,
+        }
+    }
+
+    /// Refuses values out of range, naming `place.field`.
+    pub fn check(&self, place: &str) -> Result<()> {
+        match self {
+            Self::Point(light) => light.check(place),
+            Self::Spot(light) => light.check(place),
+            Self::Directional(light) => light.check(place),
+            Self::Rectangle(light) => light.check(place),
+            Self::Sphere(light) => light.check(place),
+        }
+    }
+
+    /// How its photons leave: those that may meet the ball `target`, or all of them. `world` encloses the scene.
+    pub fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+        match self {
+            Self::Point(light) => light.emission(target),
+            Self::Spot(light) => light.emission(target),
+            Self::Directional(light) => light.emission(target, world),
+            Self::Rectangle(light) => light.emission(target),
+            Self::Sphere(light) => light.emission(target),
+        }
+    }
+
+    /// How it lights `point` (world), for shadow rays; `u` picks the place on lights that have a size, uniform in
+    /// [0, 1)^2. None where it sends no light.
+    pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
+        match self {
+            Self::Point(light) => light.illuminate(point),
+            Self::Spot(light) => light.illuminate(point),
+            Self::Directional(light) => light.illuminate(u),
+            Self::Rectangle(light) => light.illuminate(point, u),
+            Self::Sphere(light) => light.illuminate(point, u),
+        }
+    }
+
+    /// Distance and radiance [W/(sr m^2)] where a ray meets the light itself; none for lights without a size.
+    pub fn intersect(&self, ray: &super::Ray) -> Option<(f32, Vec3)> {
+        match self {
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) => None,
+            Self::Rectangle(light) => light.intersect(ray),
+            Self::Sphere(light) => light.intersect(ray),
+        }
+    }
+}
+
+/// Checks that all lights but the directional share.
+fn check_power(place: &str, watts: f32, colour: [f32; 3]) -> Result<()> {
+    check::within(place, "watts", &[watts], 0.0, 1e9)?;
+    check::within(place, "colour", &colour, 0.0, 1e3)
+}
+
+/// Two unit vectors that form a right-handed frame with the unit vector `z` (Duff et al. 2017).
+pub(crate) fn frame(z: Vec3) -> (Vec3, Vec3) {
+    z.any_orthonormal_pair()
+}

@@ -1,0 +1,97 @@
+//! A flat panel that shines to one side after Lambert's law, like a window or a soft box.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::emission::Surface;
+use super::{Ball, Emission, Illumination, check_power, frame};
+use crate::scene::{Ray, check};
+use crate::{Error, Result};
+
+/// A rectangle of light. Its width lies horizontal where it can.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RectangleLight {
+    /// Shown in the list of caustics. Default "light".
+    pub name: String,
+    /// Power of the whole panel [W], 0 to 1e9. Default 10.
+    pub watts: f32,
+    /// Factor on the power, linear Rec.709, 0 to 1000. Default white.
+    pub colour: [f32; 3],
+    /// Its middle, world [m]. Default (0, 2, 0).
+    pub position: [f32; 3],
+    /// The point it faces, world [m]. Default the origin.
+    pub target: [f32; 3],
+    /// Width and height [m], each 1e-6 to 1e5. Default (0.5, 0.5).
+    pub size: [f32; 2],
+}
+
+impl Default for RectangleLight {
+    fn default() -> Self {
+        Self {
+            name: "light".into(),
+            watts: 10.0,
+            colour: [1.0; 3],
+            position: [0.0, 2.0, 0.0],
+            target: [0.0; 3],
+            size: [0.5; 2],
+        }
+    }
+}
+
+impl RectangleLight {
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        check_power(place, self.watts, self.colour)?;
+        check::within(place, "position", &self.position, -1e6, 1e6)?;
+        check::within(place, "target", &self.target, -1e6, 1e6)?;
+        check::within(place, "size", &self.size, 1e-6, 1e5)?;
+        if self.position == self.target {
+            return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+        }
+        Ok(())
+    }
+
+    /// Normal and the two half sides.
+    fn axes(&self) -> (Vec3, Vec3, Vec3) {
+        let normal = (Vec3::from(self.target) - Vec3::from(self.position)).normalize_or(Vec3::NEG_Y);
+        let x = normal.cross(Vec3::Y).try_normalize().unwrap_or_else(|| frame(normal).0);
+        let y = x.cross(normal);
+        (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
+    }
+
+    fn radiance(&self) -> Vec3 {
+        Vec3::from(self.colour) * (self.watts / (PI * self.size[0] * self.size[1]))
+    }
+
+    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+        let (normal, half_x, half_y) = self.axes();
+        let surface = Surface::Rectangle { centre: self.position.into(), half_x, half_y, normal };
+        Emission::of_surface(surface, Vec3::from(self.colour) * self.watts, target)
+    }
+
+    pub(super) fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
+        let (normal, half_x, half_y) = self.axes();
+        let place = Vec3::from(self.position) + half_x * (2.0 * u[0] - 1.0) + half_y * (2.0 * u[1] - 1.0);
+        let distance = place.distance(point);
+        let direction = (place - point) / distance;
+        let cosine = -direction.dot(normal);
+        let area = self.size[0] * self.size[1];
+        (cosine > 0.0).then(|| Illumination {
+            direction,
+            distance,
+            irradiance: self.radiance() * (cosine * area / (distance * distance)),
+        })
+    }
+
+    pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec3)> {
+        let (normal, half_x, half_y) = self.axes();
+        let against = -ray.direction.dot(normal);
+        let t = (ray.origin - Vec3::from(self.position)).dot(normal) / against;
+        let offset = ray.origin + ray.direction * t - Vec3::from(self.position);
+        let within = |half: Vec3| offset.dot(half).abs() <= half.length_squared();
+        (against > 0.0 && t > 0.0 && within(half_x) && within(half_y)).then(|| (t, self.radiance()))
+    }
+}

@@ -1,0 +1,119 @@
+//! Glass: refracts and reflects after Fresnel, absorbs by distance (Beer-Lambert), bends blue more than red if dispersive.
+//!
+//! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
+//! the surface of the other inside it is passed unseen (Schmidt & Budge 2002). Every surface needs an inside, so the mesh
+//! should be closed; through an open sheet light passes as if the solid went on behind it.
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::dispersion::pick_wavelength;
+use super::fresnel::{fresnel, reflect, refract, toward};
+use super::Beam;
+use crate::Result;
+use crate::math::rng::Stream;
+use crate::scene::{Hit, Mesh, SurfaceId, check};
+
+/// Fraunhofer lines d, F and C [um], between which the Abbe number is defined.
+const LINE_D: f32 = 0.587_56;
+const LINE_F: f32 = 0.486_13;
+const LINE_C: f32 = 0.656_27;
+
+/// Clear or coloured glass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Glass {
+    /// Index of refraction at 587.6 nm, 1 to 4: water 1.33, window glass 1.52, diamond 2.42. Default 1.5.
+    pub ior: f32,
+    /// Absorption per metre, linear Rec.709, 0 to 1e6: light falls to exp(-absorption x metres). Default 0: clear.
+    pub absorption: [f32; 3],
+    /// Abbe number, 5 to 1000; smaller spreads colours more: crown glass 60, flint 30. Default none: no dispersion.
+    pub dispersion: Option<f32>,
+}
+
+impl Default for Glass {
+    fn default() -> Self {
+        Self { ior: 1.5, absorption: [0.0; 3], dispersion: None }
+    }
+}
+
+impl Glass {
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        check::within(place, "ior", &[self.ior], 1.0, 4.0)?;
+        check::within(place, "absorption", &self.absorption, 0.0, 1e6)?;
+        check::within(place, "dispersion", self.dispersion.as_slice(), 5.0, 1000.0)
+    }
+
+    /// Index of refraction at a wavelength [nm] by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and
+    /// Abbe number V = (n_d - 1) / (n_F - n_C); without dispersion or wavelength it is `ior`.
+    pub fn index(&self, wavelength: Option<f32>) -> f32 {
+        let (Some(abbe), Some(nm)) = (self.dispersion, wavelength) else { return self.ior };
+        let inverse_square = |um: f32| 1.0 / (um * um);
+        let b = (self.ior - 1.0) / (abbe * (inverse_square(LINE_F) - inverse_square(LINE_C)));
+        self.ior + b * (inverse_square(nm / 1000.0) - inverse_square(LINE_D))
+    }
+
+    /// What is left of the light after `distance` [m].
+    pub fn transmittance(&self, distance: f32) -> Vec3 {
+        if self.absorption == [0.0; 3] {
+            return Vec3::ONE;
+        }
+        (Vec3::from(self.absorption) * -distance).exp()
+    }
+
+    pub(super) fn scatter(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Vec3 {
+        let SurfaceId::Mesh(mesh) = hit.surface else { return direction };
+        let entering = direction.dot(hit.geometric_normal) < 0.0;
+        let (mut before, mut after) = (beam.media, beam.media);
+        if entering {
+            after.enter(mesh);
+        } else if !after.leave(mesh) {
+            before.enter(mesh);
+        }
+        if before.filling(meshes) == after.filling(meshes) {
+            beam.media = after;
+            return direction;
+        }
+        if self.dispersion.is_some() && beam.wavelength.is_none() {
+            let (nm, colour) = pick_wavelength(beam.weight, rng);
+            beam.weight = colour;
+            beam.wavelength = Some(nm);
+        }
+        let index = |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
+        let eta = index(&after) / index(&before);
+        let (next, through) = cross(hit, direction, eta, rng.f32());
+        beam.media = if through { after } else { before };
+        next
+    }
+}
+
+/// Reflects with the probability of Fresnel, else refracts; whether it went through. The smooth normal decides the
+/// way, unless that would lead to the wrong side of the true surface: then the true normal does. So every photon goes
+/// on, and none loses or gains energy.
+fn cross(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
+    let (geometric, shading) = toward(hit, direction);
+    for normal in [shading, geometric] {
+        let cos_i = -direction.dot(normal);
+        let (reflectance, cos_t) = fresnel(cos_i, eta);
+        if choice < reflectance {
+            let next = reflect(direction, normal);
+            if next.dot(geometric) > 0.0 {
+                return (next, false);
+            }
+        } else {
+            let next = refract(direction, normal, cos_i, cos_t, eta);
+            if next.dot(geometric) < 0.0 {
+                return (next, true);
+            }
+        }
+    }
+    (direction, true) // Exactly along the surface: passes on.
+}

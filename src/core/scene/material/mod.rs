@@ -1,0 +1,94 @@
+//! What surfaces do with light. One kind, one file: values, `check`, `scatter`.
+
+mod diffuse;
+mod dispersion;
+pub mod fresnel;
+mod glass;
+mod mirror;
+
+use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use diffuse::Diffuse;
+pub use dispersion::{VISIBLE_NM, rgb_of_wavelength};
+pub use glass::Glass;
+pub use mirror::Mirror;
+
+use super::{Hit, Media, Mesh};
+use crate::Result;
+use crate::math::rng::Stream;
+
+/// A material, as saved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum Material {
+    /// Matt: scatters evenly to all sides.
+    Diffuse(Diffuse),
+    /// Polished metal.
+    Mirror(Mirror),
+    /// Clear or coloured glass, water, crystal.
+    Glass(Glass),
+}
+
+/// What a path carries from surface to surface: flux for a photon, throughput for a camera path.
+#[derive(Clone, Debug)]
+pub struct Beam {
+    /// RGB, linear Rec.709.
+    pub weight: Vec3,
+    /// The glass solids it is in.
+    pub media: Media,
+    /// Its wavelength [nm] once a dispersive glass has picked one; none while it is still white.
+    pub wavelength: Option<f32>,
+}
+
+impl Beam {
+    /// A beam that starts in the given solids.
+    pub fn new(weight: Vec3, media: Media) -> Self {
+        Self { weight, media, wavelength: None }
+    }
+
+    /// Loses what the glass it is in takes over `distance` [m] (Beer-Lambert); exact 1 in clear glass and air.
+    pub fn travel(&mut self, meshes: &[Mesh], distance: f32) {
+        if let Some(glass) = self.media.glass(meshes) {
+            self.weight *= glass.transmittance(distance);
+        }
+    }
+}
+
+impl Material {
+    /// Whether light that meets it casts caustics.
+    pub fn is_specular(&self) -> bool {
+        match self {
+            Self::Diffuse(_) => false,
+            Self::Mirror(_) | Self::Glass(_) => true,
+        }
+    }
+
+    /// The next direction (unit) of a path along `direction` that met this material at `hit`, chosen at random in
+    /// proportion to the energy; the beam takes colour, medium and wavelength of the chosen way. None for a matt
+    /// surface, where specular paths end.
+    pub fn scatter(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Option<Vec3> {
+        match self {
+            Self::Diffuse(_) => None,
+            Self::Mirror(mirror) => Some(mirror.scatter(hit, direction, beam)),
+            Self::Glass(glass) => Some(glass.scatter(meshes, hit, direction, beam, rng)),
+        }
+    }
+
+    /// Refuses values out of range, naming `place.field`.
+    pub fn check(&self, place: &str) -> Result<()> {
+        match self {
+            Self::Diffuse(diffuse) => diffuse.check(place),
+            Self::Mirror(mirror) => mirror.check(place),
+            Self::Glass(glass) => glass.check(place),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The glass solids a point lies in, and which of them fills it.
+
+use super::material::{Glass, Material};
+use super::Mesh;
+
+/// How many solids may lie over each other; further ones are not noticed.
+const DEPTH: usize = 7;
+
+/// A small bag of mesh indices. A mesh stands in it once for each of its shells around the point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Media {
+    inside: [u16; DEPTH],
+    count: u8,
+}
+
+impl Media {
+    /// Goes into a shell of a mesh.
+    pub fn enter(&mut self, mesh: u16) {
+        if (self.count as usize) < DEPTH {
+            self.inside[self.count as usize] = mesh;
+            self.count += 1;
+        }
+    }
+
+    /// Leaves a shell of a mesh; false if it was in none.
+    pub fn leave(&mut self, mesh: u16) -> bool {
+        let inside = &mut self.inside[..self.count as usize];
+        let Some(at) = inside.iter().rposition(|m| *m == mesh) else { return false };
+        inside[at..].rotate_left(1);
+        self.count -= 1;
+        // Keeps the unused tail equal, so that equal bags compare equal.
+        self.inside[self.count as usize] = 0;
+        true
+    }
+
+    /// The mesh whose material fills the place: the highest priority, among equals the later in the list. None: air.
+    pub fn filling(&self, meshes: &[Mesh]) -> Option<u16> {
+        let inside = &self.inside[..self.count as usize];
+        inside.iter().copied().max_by_key(|mesh| (meshes[*mesh as usize].priority, *mesh))
+    }
+
+    /// The glass that fills the place; none: air.
+    pub fn glass<'a>(&self, meshes: &'a [Mesh]) -> Option<&'a Glass> {
+        match &meshes[self.filling(meshes)? as usize].material {
+            Material::Glass(glass) => Some(glass),
+            Material::Diffuse(_) | Material::Mirror(_) => None,
+        }
+    }
+
+    /// Whether it is air.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
