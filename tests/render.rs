@@ -7,8 +7,8 @@ use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::{default_radius, radius_of_pass};
 use lightloom_core::render::splat::{Outside, Splatter};
 use lightloom_core::render::{
-    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, ViewTransform, Visible,
-    Workspace, layout_for,
+    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, ViewTransform,
+    Visible, Workspace, layout_for,
 };
 
 /// Photons over the plane, some a little and some far outside, with coloured flux.
@@ -73,7 +73,12 @@ fn splat_and_filter_give_the_same_bytes_for_one_and_two_threads() {
         texture
     };
     let (one, two) = (with_threads(1, run), with_threads(2, run));
-    assert!(one.texels().iter().zip(two.texels()).all(|(a, b)| a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)));
+    assert!(
+        one.texels()
+            .iter()
+            .zip(two.texels())
+            .all(|(a, b)| a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits))
+    );
 }
 
 #[test]
@@ -107,7 +112,10 @@ fn the_kernel_has_the_variance_and_the_reach_it_says() {
         }
         let expected = f64::from(radius * radius) / 9.0;
         // f32 texels: seven digits, and the sum of squares weighs the faint ones most.
-        assert!((x2 / expected - 1.0).abs() < 1e-4 && (y2 / expected - 1.0).abs() < 1e-4, "radius {radius}: {x2} {y2}");
+        assert!(
+            (x2 / expected - 1.0).abs() < 1e-4 && (y2 / expected - 1.0).abs() < 1e-4,
+            "radius {radius}: {x2} {y2}"
+        );
         // Three boxes end within one texel each of the radius.
         assert!(reach < radius + 3.0 * layout.texel, "radius {radius} reaches {reach}");
     }

@@ -85,7 +85,9 @@ fn attributes(name: &str, metadata: &Metadata, repairs: Repairs) -> LayerAttribu
     let mut attributes = LayerAttributes::named(name);
     attributes.software_name = Some(Text::from(concat!("Lightloom ", env!("CARGO_PKG_VERSION"))));
     attributes.frames_per_second = Some(metadata.frames_per_second);
-    let text = |value: &str| AttributeValue::Text(Text::from(value));
+    // As UTF-8; the crate's own conversion refuses what is not Latin-1.
+    let utf8 = |text: &str| Text::from_slice_unchecked(text.as_bytes());
+    let text = |value: &str| AttributeValue::Text(utf8(value));
     let mut other = HashMap::new();
     other.insert(Text::from("colorInteropID"), text("lin_rec709_scene"));
     other.insert(Text::from("lightloom:frame"), AttributeValue::I32(metadata.frame));
@@ -94,7 +96,7 @@ fn attributes(name: &str, metadata: &Metadata, repairs: Repairs) -> LayerAttribu
     other.insert(Text::from("lightloom:half_clamped"), text(&repairs.half_clamped.to_string()));
     other.insert(Text::from("lightloom:nonfinite_replaced"), text(&repairs.nonfinite_replaced.to_string()));
     for (name, value) in &metadata.settings {
-        other.insert(Text::from(format!("lightloom:{name}").as_str()), text(value));
+        other.insert(utf8(&format!("lightloom:{name}")), text(value));
     }
     attributes.other = other;
     attributes

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 pub use exr::Metadata;
 pub use pattern::FramePattern;
 pub use png::PngDepth;
+pub use sheet::{evenly_chosen, write_contact_sheet};
 
 use crate::Result;
 use crate::render::image::Image;

@@ -20,23 +20,21 @@ const DOT: usize = 2;
 /// At most `count` of `frames`, evenly chosen, the first and the last among them.
 pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
     let count = count.min(frames.len());
-    let last = frames.len().saturating_sub(1);
-    (0..count).map(|i| frames[(i * last + count.max(2) / 2 - 1) / (count - 1).max(1)]).collect()
+    // Steps between the first and the last, each rounded to the nearest frame.
+    let steps = count.saturating_sub(1).max(1);
+    (0..count).map(|i| frames[(i * (frames.len() - 1) + steps / 2) / steps]).collect()
 }
 
 /// Writes a PNG with the given pictures (screen values, all of one size) row by row, each with its number below.
 ///
 /// # Panics
 /// If the pictures differ in size.
-pub fn write(path: &Path, pictures: &[(i32, Image)], columns: usize) -> Result<()> {
+pub fn write_contact_sheet(path: &Path, pictures: &[(i32, Image)], columns: usize) -> Result<()> {
     png::write(path, &arrange(pictures, columns), PngDepth::Eight)
 }
 
 /// The page itself, in screen values.
-///
-/// # Panics
-/// If the pictures differ in size.
-pub fn arrange(pictures: &[(i32, Image)], columns: usize) -> Image {
+fn arrange(pictures: &[(i32, Image)], columns: usize) -> Image {
     let columns = columns.clamp(1, pictures.len().max(1));
     let rows = pictures.len().div_ceil(columns);
     let (width, height) = pictures.first().map_or((1, 1), |(_, p)| (p.width, p.height));
