@@ -3,11 +3,13 @@
 mod aim;
 mod path;
 mod trace;
+mod why;
 
 use glam::{Vec2, Vec3};
 
 pub use aim::Aim;
-pub use trace::{Ledger, TraceReport, Tracer};
+pub use path::Ledger;
+pub use trace::{TraceReport, Tracer};
 
 /// Caustic photons in columns of equal length.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +38,15 @@ impl Photons {
     /// Sum of the flux [W].
     pub fn total_flux(&self) -> glam::DVec3 {
         self.flux.iter().map(|f| f.as_dvec3()).sum()
+    }
+
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            positions: Vec::with_capacity(count),
+            flux: Vec::with_capacity(count),
+            light: Vec::with_capacity(count),
+            mesh: Vec::with_capacity(count),
+        }
     }
 
     fn push(&mut self, position: Vec2, flux: Vec3, light: u16, mesh: u16) {

@@ -132,9 +132,12 @@ impl Accel {
         let Some(bvh) = &self.bvh else { return false };
         let from = ray.from.0 as usize;
         let search = BvhRay::new(ray.origin.into(), ray.direction.into(), 0.0, distance);
-        !bvh.ray_traverse_miss(search, |ray, i| {
-            if i == from { f32::INFINITY } else { self.shapes[i].distance(ray) }
-        })
+        !bvh.ray_traverse_miss(
+            search,
+            |ray, i| {
+                if i == from { f32::INFINITY } else { self.shapes[i].distance(ray) }
+            },
+        )
     }
 
     /// Every triangle that the ray crosses: its mesh, and whether the ray leaves the solid there.

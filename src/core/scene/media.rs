@@ -1,7 +1,7 @@
 //! The glass solids a point lies in, and which of them fills it.
 
-use super::material::{Glass, Material};
 use super::Mesh;
+use super::material::{Glass, Material};
 
 /// How many solids may lie over each other; further ones are not noticed.
 const DEPTH: usize = 7;

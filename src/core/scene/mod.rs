@@ -34,7 +34,6 @@ pub use surface::{Hit, Primitive, Ray, SurfaceId};
 use crate::Result;
 use accel::Accel;
 
-
 /// What is lit, as saved in a project.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]

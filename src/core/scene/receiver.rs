@@ -120,8 +120,10 @@ impl Receiver {
         let s = Vec2::splat(self.surround);
         let far = self.extent + s;
         let corners = [-s, vec2(far.x, -s.y), vec2(-s.x, far.y), far].map(|p| self.world_from_plane(p));
-        (corners.into_iter().reduce(Vec3::min).unwrap_or(self.corner),
-            corners.into_iter().reduce(Vec3::max).unwrap_or(self.corner))
+        (
+            corners.into_iter().reduce(Vec3::min).unwrap_or(self.corner),
+            corners.into_iter().reduce(Vec3::max).unwrap_or(self.corner),
+        )
     }
 
     pub(super) fn intersect(&self, ray: &Ray) -> Option<Hit> {

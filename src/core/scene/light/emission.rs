@@ -154,7 +154,11 @@ impl Emission {
     pub(super) fn of_surface(surface: Surface, flux: Vec3, target: Option<Ball>) -> Self {
         let widest = target.map_or(TAU, |ball| {
             let nearest = surface.distance(ball.centre);
-            if nearest <= ball.radius { TAU } else { ball.cone_from(ball.centre + Vec3::Y * nearest).solid_angle() }
+            if nearest <= ball.radius {
+                TAU
+            } else {
+                ball.cone_from(ball.centre + Vec3::Y * nearest).solid_angle()
+            }
         });
         // Radiance is flux / (pi area): a photon towards the ball carries cosine x solid angle / pi of the flux.
         match target {

@@ -86,6 +86,18 @@ impl LightDesc {
         }
     }
 
+    /// Whether any of its photons starts in the box between two corners, perhaps.
+    pub(crate) fn touches(&self, lower: Vec3, upper: Vec3) -> bool {
+        let ball = match self {
+            Self::Point(light) => Ball { centre: light.position.into(), radius: 0.0 },
+            Self::Spot(light) => Ball { centre: light.position.into(), radius: 0.0 },
+            Self::Directional(_) => return false,
+            Self::Rectangle(light) => light.ball(),
+            Self::Sphere(light) => light.ball(),
+        };
+        ball.centre.distance_squared(ball.centre.clamp(lower, upper)) <= ball.radius * ball.radius
+    }
+
     /// How it lights `point` (world), for shadow rays; `u` picks the place on lights that have a size, uniform in
     /// [0, 1)^2. None where it sends no light.
     pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {

@@ -49,7 +49,10 @@ impl RectangleLight {
         check::within(place, "target", &self.target, -1e6, 1e6)?;
         check::within(place, "size", &self.size, 1e-6, 1e5)?;
         if self.position == self.target {
-            return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+            return Err(Error::value(
+                format!("{place}.target"),
+                "is where the light stands: move one of them",
+            ));
         }
         Ok(())
     }
@@ -60,6 +63,12 @@ impl RectangleLight {
         let x = normal.cross(Vec3::Y).try_normalize().unwrap_or_else(|| frame(normal).0);
         let y = x.cross(normal);
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
+    }
+
+    /// The ball around it.
+    pub(super) fn ball(&self) -> Ball {
+        let radius = glam::Vec2::from(self.size).length() / 2.0;
+        Ball { centre: self.position.into(), radius }
     }
 
     fn radiance(&self) -> Vec3 {

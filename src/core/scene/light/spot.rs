@@ -80,7 +80,10 @@ impl SpotLight {
         check::within(place, "angle_deg", &[self.angle_deg], 0.1, 360.0)?;
         check::within(place, "soft_edge", &[self.soft_edge], 0.0, 1.0)?;
         if self.position == self.target {
-            return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+            return Err(Error::value(
+                format!("{place}.target"),
+                "is where the light stands: move one of them",
+            ));
         }
         Ok(())
     }

@@ -25,10 +25,22 @@ pub fn rgb_of_wavelength(nm: f32) -> Vec3 {
 pub(super) fn pick_wavelength(weight: Vec3, rng: &mut Stream) -> (f32, Vec3) {
     let sum = weight.element_sum();
     let choice = rng.f32() * sum;
-    let band = if choice < weight.z { 0.0 } else if choice < weight.z + weight.y { 1.0 } else { 2.0 };
+    let band = if choice < weight.z {
+        0.0
+    } else if choice < weight.z + weight.y {
+        1.0
+    } else {
+        2.0
+    };
     // A box of one third convolved with a box of the ramp's width is the band's trapezoid; the outer ends fold back.
     let x = (band + rng.f32()) / 3.0 + RAMP * (2.0 * rng.f32() - 1.0);
-    let x = if x < 0.0 { -x } else if x > 1.0 { 2.0 - x } else { x };
+    let x = if x < 0.0 {
+        -x
+    } else if x > 1.0 {
+        2.0 - x
+    } else {
+        x
+    };
     let nm = VISIBLE_NM[0] + x * (VISIBLE_NM[1] - VISIBLE_NM[0]);
     let colour = weight * rgb_of_wavelength(nm);
     (nm, colour * (sum / colour.element_sum().max(f32::MIN_POSITIVE)))

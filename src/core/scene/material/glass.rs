@@ -8,9 +8,9 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Beam;
 use super::dispersion::pick_wavelength;
 use super::fresnel::{fresnel, reflect, refract, toward};
-use super::Beam;
 use crate::Result;
 use crate::math::rng::Stream;
 use crate::scene::{Hit, Mesh, SurfaceId, check};
@@ -87,7 +87,8 @@ impl Glass {
             beam.weight = colour;
             beam.wavelength = Some(nm);
         }
-        let index = |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
+        let index =
+            |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
         let eta = index(&after) / index(&before);
         let (next, through) = cross(hit, direction, eta, rng.f32());
         beam.media = if through { after } else { before };

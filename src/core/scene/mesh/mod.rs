@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3, EulerRot, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::accel::Triangle;
+pub(super) use super::accel::Triangle;
 use super::check;
 use super::material::{Diffuse, Material};
 use crate::{Error, Result};

@@ -72,7 +72,8 @@ impl Entry {
             note(format!("taken as a mirror, by its name '{}'", self.name));
             return Material::Mirror(Mirror { reflectance: reflectance.map(|c| c.clamp(0.0, 1.0)) });
         }
-        let sounds = ["glass", "water", "lens", "wine", "liquid", "crystal"].iter().any(|word| name.contains(word));
+        let sounds =
+            ["glass", "water", "lens", "wine", "liquid", "crystal"].iter().any(|word| name.contains(word));
         let index = self.index.filter(|ni| (1.05..=4.0).contains(ni));
         let Some(hint) = self.glass_hint(sounds) else {
             return self.matt();

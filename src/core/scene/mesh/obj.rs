@@ -128,7 +128,9 @@ impl Reader<'_> {
         let mut words = rest.split_ascii_whitespace();
         for value in &mut values {
             let word = words.next().unwrap_or("");
-            *value = word.parse().map_err(|_| self.error(number, format!("'{word}' is no number; three are needed")))?;
+            *value = word
+                .parse()
+                .map_err(|_| self.error(number, format!("'{word}' is no number; three are needed")))?;
         }
         let vector = Vec3::from(values);
         if !vector.is_finite() {

@@ -1,0 +1,140 @@
+//! One light path: from a light over glass and mirrors until it lands or is lost. The mean of a photon's channels stays
+//! what it was at the light: what surfaces and glass take away ends whole photons at random (Arvo & Kirk 1990), so all
+//! that land count the same.
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::math::rng::Stream;
+use crate::scene::material::Beam;
+use crate::scene::{Media, Ray, Scene, SurfaceId};
+
+/// Surfaces a path may meet. Light caught in a block of glass by total reflection never comes out; it ends here.
+const MAX_SURFACES: usize = 256;
+
+/// A caustic photon on the receiver.
+pub(super) struct Landing {
+    pub position: Vec2,
+    pub flux: Vec3,
+    pub mesh: u16,
+}
+
+/// Where the flux of the lights went [W], per channel. `emitted` is the sum of all others, to rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Sent towards glass and mirrors.
+    pub emitted: DVec3,
+    /// Fell on the receiver after something specular: the caustics.
+    pub landed: DVec3,
+    /// Fell on the floor around the receiver after something specular.
+    pub surround: DVec3,
+    /// Left the scene after something specular.
+    pub escaped: DVec3,
+    /// Ended on a matt mesh or on the back of the receiver after something specular.
+    pub blocked: DVec3,
+    /// Swallowed by coloured glass and mirrors.
+    pub absorbed: DVec3,
+    /// Still under way after 256 surfaces.
+    pub capped: DVec3,
+    /// Met nothing specular first.
+    pub direct: DVec3,
+}
+
+impl Ledger {
+    fn columns(&mut self) -> [&mut DVec3; 8] {
+        let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct } = self;
+        [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
+    }
+
+    /// Adds another one.
+    pub(super) fn add(&mut self, mut other: Self) {
+        for (column, more) in self.columns().into_iter().zip(other.columns()) {
+            *column += *more;
+        }
+    }
+
+    /// Multiplies all by a factor.
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        self.columns().into_iter().for_each(|column| *column *= factor);
+        self
+    }
+}
+
+/// Follows a photon of `flux` along `ray`, from a light in `media`, and enters its end in the ledger.
+pub(super) fn follow(
+    scene: &Scene,
+    mut ray: Ray,
+    flux: Vec3,
+    media: Media,
+    rng: &mut Stream,
+    ledger: &mut Ledger,
+) -> Option<Landing> {
+    let mut beam = Beam::new(flux, media);
+    let mut last_specular = None;
+    ledger.emitted += flux.as_dvec3();
+    for _ in 0..MAX_SURFACES {
+        let Some(hit) = scene.intersect(&ray) else {
+            let end = if last_specular.is_some() { &mut ledger.escaped } else { &mut ledger.direct };
+            *end += beam.weight.as_dvec3();
+            return None;
+        };
+        let arriving = beam.weight;
+        beam.travel(scene.meshes(), hit.t);
+        let next = match hit.surface {
+            SurfaceId::Mesh(mesh) => {
+                let material = scene.material(hit.surface);
+                let next = material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng);
+                last_specular = next.map(|_| mesh).or(last_specular);
+                next
+            }
+            SurfaceId::Receiver | SurfaceId::Floor => None,
+        };
+        let survived = survive(&mut beam.weight, flux, rng);
+        ledger.absorbed += (arriving - beam.weight).as_dvec3();
+        if !survived {
+            return None;
+        }
+        match (next, last_specular) {
+            (Some(direction), _) => ray = Ray::leaving(&hit, direction),
+            (None, None) => {
+                ledger.direct += beam.weight.as_dvec3();
+                return None;
+            }
+            (None, Some(mesh)) => return end(scene, &hit, &ray, beam.weight, mesh, ledger),
+        }
+    }
+    ledger.capped += beam.weight.as_dvec3();
+    None
+}
+
+/// Restores the mean of the channels to that of `flux`, or ends the photon, so that the expectation stays.
+fn survive(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
+    let left = weight.element_sum() / flux.element_sum();
+    if left > 0.999_999 {
+        return true;
+    }
+    let survived = rng.f32() < left;
+    *weight = if survived { *weight / left } else { Vec3::ZERO };
+    survived
+}
+
+/// A caustic photon meets something matt.
+fn end(
+    scene: &Scene,
+    hit: &crate::scene::Hit,
+    ray: &Ray,
+    flux: Vec3,
+    mesh: u16,
+    ledger: &mut Ledger,
+) -> Option<Landing> {
+    let lit = ray.direction.dot(hit.geometric_normal) < 0.0;
+    let column = match hit.surface {
+        SurfaceId::Receiver if lit => {
+            ledger.landed += flux.as_dvec3();
+            return Some(Landing { position: scene.receiver().plane_from_world(hit.point), flux, mesh });
+        }
+        SurfaceId::Floor if lit => &mut ledger.surround,
+        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut ledger.blocked,
+    };
+    *column += flux.as_dvec3();
+    None
+}

@@ -1,0 +1,122 @@
+//! From faces as read to triangles as traced: equal vertices welded, degenerate faces dropped, glass turned right side
+//! out, and what remains odd counted for the artist.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::obj::{Face, NONE, ObjFile};
+use super::{cross, normals};
+use crate::scene::accel::Triangle;
+use crate::scene::material::Material;
+
+/// The triangles of one material.
+pub(super) fn triangles(
+    file: &ObjFile,
+    faces: &[&Face],
+    smooth: bool,
+    material: &Material,
+    name: &str,
+    notes: &mut Vec<String>,
+) -> Vec<Triangle> {
+    let welded = weld(&file.positions);
+    let mut kept: Vec<Face> = faces.iter().map(|face| **face).filter(|face| has_area(file, face)).collect();
+    let mut note = |count: usize, what: &str| {
+        if count > 0 {
+            notes.push(format!("{name}: {count} {what}"));
+        }
+    };
+    note(faces.len() - kept.len(), "triangles without area were dropped");
+    note(file.polygons, "polygons of more than 4 corners were split into fans; concave ones may fold");
+    let vertices: Vec<[u32; 3]> = kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect();
+    if matches!(material, Material::Glass(_)) {
+        let edges = Edges::count(&vertices);
+        note(
+            edges.open,
+            "open edges: this glass has no inside, so refraction through it is a guess; close the mesh",
+        );
+        note(
+            edges.inconsistent,
+            "edges whose two faces are wound against each other; recalculate the normals outside",
+        );
+        if edges.open + edges.inconsistent == 0 && volume(file, &kept) < 0.0 {
+            kept.iter_mut().for_each(flip);
+            note(kept.len(), "triangles faced inward; the mesh was turned inside out");
+        }
+    }
+    let (triangles, turned) = normals::shade(file, &kept, &welded, smooth);
+    note(turned, "corner normals pointed against their face and were turned");
+    triangles
+}
+
+/// Whether a face has an area that f32 can tell from 0.
+fn has_area(file: &ObjFile, face: &Face) -> bool {
+    let [a, b, c] = face.vertices.map(|v| file.positions[v as usize]);
+    let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let area = cross([a, b, c]).length();
+    // A squared length below the smallest normal number has lost its digits.
+    area > 1e-7 * longest && area * area > f32::MIN_POSITIVE
+}
+
+fn flip(face: &mut Face) {
+    face.vertices.swap(1, 2);
+    face.normals.swap(1, 2);
+}
+
+/// For every vertex the first vertex at the same place.
+fn weld(positions: &[Vec3]) -> Vec<u32> {
+    // Adding 0 turns -0 into 0, so that equal places have equal bits.
+    let key = |i: u32| (positions[i as usize] + 0.0).to_array().map(f32::to_bits);
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.par_sort_unstable_by_key(|i| (key(*i), *i));
+    let mut welded = vec![NONE; positions.len()];
+    let mut first = 0;
+    for (rank, index) in order.iter().enumerate() {
+        if rank == 0 || key(*index) != key(first) {
+            first = *index;
+        }
+        welded[*index as usize] = first;
+    }
+    welded
+}
+
+/// How the faces meet at their edges.
+struct Edges {
+    /// Edges with a face on one side only.
+    open: usize,
+    /// Edges run through in the same direction by both faces.
+    inconsistent: usize,
+}
+
+impl Edges {
+    fn count(faces: &[[u32; 3]]) -> Self {
+        let mut edges: Vec<(u32, u32, i8)> = faces
+            .par_iter()
+            .flat_map_iter(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)])
+            .map(|(from, to)| if from < to { (from, to, 1) } else { (to, from, -1) })
+            .collect();
+        edges.par_sort_unstable();
+        let mut count = Self { open: 0, inconsistent: 0 };
+        for sides in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let turns: i32 = sides.iter().map(|side| i32::from(side.2)).sum();
+            match (turns, sides.len() % 2) {
+                (0, _) => (),
+                (_, 1) => count.open += 1,
+                _ => count.inconsistent += 1,
+            }
+        }
+        count
+    }
+}
+
+/// Six times the enclosed volume; negative if the faces look inward.
+fn volume(file: &ObjFile, faces: &[Face]) -> f64 {
+    let origin =
+        faces.first().map_or(DVec3::ZERO, |face| file.positions[face.vertices[0] as usize].as_dvec3());
+    faces
+        .iter()
+        .map(|face| {
+            let [a, b, c] = face.vertices.map(|v| file.positions[v as usize].as_dvec3() - origin);
+            a.dot(b.cross(c))
+        })
+        .sum()
+}

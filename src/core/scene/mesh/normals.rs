@@ -1,0 +1,101 @@
+//! Normals at the corners of triangles: the file's own, or averages weighted by angle (Thuermer & Wuethrich 1998) over
+//! faces that meet smoothly.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::cross;
+use super::obj::{Face, NONE, ObjFile};
+use crate::scene::accel::Triangle;
+
+/// Cosine of the angle between faces from which on an edge is sharp: 50 degrees.
+const CREASE: f32 = 0.642_787_6;
+/// A corner looks at each face around its vertex; where more than this meet, it takes the average of all instead, which
+/// keeps the work linear.
+const MANY: usize = 64;
+
+/// Triangles with their normals, and how many of the file's normals were turned to the side of their face.
+pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
+    let corners: Vec<[Vec3; 3]> =
+        faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
+    let own = |face: &Face| {
+        let normals = face.normals.map(|n| if n == NONE { Vec3::ZERO } else { file.normals[n as usize] });
+        let normals = normals.map(Vec3::normalize_or_zero);
+        (smooth && !normals.contains(&Vec3::ZERO)).then_some(normals)
+    };
+    let averages = (smooth && faces.par_iter().any(|face| own(face).is_none()))
+        .then(|| Averages::new(faces, welded, &corners));
+    let (triangles, turned): (Vec<Triangle>, Vec<usize>) = (0..faces.len())
+        .into_par_iter()
+        .map(|i| {
+            let flat = cross(corners[i]).normalize();
+            let given = own(&faces[i]);
+            let turned = given.map_or(0, |normals| normals.iter().filter(|n| n.dot(flat) < 0.0).count());
+            let normals = match (given, &averages) {
+                (Some(normals), _) => normals.map(|n| if n.dot(flat) < 0.0 { -n } else { n }),
+                (None, Some(averages)) => [0, 1, 2].map(|corner| averages.at(i, corner, flat)),
+                (None, None) => [flat; 3],
+            };
+            (Triangle { corners: corners[i], normals, mesh: 0 }, turned)
+        })
+        .unzip();
+    (triangles, turned.iter().sum())
+}
+
+/// For each vertex, the corners that meet there.
+struct Averages<'a> {
+    faces: &'a [Face],
+    welded: &'a [u32],
+    /// Unit normal of each face.
+    flat: Vec<Vec3>,
+    /// Angle of each corner of each face.
+    angles: Vec<[f32; 3]>,
+    /// Corners (3 x face + corner) sorted by vertex; those of vertex v from `start[v]` to `start[v + 1]`.
+    corners: Vec<u32>,
+    start: Vec<u32>,
+}
+
+impl<'a> Averages<'a> {
+    fn new(faces: &'a [Face], welded: &'a [u32], corners: &[[Vec3; 3]]) -> Self {
+        let mut start = vec![0_u32; welded.len() + 1];
+        let vertices = || faces.iter().flat_map(|face| face.vertices.map(|v| welded[v as usize] as usize));
+        vertices().for_each(|v| start[v + 1] += 1);
+        for v in 0..welded.len() {
+            start[v + 1] += start[v];
+        }
+        let mut next = start.clone();
+        let mut sorted = vec![0_u32; faces.len() * 3];
+        for (corner, v) in vertices().enumerate() {
+            sorted[next[v] as usize] = corner as u32;
+            next[v] += 1;
+        }
+        Self {
+            faces,
+            welded,
+            flat: corners.par_iter().map(|c| cross(*c).normalize()).collect(),
+            angles: corners.par_iter().map(angles).collect(),
+            corners: sorted,
+            start,
+        }
+    }
+
+    fn at(&self, face: usize, corner: usize, flat: Vec3) -> Vec3 {
+        let vertex = self.welded[self.faces[face].vertices[corner] as usize] as usize;
+        let around = &self.corners[self.start[vertex] as usize..self.start[vertex + 1] as usize];
+        let all = around.len() > MANY;
+        let sum: Vec3 = around
+            .iter()
+            .map(|c| (*c as usize / 3, *c as usize % 3))
+            .filter(|(other, _)| all || self.flat[*other].dot(flat) >= CREASE)
+            .map(|(other, corner)| self.flat[other] * self.angles[other][corner])
+            .sum();
+        let normal = sum.normalize_or(flat);
+        if normal.dot(flat) >= CREASE { normal } else { flat }
+    }
+}
+
+/// The angle at each corner.
+fn angles(corners: &[Vec3; 3]) -> [f32; 3] {
+    let [a, b, c] = *corners;
+    [(b - a).angle_between(c - a), (c - b).angle_between(a - b), (a - c).angle_between(b - c)]
+}
