@@ -1,1 +1,88 @@
-//! Picture files.
+//! Picture files. A new format is a file here, a variant of [`FrameFormat`] and its arms.
+
+pub mod atomic;
+pub mod exr;
+pub mod pattern;
+pub mod png;
+pub mod sheet;
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use exr::Metadata;
+pub use pattern::FramePattern;
+pub use png::PngDepth;
+pub use sheet::{evenly_chosen, write_contact_sheet};
+
+use crate::Result;
+use crate::render::image::Image;
+use crate::render::view::View;
+
+/// The kinds of picture files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameFormat {
+    /// OpenEXR, half float, linear, with the layers beauty, caustic and background.
+    Exr,
+    /// PNG through the view transform, ready to be shown.
+    Png,
+}
+
+impl FrameFormat {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Exr, Self::Png];
+
+    /// The end of the file name, without a dot; also the name by which a user asks for the format.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Exr => "exr",
+            Self::Png => "png",
+        }
+    }
+}
+
+/// One finished frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// Light without caustics, linear.
+    pub background: &'a Image,
+    /// The caustics alone, linear, of the same size.
+    pub caustic: &'a Image,
+    /// What the file says about itself.
+    pub metadata: &'a Metadata,
+}
+
+/// Values that no file can hold, and what became of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repairs {
+    /// Samples beyond the largest half float, clamped to it.
+    pub half_clamped: u64,
+    /// Samples that were not finite, replaced by 0.
+    pub nonfinite_replaced: u64,
+}
+
+/// Writes a frame whole or not at all: to a temporary file in the same folder, then renamed. `view` and `depth` concern
+/// PNG only. Equal input gives equal bytes. Runs on the calling thread; write several frames at once to use more.
+///
+/// # Panics
+/// If the layers differ in size.
+pub fn write_frame(
+    path: &Path,
+    format: FrameFormat,
+    frame: &Frame<'_>,
+    view: &View,
+    depth: PngDepth,
+) -> Result<Repairs> {
+    match format {
+        FrameFormat::Exr => exr::write(path, frame),
+        FrameFormat::Png => {
+            let beauty = frame.background.plus(frame.caustic);
+            let nonfinite =
+                beauty.pixels.iter().flat_map(|p| p.to_array()).filter(|v| !v.is_finite()).count();
+            png::write(path, &view.apply(&beauty), depth)?;
+            Ok(Repairs { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
+        }
+    }
+}

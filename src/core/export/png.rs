@@ -1,0 +1,67 @@
+//! PNG, 8 or 16 bit, with the sRGB chunk: for looking, not for compositing.
+
+use std::io;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::atomic;
+use crate::Result;
+use crate::render::image::Image;
+
+/// Bits per channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum PngDepth {
+    /// 256 steps, dithered.
+    #[default]
+    #[serde(rename = "8")]
+    Eight,
+    /// 65536 steps.
+    #[serde(rename = "16")]
+    Sixteen,
+}
+
+/// Writes screen values (0..=1, already through the view transform), rounded with a dither that hides the steps of
+/// smooth gradients. The dither depends on the place alone: it does not flicker, and grey stays grey.
+pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
+    let (bits, bytes) = match depth {
+        PngDepth::Eight => (png::BitDepth::Eight, quantize(encoded, 255.0, |v, out| out.push(v as u8))),
+        PngDepth::Sixteen => {
+            let push = |v: u32, out: &mut Vec<u8>| out.extend_from_slice(&(v as u16).to_be_bytes());
+            (png::BitDepth::Sixteen, quantize(encoded, 65_535.0, push))
+        }
+    };
+    atomic::write(path, |writer| {
+        let mut encoder = png::Encoder::new(writer, encoded.width as u32, encoded.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(bits);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        encoder.set_compression(png::Compression::Fast);
+        let mut writer = encoder.write_header().map_err(io::Error::other)?;
+        writer.write_image_data(&bytes).map_err(io::Error::other)?;
+        writer.finish().map_err(io::Error::other)
+    })
+}
+
+fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(image.pixels.len() * 6);
+    for (y, row) in image.pixels.chunks_exact(image.width.max(1)).enumerate() {
+        for (x, pixel) in row.iter().enumerate() {
+            let lift = dither(x, y);
+            for value in pixel.to_array() {
+                // A whole value stays what it is: the lift is below 1. NaN becomes 0.
+                push((value.clamp(0.0, 1.0) * most + lift) as u32, &mut bytes);
+            }
+        }
+    }
+    bytes
+}
+
+/// A threshold in (0, 1), evenly spread over any neighbourhood: the R2 sequence folded to a triangle wave (Roberts
+/// 2018, *The unreasonable effectiveness of quasirandom sequences*).
+fn dither(x: usize, y: usize) -> f32 {
+    let v = (x as f64 * 0.754_877_666_246_693 + y as f64 * 0.569_840_290_998_053).fract();
+    let triangle = if v < 0.5 { 2.0 * v } else { 2.0 - 2.0 * v };
+    (triangle * 0.998 + 0.001) as f32
+}

@@ -1,0 +1,194 @@
+//! The picture without caustics, path traced once.
+//!
+//! Direct light with a shadow ray to every light, glass and mirrors as the camera sees them, the sky, and a few
+//! diffuse interreflections. Shadows of glass stay dark: a shadow ray stops at glass, and a path that went from a matt
+//! surface over glass or a mirror to a light is left out, because the caustic photons bring that very light. The sky emits no
+//! photons, so its light does come through glass.
+//!
+//! Pixels that are still noisy after the first samples get more, up to sixteen times as many.
+
+use glam::{Vec2, Vec3, vec2};
+use rayon::prelude::*;
+
+use super::image::Image;
+use super::sampler::{Sampler, tent};
+use super::settings::RenderSettings;
+use crate::math::rng::{Purpose, Stream};
+use crate::scene::material::fresnel::toward;
+use crate::scene::material::{Beam, Material};
+use crate::scene::{Hit, Media, Ray, Scene};
+use crate::{Progress, Result};
+
+/// Times that light goes from one matt surface to another.
+const BOUNCES: u32 = 3;
+/// Surfaces after which a path is given up.
+const MAX_SURFACES: usize = 32;
+/// Below this throughput a path goes on only by chance.
+const FAINT: f32 = 0.1;
+/// Largest number of samples of a noisy pixel, in units of the setting.
+const MOST: u32 = 16;
+/// The standard error at which a pixel is good, as a share of its brightness and half that of the picture.
+const TOLERANCE: f32 = 0.02;
+
+/// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
+pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
+    let (width, height) = (settings.width as usize, settings.height as usize);
+    let paths = Paths { scene, media: scene.media_at(scene.camera().position), width, height };
+    let base = settings.background_samples;
+    progress.begin("background", 2 * height as u64);
+    let mut pixels: Vec<Pixel> = (0..width * height)
+        .map(|i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64)))
+        .collect();
+    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(&Pixel) -> bool + Sync)| {
+        pixels.par_chunks_mut(width).enumerate().try_for_each(|(y, row)| -> Result<()> {
+            for (x, pixel) in row.iter_mut().enumerate() {
+                progress.check()?;
+                while wanted(pixel) {
+                    (0..base).for_each(|_| paths.sample(x, y, pixel));
+                }
+            }
+            progress.advance(1);
+            Ok(())
+        })
+    };
+    trace(&mut pixels, &|pixel| pixel.count == 0)?;
+    let brightness = pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>() / pixels.len() as f64;
+    let floor = 0.5 * brightness as f32;
+    trace(&mut pixels, &|pixel| pixel.count < MOST * base && pixel.error() > TOLERANCE * (pixel.luminance() + floor))?;
+    Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
+}
+
+/// Sums of the samples of a pixel.
+struct Pixel {
+    rng: Stream,
+    sampler: Sampler,
+    sum: Vec3,
+    /// Sum of squared luminance.
+    square: f32,
+    count: u32,
+}
+
+impl Pixel {
+    fn new(mut rng: Stream) -> Self {
+        let sampler = Sampler::new(rng.u32());
+        Self { rng, sampler, sum: Vec3::ZERO, square: 0.0, count: 0 }
+    }
+
+    fn add(&mut self, value: Vec3) {
+        self.sum += value;
+        self.square += luminance(value).powi(2);
+        self.count += 1;
+    }
+
+    fn mean(&self) -> Vec3 {
+        self.sum / self.count.max(1) as f32
+    }
+
+    fn luminance(&self) -> f32 {
+        luminance(self.mean())
+    }
+
+    /// Standard error of the luminance if the samples were independent; they are spread better than that.
+    fn error(&self) -> f32 {
+        let n = self.count.max(2) as f32;
+        let variance = (self.square / n - self.luminance().powi(2)).max(0.0);
+        (variance / (n - 1.0)).sqrt()
+    }
+}
+
+/// Luminance of linear Rec.709.
+fn luminance(c: Vec3) -> f32 {
+    c.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// The path tracer.
+struct Paths<'a> {
+    scene: &'a Scene,
+    media: Media,
+    width: usize,
+    height: usize,
+}
+
+impl Paths<'_> {
+    /// One more path through a pixel.
+    fn sample(&self, x: usize, y: usize, pixel: &mut Pixel) {
+        let index = pixel.count;
+        let size = vec2(self.width as f32, self.height as f32);
+        let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(pixel.sampler.pair(index, 0));
+        let place: Vec2 = at / size * 2.0 - 1.0;
+        let ray = self.scene.camera().ray(place.x, -place.y, size.x / size.y);
+        let radiance = self.radiance(ray, index, pixel.sampler, &mut pixel.rng);
+        pixel.add(if radiance.is_finite() { radiance } else { Vec3::ZERO });
+    }
+
+    /// The light that comes along the ray from its other end.
+    fn radiance(&self, mut ray: Ray, index: u32, sampler: Sampler, rng: &mut Stream) -> Vec3 {
+        let scene = self.scene;
+        let mut beam = Beam::new(Vec3::ONE, self.media);
+        let mut radiance = Vec3::ZERO;
+        let mut bounces = 0;
+        for _ in 0..MAX_SURFACES {
+            let hit = scene.intersect(&ray);
+            if bounces == 0 {
+                // Lights stand in nobody's way: what lies behind them is added, too.
+                radiance += beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
+            }
+            let Some(hit) = hit else {
+                return radiance + beam.weight * scene.environment().radiance(ray.direction);
+            };
+            beam.travel(scene.meshes(), hit.t);
+            let material = scene.material(hit.surface);
+            let next = if let Material::Diffuse(diffuse) = material {
+                beam.weight *= Vec3::from(diffuse.albedo);
+                let (geometric, normal) = toward(&hit, ray.direction);
+                radiance += beam.weight * self.direct(&hit, geometric, normal, index, bounces, sampler);
+                let next = cosine_direction(normal, sampler.pair(index, 1 + bounces));
+                bounces += 1;
+                (bounces <= BOUNCES && next.dot(geometric) > 0.0).then_some(next)
+            } else {
+                material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng)
+            };
+            let Some(next) = next else { return radiance };
+            let strength = beam.weight.max_element();
+            if strength < FAINT {
+                if rng.f32() * FAINT >= strength {
+                    return radiance;
+                }
+                beam.weight *= FAINT / strength;
+            }
+            ray = Ray::leaving(&hit, next);
+        }
+        radiance
+    }
+
+    /// Radiance of the lights with a size that the ray meets before `distance`.
+    fn lights_along(&self, ray: &Ray, distance: f32) -> Vec3 {
+        let met = self.scene.lights().iter().filter_map(|light| light.intersect(ray));
+        met.filter(|(t, _)| *t < distance).map(|(_, radiance)| radiance).sum()
+    }
+
+    /// What a white matt surface sends on of the light that comes straight from the lights.
+    fn direct(&self, hit: &Hit, geometric: Vec3, normal: Vec3, index: u32, bounce: u32, sampler: Sampler) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for (i, light) in self.scene.lights().iter().enumerate() {
+            let pair = (i as u32 + 1) * 16 + bounce;
+            let Some(lit) = light.illuminate(hit.point, sampler.pair(index, pair)) else { continue };
+            let cosine = lit.direction.dot(normal);
+            if cosine <= 0.0 || lit.direction.dot(geometric) <= 0.0 {
+                continue;
+            }
+            if !self.scene.occluded(&Ray::leaving(hit, lit.direction), lit.distance) {
+                sum += lit.irradiance * cosine;
+            }
+        }
+        sum / std::f32::consts::PI
+    }
+}
+
+/// A direction around `normal` in proportion to the cosine.
+fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
+    let (x, y) = normal.any_orthonormal_pair();
+    let (sin, cos) = (std::f32::consts::TAU * u[0]).sin_cos();
+    let radius = u[1].sqrt();
+    (x * (radius * cos) + y * (radius * sin) + normal * (1.0 - u[1]).max(0.0).sqrt()).normalize()
+}

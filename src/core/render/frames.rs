@@ -1,0 +1,112 @@
+//! The light of all frames, gathered pass by pass, in a scratch file: memory grows with the pass, not with the number
+//! of frames.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use glam::Vec4;
+
+use super::texture::{ReceiverTexture, TextureLayout};
+use crate::{Error, Result};
+
+/// Sums of textures, one per frame. The file has no name and goes with the process, however it ends.
+#[derive(Debug)]
+pub struct FrameStore {
+    layout: TextureLayout,
+    folder: PathBuf,
+    inner: Mutex<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    file: File,
+    /// Passes added to each frame.
+    passes: Vec<u32>,
+}
+
+impl FrameStore {
+    /// A store for `frames` frames in an unnamed file of `folder`, which must have room for [`Self::bytes`].
+    pub fn new(layout: TextureLayout, frames: usize, folder: &Path) -> Result<Self> {
+        let file = tempfile::tempfile_in(folder).map_err(Error::io("create a scratch file in", folder))?;
+        let inner = Mutex::new(Inner { file, passes: vec![0; frames] });
+        Ok(Self { layout, folder: folder.to_owned(), inner })
+    }
+
+    /// The room it takes once every frame has light: 12 bytes per texel and frame.
+    pub fn bytes(layout: &TextureLayout, frames: usize) -> u64 {
+        frame_bytes(layout) * frames as u64
+    }
+
+    /// Adds the light of one more pass to a frame. Frames may come in any order and from any thread; the passes of one
+    /// frame are summed in the order of the calls.
+    ///
+    /// # Panics
+    /// If the frame does not exist or the texture has another layout.
+    pub fn add(&self, frame: usize, pass: &ReceiverTexture) -> Result<()> {
+        assert_eq!(*pass.layout(), self.layout, "one layout for all textures");
+        let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let fail = Error::io("write the scratch file in", &self.folder);
+        if inner.passes[frame] == 0 {
+            self.write(&mut inner.file, frame, pass.texels()).map_err(fail)?;
+        } else {
+            let mut sum = ReceiverTexture::new(self.layout);
+            self.read(&mut inner.file, frame, sum.texels_mut()).map_err(Error::io("read", &self.folder))?;
+            sum.texels_mut().iter_mut().zip(pass.texels()).for_each(|(sum, texel)| *sum += texel);
+            self.write(&mut inner.file, frame, sum.texels()).map_err(fail)?;
+        }
+        inner.passes[frame] += 1;
+        Ok(())
+    }
+
+    /// The mean over the passes of a frame so far, in watts per texel, and their number; black before the first.
+    ///
+    /// # Panics
+    /// If the frame does not exist.
+    pub fn mean(&self, frame: usize) -> Result<(ReceiverTexture, usize)> {
+        let mut texture = ReceiverTexture::new(self.layout);
+        let passes = {
+            let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+            if inner.passes[frame] > 0 {
+                let fail = Error::io("read the scratch file in", &self.folder);
+                self.read(&mut inner.file, frame, texture.texels_mut()).map_err(fail)?;
+            }
+            inner.passes[frame]
+        };
+        texture.scale(1.0 / passes.max(1) as f32);
+        Ok((texture, passes as usize))
+    }
+
+    fn write(&self, file: &mut File, frame: usize, texels: &[Vec4]) -> io::Result<()> {
+        file.seek(SeekFrom::Start(frame_bytes(&self.layout) * frame as u64))?;
+        let mut packed = Vec::with_capacity(PACK);
+        for texels in texels.chunks(PACK) {
+            packed.clear();
+            packed.extend(texels.iter().map(|t| [t.x, t.y, t.z]));
+            file.write_all(bytemuck::cast_slice(&packed))?;
+        }
+        Ok(())
+    }
+
+    fn read(&self, file: &mut File, frame: usize, texels: &mut [Vec4]) -> io::Result<()> {
+        file.seek(SeekFrom::Start(frame_bytes(&self.layout) * frame as u64))?;
+        let mut packed = vec![[0.0_f32; 3]; PACK];
+        for texels in texels.chunks_mut(PACK) {
+            let packed = &mut packed[..texels.len()];
+            file.read_exact(bytemuck::cast_slice_mut(packed))?;
+            texels
+                .iter_mut()
+                .zip(packed)
+                .for_each(|(texel, &mut [r, g, b])| *texel = Vec4::new(r, g, b, 0.0));
+        }
+        Ok(())
+    }
+}
+
+/// Texels per call of the operating system.
+const PACK: usize = 1 << 16;
+
+fn frame_bytes(layout: &TextureLayout) -> u64 {
+    (layout.len() * size_of::<[f32; 3]>()) as u64
+}

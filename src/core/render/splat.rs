@@ -1,0 +1,148 @@
+//! Counting photons into the texture: a bilinear histogram.
+//!
+//! The photons are first sorted by bands of rows, in their order, and each band is then summed by one thread: every
+//! texel sees its photons in the same order whatever the number of threads, and a band stays in the cache.
+
+use glam::{DVec3, Vec2, Vec3, Vec4};
+use rayon::prelude::*;
+
+use super::texture::{ReceiverTexture, TextureLayout};
+
+/// Rows summed by one thread; with 1024 texels per row a band takes 512 KiB, a second-level cache.
+const BAND: usize = 32;
+/// Photons sorted by one thread.
+const CHUNK: usize = 1 << 16;
+
+/// What did not land on the texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outside {
+    /// Photons beyond the margin, or without a finite place or flux.
+    pub photons: usize,
+    /// Their flux in watts, as far as it is finite.
+    pub flux: DVec3,
+}
+
+/// Buffers of the sort, kept from call to call.
+#[derive(Debug, Default)]
+pub struct Splatter {
+    chunks: Vec<Chunk>,
+    seams: Vec<Vec4>,
+}
+
+#[derive(Debug, Default)]
+struct Chunk {
+    /// Photons of the chunk by band, in their order within each.
+    sorted: Vec<Landed>,
+    /// Where each band begins in `sorted`, and the end.
+    starts: Vec<usize>,
+    outside: Outside,
+}
+
+/// A photon in texel coordinates.
+#[derive(Clone, Copy, Debug, Default)]
+struct Landed {
+    x: f32,
+    y: f32,
+    flux: Vec3,
+}
+
+impl Splatter {
+    /// Adds photons at plane `positions` with RGB `flux` (watts) to the texture, each spread over the four texels
+    /// around it. The same photons give the same bytes for any number of threads.
+    ///
+    /// # Panics
+    /// If the columns differ in length.
+    pub fn splat(&mut self, positions: &[Vec2], flux: &[Vec3], texture: &mut ReceiverTexture) -> Outside {
+        assert_eq!(positions.len(), flux.len(), "one flux per photon");
+        let layout = *texture.layout();
+        let chunks = positions.len().div_ceil(CHUNK);
+        if self.chunks.len() < chunks {
+            self.chunks.resize_with(chunks, Chunk::default);
+        }
+        self.chunks[..chunks]
+            .par_iter_mut()
+            .zip(positions.par_chunks(CHUNK).zip(flux.par_chunks(CHUNK)))
+            .for_each(|(chunk, (positions, flux))| chunk.sort(&layout, positions, flux));
+        let sorted = &self.chunks[..chunks];
+        // The upper texels of a band's last row belong to the next band: they go to a seam of their own first.
+        let columns = layout.columns;
+        self.seams.clear();
+        self.seams.resize(layout.rows.div_ceil(BAND) * columns, Vec4::ZERO);
+        texture
+            .texels_mut()
+            .par_chunks_mut(BAND * columns)
+            .zip(self.seams.par_chunks_mut(columns))
+            .enumerate()
+            .for_each(|(band, (rows, seam))| {
+                for chunk in sorted {
+                    for photon in &chunk.sorted[chunk.starts[band]..chunk.starts[band + 1]] {
+                        photon.add(columns, band * BAND, rows, seam);
+                    }
+                }
+            });
+        for (band, seam) in self.seams.chunks_exact(columns).enumerate() {
+            let first = (band + 1) * BAND * columns;
+            let above = texture.texels_mut().iter_mut().skip(first).take(columns);
+            above.zip(seam).for_each(|(texel, &flux)| *texel += flux);
+        }
+        sorted.iter().fold(Outside::default(), |sum, chunk| Outside {
+            photons: sum.photons + chunk.outside.photons,
+            flux: sum.flux + chunk.outside.flux,
+        })
+    }
+}
+
+impl Chunk {
+    /// Counting sort by band.
+    fn sort(&mut self, layout: &TextureLayout, positions: &[Vec2], flux: &[Vec3]) {
+        let bands = layout.rows.div_ceil(BAND);
+        let limit = Vec2::new((layout.columns - 1) as f32, (layout.rows - 1) as f32);
+        let texel = |p: Vec2| layout.texel_from_plane(p);
+        // Written so that NaN is outside, too.
+        let inside =
+            |p: Vec2, f: Vec3| p.x >= 0.0 && p.y >= 0.0 && p.x < limit.x && p.y < limit.y && f.is_finite();
+        self.outside = Outside::default();
+        self.starts.clear();
+        self.starts.resize(bands + 1, 0);
+        for (&position, &flux) in positions.iter().zip(flux) {
+            let p = texel(position);
+            if inside(p, flux) {
+                self.starts[p.y as usize / BAND + 1] += 1;
+            } else {
+                self.outside.photons += 1;
+                self.outside.flux += if flux.is_finite() { flux.as_dvec3() } else { DVec3::ZERO };
+            }
+        }
+        for band in 0..bands {
+            self.starts[band + 1] += self.starts[band];
+        }
+        self.sorted.resize(self.starts[bands], Landed::default());
+        let mut next = self.starts.clone();
+        for (&position, &flux) in positions.iter().zip(flux) {
+            let p = texel(position);
+            if inside(p, flux) {
+                let slot = &mut next[p.y as usize / BAND];
+                self.sorted[*slot] = Landed { x: p.x, y: p.y, flux };
+                *slot += 1;
+            }
+        }
+    }
+}
+
+impl Landed {
+    /// Adds the photon to the rows of its band, which begin at row `first`, and to the seam above them.
+    fn add(&self, columns: usize, first: usize, rows: &mut [Vec4], seam: &mut [Vec4]) {
+        let (column, row) = (self.x as usize, self.y as usize);
+        let (fx, fy) = (self.x - column as f32, self.y - row as f32);
+        let flux = self.flux.extend(0.0);
+        let (lower, upper) = (flux * (1.0 - fy), flux * fy);
+        let row = row - first;
+        let pair = &mut rows[row * columns + column..][..2];
+        pair[0] += lower * (1.0 - fx);
+        pair[1] += lower * fx;
+        let pair =
+            if row + 1 < BAND { &mut rows[(row + 1) * columns + column..] } else { &mut seam[column..] };
+        pair[0] += upper * (1.0 - fx);
+        pair[1] += upper * fx;
+    }
+}

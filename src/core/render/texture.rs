@@ -1,0 +1,122 @@
+//! The texture on the receiving plane into which photons are counted.
+//!
+//! Texels are square. The texture covers the receiver rectangle and a margin around it, so that light which
+//! flows a little over the edge still lights what lies inside. A photon beyond the margin is counted, never moved
+//! onto the border.
+
+use glam::{DVec3, Vec2, Vec3, Vec4, Vec4Swizzles};
+use rayon::prelude::*;
+
+/// Where the texels lie on the plane; row 0 is at the bottom (smallest plane y).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureLayout {
+    /// Texels per row.
+    pub columns: usize,
+    /// Rows.
+    pub rows: usize,
+    /// The lower left corner of texel (0, 0), in plane units.
+    pub origin: Vec2,
+    /// Side of a texel, in plane units.
+    pub texel: f32,
+}
+
+impl TextureLayout {
+    /// `resolution` texels along the longer side of a receiver of `extent`, and at least `margin` plane units more on
+    /// every side.
+    pub fn new(extent: Vec2, resolution: usize, margin: f32) -> Self {
+        let texel = extent.max_element() / resolution.max(1) as f32;
+        let border = (margin.max(0.0) / texel).ceil() + 1.0;
+        let size = (extent / texel - 1e-3).ceil() + 2.0 * border;
+        Self { columns: size.x as usize, rows: size.y as usize, origin: Vec2::splat(-border * texel), texel }
+    }
+
+    /// Number of texels.
+    pub fn len(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Whether there is no texel.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The plane point in texel coordinates: whole numbers are texel centres.
+    pub fn texel_from_plane(&self, point: Vec2) -> Vec2 {
+        (point - self.origin) / self.texel - 0.5
+    }
+
+    /// The centre of a texel on the plane.
+    pub fn plane_from_texel(&self, column: usize, row: usize) -> Vec2 {
+        self.origin + self.texel * (Vec2::new(column as f32, row as f32) + 0.5)
+    }
+
+    /// The four texels around a point and their bilinear weights, which sum to 1; none outside the texture.
+    pub fn bilinear(&self, point: Vec2) -> Option<[(usize, f32); 4]> {
+        let p = self.texel_from_plane(point);
+        // Written so that NaN is outside, too.
+        let inside =
+            p.x >= 0.0 && p.y >= 0.0 && p.x < (self.columns - 1) as f32 && p.y < (self.rows - 1) as f32;
+        if !inside {
+            return None;
+        }
+        let (column, row) = (p.x as usize, p.y as usize);
+        let (fx, fy) = (p.x - column as f32, p.y - row as f32);
+        let first = row * self.columns + column;
+        Some([
+            (first, (1.0 - fx) * (1.0 - fy)),
+            (first + 1, fx * (1.0 - fy)),
+            (first + self.columns, (1.0 - fx) * fy),
+            (first + self.columns + 1, fx * fy),
+        ])
+    }
+}
+
+/// RGB flux per texel, f32. The fourth lane is always zero: four lanes are one vector register.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReceiverTexture {
+    layout: TextureLayout,
+    texels: Vec<Vec4>,
+}
+
+impl ReceiverTexture {
+    /// A texture without light.
+    pub fn new(layout: TextureLayout) -> Self {
+        Self { layout, texels: vec![Vec4::ZERO; layout.len()] }
+    }
+
+    /// Where the texels lie.
+    pub fn layout(&self) -> &TextureLayout {
+        &self.layout
+    }
+
+    /// Flux per texel in watts, row by row from the bottom.
+    pub fn texels(&self) -> &[Vec4] {
+        &self.texels
+    }
+
+    /// As [`Self::texels`], to be written.
+    pub fn texels_mut(&mut self) -> &mut [Vec4] {
+        &mut self.texels
+    }
+
+    /// The flux of all texels, watts, summed in f64.
+    pub fn total(&self) -> DVec3 {
+        self.texels.iter().map(|t| t.xyz().as_dvec3()).sum()
+    }
+
+    /// Takes all light out.
+    pub fn clear(&mut self) {
+        self.texels.fill(Vec4::ZERO);
+    }
+
+    /// Multiplies every texel.
+    pub fn scale(&mut self, factor: f32) {
+        self.texels.par_iter_mut().for_each(|t| *t *= factor);
+    }
+
+    /// The value at a point of the plane, bilinear between texel centres; zero outside the texture.
+    pub fn sample(&self, point: Vec2) -> Vec3 {
+        let taps = self.layout.bilinear(point);
+        taps.map_or(Vec3::ZERO, |taps| taps.iter().map(|&(i, w)| self.texels[i].xyz() * w).sum())
+    }
+}

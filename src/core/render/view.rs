@@ -1,0 +1,124 @@
+//! From linear light to what a screen shows: exposure and view transform.
+//!
+//! *agx* is Troy Sobotka's AgX in the polynomial fit of Benjamin Wrensch (*Minimal AgX implementation*, iolite-engine.com,
+//! 2024): bright colours bleach towards white as on film, instead of clipping to a flat tone. The rows of its
+//! matrix are normalised here, so that grey stays grey exactly, and its curve is stretched by 0.4 % to reach black
+//! and white. Its values are meant for a display with the exponent 2.2 and are written as they are, as Blender does.
+//! *standard* is the sRGB curve of IEC 61966-2-1: colours as they are, clipped at 1.
+
+use glam::{Mat3, Vec3};
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::image::Image;
+use crate::{Error, Result};
+
+/// How light becomes screen colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ViewTransform {
+    /// Filmic: highlights roll off and bleach towards white.
+    #[default]
+    Agx,
+    /// The plain sRGB curve, clipped at white.
+    Standard,
+}
+
+/// How the PNG pictures show the light; the EXR files hold it unchanged.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ViewSettings {
+    /// Exposure in stops, -32 to 32: light is multiplied by 2^exposure. Default 0.
+    pub exposure: f32,
+    /// The view transform: "agx" or "standard". Default "agx".
+    pub transform: ViewTransform,
+}
+
+impl ViewSettings {
+    /// Refuses an exposure that is not within -32 to 32 stops, naming `place.exposure`.
+    pub fn check(&self, place: &str) -> Result<()> {
+        if self.exposure.is_finite() && self.exposure.abs() <= 32.0 {
+            return Ok(());
+        }
+        let what = format!("is {} stops, but must lie between -32 and 32", self.exposure);
+        Err(Error::value(format!("{place}.exposure"), what))
+    }
+
+    /// The transform, ready for many colours.
+    pub fn view(&self) -> View {
+        View { gain: self.exposure.exp2(), transform: self.transform, agx: Agx::new() }
+    }
+}
+
+/// A resolved view transform.
+#[derive(Clone, Debug)]
+pub struct View {
+    gain: f32,
+    transform: ViewTransform,
+    agx: Agx,
+}
+
+impl View {
+    /// Screen values in 0..=1 (encoded, not linear) of a linear colour; what is negative or not a number is black.
+    pub fn encode(&self, linear: Vec3) -> Vec3 {
+        // f32::max drops NaN.
+        let c = Vec3::from(linear.to_array().map(|v| (v * self.gain).max(0.0).min(f32::MAX)));
+        match self.transform {
+            ViewTransform::Agx => self.agx.encode(c),
+            ViewTransform::Standard => Vec3::from(c.to_array().map(srgb_from_linear)),
+        }
+    }
+
+    /// A whole picture in screen values.
+    pub fn apply(&self, image: &Image) -> Image {
+        let pixels = image.pixels.par_iter().map(|&c| self.encode(c)).collect();
+        Image { width: image.width, height: image.height, pixels }
+    }
+}
+
+/// The sRGB curve: screen value of a linear one, clipped to 0..=1.
+fn srgb_from_linear(v: f32) -> f32 {
+    let v = v.min(1.0);
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[derive(Clone, Debug)]
+struct Agx {
+    inset: Mat3,
+    outset: Mat3,
+}
+
+impl Agx {
+    /// Stops from black to white, around middle grey.
+    const MIN_EV: f32 = -12.473_93;
+    const MAX_EV: f32 = 4.026_069;
+
+    fn new() -> Self {
+        let rows = [
+            Vec3::new(0.842_479_06, 0.078_433_6, 0.079_223_745),
+            Vec3::new(0.042_328_242, 0.878_468_64, 0.079_166_13),
+            Vec3::new(0.042_375_655, 0.078_433_6, 0.879_142_97),
+        ];
+        let [r, g, b] = rows.map(|row| row / row.element_sum());
+        let inset = Mat3::from_cols(r, g, b).transpose();
+        Self { inset, outset: inset.inverse() }
+    }
+
+    fn encode(&self, linear: Vec3) -> Vec3 {
+        let log =
+            |v: f32| ((v.max(1e-10).log2() - Self::MIN_EV) / (Self::MAX_EV - Self::MIN_EV)).clamp(0.0, 1.0);
+        let curved = Vec3::from((self.inset * linear).to_array().map(|v| curve(log(v))));
+        (self.outset * curved).clamp(Vec3::ZERO, Vec3::ONE)
+    }
+}
+
+/// Wrensch's fit of the AgX contrast curve, from 0 to 1.
+fn curve(x: f32) -> f32 {
+    let fit = |x: f32| {
+        let (x2, x4) = (x * x, x * x * x * x);
+        15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232
+    };
+    let (black, white) = (fit(0.0), fit(1.0));
+    (fit(x) - black) / (white - black)
+}

@@ -1,0 +1,264 @@
+//! What each pixel sees of the receiver: directly, through glass, in mirrors.
+//!
+//! Every camera sample that reaches the receiver reads the texture at one point, bilinearly. All samples of a pixel
+//! together are a short list of texels with RGB weights, and the whole picture a sparse matrix from texels to pixels: found
+//! once per camera, then a frame is one product with its texture. Light that falls from the receiver onto other matt
+//! things is left out.
+
+use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
+use rayon::prelude::*;
+
+use super::image::Image;
+use super::sampler::{Sampler, tent};
+use super::settings::RenderSettings;
+use super::texture::{ReceiverTexture, TextureLayout};
+use crate::math::rng::{Purpose, Stream};
+use crate::scene::material::{Beam, Material};
+use crate::scene::{Media, Ray, Scene, SurfaceId};
+use crate::{Progress, Result};
+
+/// A pixel whose path met glass or a mirror takes this many times the samples: which way a path goes there is left to
+/// chance.
+const SPECULAR_FACTOR: u32 = 8;
+/// Surfaces after which a path is given up.
+const MAX_SURFACES: usize = 32;
+/// A sum of weights in a pixel below which a texel is left out.
+const NEGLIGIBLE: f32 = 1e-7;
+
+/// The sparse matrix from the texels of one layout to the pixels of one picture, compressed by rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visible {
+    width: usize,
+    height: usize,
+    layout: TextureLayout,
+    /// Where the list of each pixel begins in `taps`, and the end.
+    starts: Vec<usize>,
+    taps: Vec<Tap>,
+}
+
+/// One texel and what a pixel takes from a watt in it, as radiance [W/(sr m^2)].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Tap {
+    texel: u32,
+    weight: Vec3,
+}
+
+impl Visible {
+    /// Looks through the camera of a scene. The same seed gives the same matrix for any number of threads.
+    pub fn through_camera(
+        scene: &Scene,
+        layout: &TextureLayout,
+        settings: &RenderSettings,
+        seed: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let (width, height) = (settings.width as usize, settings.height as usize);
+        let eye = Eye { scene, media: scene.media_at(scene.camera().position), width, height };
+        let watts = texel_area(layout, scene.receiver().metres_per_plane_unit()).recip();
+        progress.begin("visible", height as u64);
+        let rows = (0..height).into_par_iter().map(|y| {
+            progress.check()?;
+            let mut row = Row::default();
+            for x in 0..width {
+                let rng = &mut Stream::new(seed, Purpose::Visible, 0, (y * width + x) as u64);
+                let sampler = Sampler::new(rng.u32());
+                let mut samples = settings.camera_samples;
+                let mut index = 0;
+                while index < samples {
+                    let (seen, specular) = eye.look(x, y, sampler.pair(index, 0), rng);
+                    row.add(layout, seen);
+                    index += 1;
+                    if specular && samples == settings.camera_samples {
+                        samples *= SPECULAR_FACTOR;
+                    }
+                }
+                row.finish_pixel(watts / samples as f32);
+            }
+            progress.advance(1);
+            Ok(row)
+        });
+        Ok(Self::from_rows(width, height, layout, rows.collect::<Result<Vec<_>>>()?))
+    }
+
+    /// The receiver alone, seen straight on, whole and in the middle of the picture, as white paper of one metre by plane
+    /// unit: for projects without a scene.
+    pub fn flat(extent: Vec2, layout: &TextureLayout, settings: &RenderSettings) -> Self {
+        const WHITE: f32 = 1.0 / std::f32::consts::PI;
+        let (width, height) = (settings.width as usize, settings.height as usize);
+        let pixel = flat_pixel(extent, settings);
+        let samples = settings.camera_samples;
+        let rows = (0..height).into_par_iter().map(|y| {
+            let mut row = Row::default();
+            for x in 0..width {
+                let sampler = Sampler::new((y * width + x) as u32);
+                for index in 0..samples {
+                    let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(sampler.pair(index, 0));
+                    let from_centre = at - vec2(width as f32, height as f32) * 0.5;
+                    let plane = extent * 0.5 + vec2(from_centre.x, -from_centre.y) * pixel;
+                    let inside = plane.cmpge(Vec2::ZERO).all() && plane.cmple(extent).all();
+                    row.add(layout, inside.then_some((plane, Vec3::splat(WHITE))));
+                }
+                row.finish_pixel(1.0 / (texel_area(layout, 1.0) * samples as f32));
+            }
+            row
+        });
+        Self::from_rows(width, height, layout, rows.collect())
+    }
+
+    /// The picture of a texture: the radiance that each pixel receives from it, for flux in watts per texel.
+    ///
+    /// # Panics
+    /// If the texture has another layout.
+    pub fn gather(&self, texture: &ReceiverTexture) -> Image {
+        assert_eq!(*texture.layout(), self.layout, "the layout that the camera was looked through for");
+        let texels = texture.texels();
+        let mut image = Image::new(self.width, self.height);
+        image.pixels.par_chunks_mut(self.width).enumerate().for_each(|(y, row)| {
+            for (x, pixel) in row.iter_mut().enumerate() {
+                let pixel_index = y * self.width + x;
+                let taps = &self.taps[self.starts[pixel_index]..self.starts[pixel_index + 1]];
+                *pixel = taps.iter().map(|tap| tap.weight * texels[tap.texel as usize].xyz()).sum();
+            }
+        });
+        image
+    }
+
+    /// Memory that it holds, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.taps.as_slice()) + size_of_val(self.starts.as_slice())
+    }
+
+    fn from_rows(width: usize, height: usize, layout: &TextureLayout, rows: Vec<Row>) -> Self {
+        let mut starts = Vec::with_capacity(width * height + 1);
+        let mut taps = Vec::with_capacity(rows.iter().map(|row| row.taps.len()).sum());
+        starts.push(0);
+        for row in rows {
+            starts.extend(row.ends.iter().map(|end| taps.len() + end));
+            taps.extend_from_slice(&row.taps);
+        }
+        Self { width, height, layout: *layout, starts, taps }
+    }
+}
+
+/// The layout of the texture for a camera, or for the flat view without a scene: as fine as the sharper tenth of the
+/// picture shows it or as the kernel of the last pass can draw, whichever is coarser; with a margin as wide as the
+/// kernel of the first. `radius` holds the two radii, first and last, in plane units.
+pub fn layout_for(
+    scene: Option<&Scene>,
+    extent: Vec2,
+    settings: &RenderSettings,
+    radius: (f32, f32),
+) -> TextureLayout {
+    let pixel = match scene {
+        Some(scene) => camera_pixel(scene, settings).unwrap_or(1.0),
+        None => flat_pixel(extent, settings),
+    };
+    // The kernel's standard deviation is a third of its radius.
+    let texel = pixel.max(radius.1 / 4.0).max(1.0 / settings.max_texels as f32).min(1.0 / 64.0);
+    TextureLayout::new(extent, (1.0 / texel).ceil() as usize, radius.0)
+}
+
+/// Plane units per pixel of the flat view.
+fn flat_pixel(extent: Vec2, settings: &RenderSettings) -> f32 {
+    (extent.x / settings.width as f32).max(extent.y / settings.height as f32)
+}
+
+/// The plane units that one pixel covers in the sharper tenth of what the camera sees of the receiver directly.
+fn camera_pixel(scene: &Scene, settings: &RenderSettings) -> Option<f32> {
+    const PROBES: usize = 64;
+    let (width, height) = (settings.width as usize, settings.height as usize);
+    let eye = Eye { scene, media: Media::default(), width, height };
+    let place = |x: f32, y: f32| {
+        let hit = scene.intersect(&eye.ray(vec2(x, y)))?;
+        (hit.surface == SurfaceId::Receiver).then(|| scene.receiver().plane_from_world(hit.point))
+    };
+    let mut sizes: Vec<f32> = (0..PROBES * PROBES)
+        .filter_map(|i| {
+            let x = ((i % PROBES) as f32 + 0.5) / PROBES as f32 * width as f32;
+            let y = ((i / PROBES) as f32 + 0.5) / PROBES as f32 * height as f32;
+            let middle = place(x, y)?;
+            Some(middle.distance(place(x + 1.0, y)?).min(middle.distance(place(x, y + 1.0)?)))
+        })
+        .collect();
+    sizes.sort_by(f32::total_cmp);
+    sizes.get(sizes.len() / 10).copied()
+}
+
+fn texel_area(layout: &TextureLayout, metres: f32) -> f32 {
+    (layout.texel * metres).powi(2)
+}
+
+/// The camera with the picture in front of it.
+struct Eye<'a> {
+    scene: &'a Scene,
+    media: Media,
+    width: usize,
+    height: usize,
+}
+
+impl Eye<'_> {
+    /// The ray through a place of the picture, in pixels from its upper left corner.
+    fn ray(&self, at: Vec2) -> Ray {
+        let size = vec2(self.width as f32, self.height as f32);
+        let place = at / size * 2.0 - 1.0;
+        self.scene.camera().ray(place.x, -place.y, size.x / size.y)
+    }
+
+    /// Follows one sample of a pixel: where it meets the plane of the receiver, with its throughput, and whether it met
+    /// something specular.
+    fn look(&self, x: usize, y: usize, u: [f32; 2], rng: &mut Stream) -> (Option<(Vec2, Vec3)>, bool) {
+        let scene = self.scene;
+        let mut ray = self.ray(vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(u));
+        let mut beam = Beam::new(Vec3::ONE, self.media);
+        for surface in 0..MAX_SURFACES {
+            let Some(hit) = scene.intersect(&ray) else { return (None, surface > 0) };
+            beam.travel(scene.meshes(), hit.t);
+            let material = scene.material(hit.surface);
+            if let Material::Diffuse(diffuse) = material {
+                let lit_side = ray.direction.dot(hit.geometric_normal) < 0.0;
+                let seen = (!matches!(hit.surface, SurfaceId::Mesh(_)) && lit_side).then(|| {
+                    let reflected = Vec3::from(diffuse.albedo) / std::f32::consts::PI;
+                    (scene.receiver().plane_from_world(hit.point), beam.weight * reflected)
+                });
+                return (seen, surface > 0);
+            }
+            let Some(next) = material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng) else {
+                return (None, surface > 0);
+            };
+            ray = Ray::leaving(&hit, next);
+        }
+        (None, true)
+    }
+}
+
+/// The pixels of one row of the picture, while they are made.
+#[derive(Debug, Default)]
+struct Row {
+    ends: Vec<usize>,
+    taps: Vec<Tap>,
+    /// Taps of the samples of the current pixel.
+    loose: Vec<Tap>,
+}
+
+impl Row {
+    /// Adds what one sample saw to the current pixel.
+    fn add(&mut self, layout: &TextureLayout, seen: Option<(Vec2, Vec3)>) {
+        let Some((point, weight)) = seen else { return };
+        for (texel, share) in layout.bilinear(point).into_iter().flatten() {
+            self.loose.push(Tap { texel: texel as u32, weight: weight * share });
+        }
+    }
+
+    /// Merges the taps of the current pixel, multiplies them by `scale`, and goes on to the next.
+    fn finish_pixel(&mut self, scale: f32) {
+        self.loose.sort_by_key(|tap| tap.texel);
+        for same in self.loose.chunk_by(|a, b| a.texel == b.texel) {
+            let weight: Vec3 = same.iter().map(|tap| tap.weight).sum();
+            if weight.max_element() > NEGLIGIBLE {
+                self.taps.push(Tap { texel: same[0].texel, weight: weight * scale });
+            }
+        }
+        self.loose.clear();
+        self.ends.push(self.taps.len());
+    }
+}
