@@ -1,1 +1,4 @@
 //! The vector field (Sec. 3).
+
+pub mod field;
+pub mod fit;

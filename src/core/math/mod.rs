@@ -1,3 +1,4 @@
 //! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
 
+pub mod bspline;
 pub mod rng;
