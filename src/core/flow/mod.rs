@@ -1,1 +1,127 @@
-//! The vector field (Sec. 3).
+//! The vector field (Sec. 3): photons flow from one key frame to the next.
+//!
+//! At each time step the field is fitted to the directions in which the photons should go (`guidance`, `fit`), then
+//! carries them on (`advect`); a `fade` lets them leave it so that each arrives exactly. The fields are kept
+//! (`trajectory`), and carry the photons of all later passes.
+//!
+//! # The fade, measured
+//!
+//! TABLE
+
+pub mod fade;
+pub mod field;
+pub mod fit;
+pub mod flux;
+pub mod guidance;
+pub mod metric;
+pub mod settings;
+
+mod advect;
+mod report;
+mod trajectory;
+
+use glam::Vec2;
+
+pub use fade::Fade;
+pub use report::FlowReport;
+pub use settings::{FitKind, FlowSettings, GridSize};
+pub use trajectory::{Carrier, Fields, spatial_order};
+
+use self::advect::Swarm;
+use self::field::Grid;
+use self::fit::{Blend, FitSettings, Fitter};
+use self::report::Observer;
+use crate::{Error, Progress, Result};
+
+/// Conjugate gradients with multigrid need some ten iterations; a solve that needs this many has failed.
+const MAX_ITERATIONS: usize = 500;
+
+/// Fits the fields that carry photons from `source` to `target`, row by row, on the rectangle `extent`.
+///
+/// The fields are fitted to at most `settings.guides` photons, taken evenly from all: a field of 128 x 128 cells is determined
+/// by some 100 000. `tracks` is shown the positions of these guides at the begin of each step and at the end.
+///
+/// # Errors
+/// `Value` when there are no photons, the columns differ in length or hold a number that is not finite; `Numeric` when the
+/// solver fails or a photon is lost; `Cancelled`.
+pub fn fit_segment(
+    source: &[Vec2],
+    target: &[Vec2],
+    extent: Vec2,
+    settings: &FlowSettings,
+    progress: &Progress,
+    mut tracks: Option<&mut dyn FnMut(usize, &[Vec2])>,
+) -> Result<(Fields, FlowReport)> {
+    check_photons(source, target)?;
+    let guides = guide_rows(source.len(), settings.guides as usize);
+    let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();
+    let target: Vec<Vec2> = guides.iter().map(|&i| target[i]).collect();
+    let steps = settings.steps as usize;
+    let mut fields = Fields::new(steps, settings.fade, guidance::mean_straight(&source, &target));
+    let mut fitter = Fitter::new(fit_settings(settings, extent))?;
+    let mut swarm = Swarm::new(&source, &target, &settings.fade, fields.mean_straight());
+    let mut observer = Observer::new(&source, &target, extent);
+    let mut positions = source.clone();
+    let mut directions = guidance::guidance(&source, &target, 0.0);
+    progress.begin("flow", steps as u64);
+    for n in 0..steps {
+        let t = fields.time(n);
+        if let Some(show) = &mut tracks {
+            show(n, &positions);
+        }
+        if t < settings.fade.end() {
+            let (field, fit) = fitter.fit(&positions, &directions, progress)?;
+            observer.fitted(&field, &fit, &positions, &directions);
+            fields.push(field);
+        }
+        let step = fields.step(n);
+        swarm.advance(&step, progress)?;
+        observer.stepped(&swarm, &step, &settings.fade);
+        let end = fields.time(n + 1);
+        swarm.positions(end, &mut positions);
+        swarm.guidance(end, &mut directions);
+        progress.advance(1);
+    }
+    if let Some(show) = &mut tracks {
+        show(steps, &positions);
+    }
+    let report = observer.finish(&positions);
+    Ok((fields, report))
+}
+
+/// `count` rows of `all` at even distances; all of them where there are no more.
+fn guide_rows(all: usize, count: usize) -> Vec<usize> {
+    let count = count.min(all);
+    (0..count).map(|i| (i as u128 * all as u128 / count as u128) as usize).collect()
+}
+
+fn fit_settings(settings: &FlowSettings, extent: Vec2) -> FitSettings {
+    FitSettings {
+        grid: Grid { cells: settings.grid.cells(extent).map(|n| n as usize), extent },
+        gamma: settings.gamma.into(),
+        alpha: settings.alpha.into(),
+        blend: match settings.fit {
+            FitKind::Joint => Blend::Joint,
+            FitKind::Separate => Blend::Separate,
+        },
+        tolerance: settings.tolerance.into(),
+        max_iterations: MAX_ITERATIONS,
+    }
+}
+
+fn check_photons(source: &[Vec2], target: &[Vec2]) -> Result<()> {
+    if source.is_empty() {
+        return Err(Error::value(
+            "flow",
+            "there are no photons to move; check that light reaches the receiver",
+        ));
+    }
+    if source.len() != target.len() {
+        let what = format!("{} photons but {} targets; each photon needs one", source.len(), target.len());
+        return Err(Error::value("flow", what));
+    }
+    match source.iter().zip(target).position(|(a, b)| !(a.is_finite() && b.is_finite())) {
+        Some(row) => Err(Error::value("flow", format!("photon {row} has a position that is not finite"))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,180 @@
+//! The vector field u = J grad psi + grad phi of Eq. (1) in cubic B-splines.
+//!
+//! Both potentials are smooth functions, not samples: without phi the divergence of u is zero at every point, and
+//! without psi the curl is.
+
+use glam::{Mat2, Vec2};
+
+use crate::math::bspline::EXTRA;
+
+/// M x N cells over `[0, extent.x] x [0, extent.y]`: (M+3)(N+3) coefficients for each potential.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Grid {
+    /// Cells along x and y, M and N.
+    pub cells: [usize; 2],
+    /// Size of the rectangle in plane units; its longer side is 1.
+    pub extent: Vec2,
+}
+
+impl Grid {
+    /// Coefficients along x and y, M + 3 and N + 3.
+    pub fn nodes(&self) -> [usize; 2] {
+        self.cells.map(|cells| cells + EXTRA)
+    }
+
+    /// Width and height of a cell in plane units.
+    pub fn cell_size(&self) -> [f64; 2] {
+        [self.extent.x as f64 / self.cells[0] as f64, self.extent.y as f64 / self.cells[1] as f64]
+    }
+
+    /// The rectangle's area |D|.
+    pub fn area(&self) -> f64 {
+        self.extent.x as f64 * self.extent.y as f64
+    }
+}
+
+/// One fitted field. Its potentials carry their weights: psi stands for (1-gamma) psi of Eq. (1), phi for gamma phi.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    grid: Grid,
+    per_plane: Vec2,
+    /// psi and phi of a node side by side, node rows from y = 0 upwards.
+    coefficients: Vec<f32>,
+}
+
+impl Field {
+    /// The field that is zero everywhere.
+    pub fn zero(grid: Grid) -> Self {
+        let [nx, ny] = grid.nodes();
+        let per_plane = Vec2::new(grid.cells[0] as f32, grid.cells[1] as f32) / grid.extent;
+        Self { grid, per_plane, coefficients: vec![0.0; 2 * nx * ny] }
+    }
+
+    /// The field of weighted potentials given by their coefficients, (N+3) rows of M+3 from y = 0 upwards.
+    ///
+    /// # Panics
+    /// When a slice has not (M+3)(N+3) values.
+    pub fn from_potentials(grid: Grid, psi: &[f32], phi: &[f32]) -> Self {
+        let mut field = Self::zero(grid);
+        assert!(2 * psi.len() == field.coefficients.len() && psi.len() == phi.len(), "one value per node");
+        for (node, (&psi, &phi)) in field.coefficients.chunks_exact_mut(2).zip(psi.iter().zip(phi)) {
+            node.copy_from_slice(&[psi, phi]);
+        }
+        field
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// Coefficients of the weighted psi and phi, each (N+3) rows of M+3 from y = 0 upwards.
+    pub fn potentials(&self) -> (Vec<f32>, Vec<f32>) {
+        self.coefficients.chunks_exact(2).map(|node| (node[0], node[1])).unzip()
+    }
+
+    /// `out` = `wa` a + `wb` b, for the time between two fits.
+    ///
+    /// # Panics
+    /// When the three grids differ.
+    pub fn blend(a: &Field, wa: f32, b: &Field, wb: f32, out: &mut Field) {
+        assert!(a.grid == b.grid && a.grid == out.grid, "fields of one grid");
+        for ((out, a), b) in out.coefficients.iter_mut().zip(&a.coefficients).zip(&b.coefficients) {
+            *out = wa * a + wb * b;
+        }
+    }
+
+    /// The velocity at `p` in plane units per unit of t. Beyond the rectangle the velocity of the nearest border point.
+    #[inline]
+    pub fn velocity(&self, p: Vec2) -> Vec2 {
+        let (column, fx) = locate(p.x * self.per_plane.x, self.grid.cells[0]);
+        let (row, fy) = locate(p.y * self.per_plane.y, self.grid.cells[1]);
+        let (by, dy) = (values(fy), slopes(fy));
+        let mut along = [0.0f32; 8];
+        let mut across = [0.0f32; 8];
+        for k in 0..4 {
+            let c = self.nodes_at(column, row + k);
+            for i in 0..8 {
+                along[i] = by[k].mul_add(c[i], along[i]);
+                across[i] = dy[k].mul_add(c[i], across[i]);
+            }
+        }
+        let (bx, dx) = (values(fx), slopes(fx));
+        // psi is even, phi is odd: [d psi/dx, d phi/dx, d psi/dy, d phi/dy].
+        let mut g = [0.0f32; 4];
+        for i in 0..4 {
+            g[0] = dx[i].mul_add(along[2 * i], g[0]);
+            g[1] = dx[i].mul_add(along[2 * i + 1], g[1]);
+            g[2] = bx[i].mul_add(across[2 * i], g[2]);
+            g[3] = bx[i].mul_add(across[2 * i + 1], g[3]);
+        }
+        let s = self.per_plane;
+        Vec2::new(g[1] * s.x - g[2] * s.y, g[0] * s.x + g[3] * s.y)
+    }
+
+    /// The Jacobian of the velocity at `p`, columns du/dx and du/dy: divergence x_axis.x + y_axis.y, curl
+    /// x_axis.y - y_axis.x. Beyond the rectangle nothing changes along the outward direction.
+    pub fn gradient(&self, p: Vec2) -> Mat2 {
+        let (column, fx) = locate(p.x * self.per_plane.x, self.grid.cells[0]);
+        let (row, fy) = locate(p.y * self.per_plane.y, self.grid.cells[1]);
+        let (x, y) = ([values(fx), slopes(fx), curvatures(fx)], [values(fy), slopes(fy), curvatures(fy)]);
+        // Second derivatives xx, xy, yy of psi and phi.
+        let mut d = [[0.0f32; 2]; 3];
+        for k in 0..4 {
+            let c = self.nodes_at(column, row + k);
+            for i in 0..8 {
+                for (order, sum) in d.iter_mut().enumerate() {
+                    sum[i % 2] += x[2 - order][i / 2] * y[order][k] * c[i];
+                }
+            }
+        }
+        let s = self.per_plane;
+        let scale = [s.x * s.x, s.x * s.y, s.y * s.y];
+        let [[psi_xx, phi_xx], [psi_xy, phi_xy], [psi_yy, phi_yy]] =
+            [0, 1, 2].map(|k| d[k].map(|v| v * scale[k]));
+        let inside = |v: f32, end: f32| if (0.0..=end).contains(&v) { 1.0 } else { 0.0 };
+        Mat2::from_cols(
+            Vec2::new(phi_xx - psi_xy, phi_xy + psi_xx) * inside(p.x, self.grid.extent.x),
+            Vec2::new(phi_xy - psi_yy, phi_yy + psi_xy) * inside(p.y, self.grid.extent.y),
+        )
+    }
+
+    /// Coefficients of four neighbouring nodes of a row.
+    #[inline(always)]
+    fn nodes_at(&self, column: usize, row: usize) -> &[f32] {
+        let start = 2 * (row * (self.grid.cells[0] + EXTRA) + column);
+        &self.coefficients[start..start + 8]
+    }
+}
+
+/// The cell of a grid coordinate and the place 0..=1 in it; what lies outside is moved to the border.
+#[inline(always)]
+fn locate(x: f32, cells: usize) -> (usize, f32) {
+    let x = x.clamp(0.0, cells as f32);
+    let cell = (x as i32 as usize).min(cells - 1);
+    (cell, x - cell as f32)
+}
+
+#[inline(always)]
+fn values(f: f32) -> [f32; 4] {
+    let g = 1.0 - f;
+    let f2 = f * f;
+    let sixth = 1.0 / 6.0;
+    [
+        g * g * g * sixth,
+        (0.5 * f - 1.0).mul_add(f2, 4.0 * sixth),
+        (0.5 * g - 1.0).mul_add(g * g, 4.0 * sixth),
+        f2 * f * sixth,
+    ]
+}
+
+#[inline(always)]
+fn slopes(f: f32) -> [f32; 4] {
+    let g = 1.0 - f;
+    [-0.5 * g * g, f * 1.5f32.mul_add(f, -2.0), -g * 1.5f32.mul_add(g, -2.0), 0.5 * f * f]
+}
+
+#[inline(always)]
+fn curvatures(f: f32) -> [f32; 4] {
+    [1.0 - f, 3.0 * f - 2.0, 1.0 - 3.0 * f, f]
+}

@@ -1,0 +1,151 @@
+//! What an artist decides about the flow: meaning, unit, range, default.
+
+use glam::Vec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::fade::Fade;
+use crate::{Error, Result};
+
+/// How the photons flow from one key frame to the next.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct FlowSettings {
+    /// Kind of flow, 0 to 1: 0 flows like a liquid (divergence-free), 1 like a gradient (irrotational). At 0 light
+    /// cannot pile up by the field alone, so the fade does that work. Default 0.5.
+    pub gamma: f32,
+    /// Smoothness of the field, 1e-12 to 1e6: the field is smooth over about sqrt(alpha) of the longer side of the
+    /// receiver (1e-4: 0.01, 1e-3: 0.03, 1e-2: 0.1). Default 1e-3.
+    pub alpha: f32,
+    /// How the two kinds of flow are put together. Default joint.
+    pub fit: FitKind,
+    /// Cells of the field: one number for the longer side, or two for x and y. At least 8 each. Default 128.
+    pub grid: GridSize,
+    /// Time steps from one key frame to the next, 1 to 10000; the field is fitted once in each. Default 40.
+    pub steps: u32,
+    /// How the photons leave the field to arrive at their targets. Default smooth.
+    pub fade: Fade,
+    /// Brightness of the target, over 0 to 1000: its total flux over that of the source. Default 1, which keeps the
+    /// energy.
+    pub rho: f32,
+    /// Photons the field is fitted to, 1 to 50 million, taken evenly from all. Default 100000.
+    pub guides: u32,
+    /// Relative residual at which the fit's solver stops, 1e-12 to 0.1. Default 1e-4.
+    pub tolerance: f32,
+}
+
+/// How psi and phi are fitted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FitKind {
+    /// Both at once, as in the paper, Eq. (7). Between 0 and 1 gamma then acts through the smoothness only.
+    #[default]
+    Joint,
+    /// Each alone, then blended by gamma: the slider acts evenly over its whole travel.
+    Separate,
+}
+
+/// Cells of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum GridSize {
+    /// Cells along the longer side; the other side gets square cells.
+    Longer(u32),
+    /// Cells along x and along y.
+    Both([u32; 2]),
+}
+
+impl Default for FlowSettings {
+    fn default() -> Self {
+        Self {
+            gamma: 0.5,
+            alpha: 1e-3,
+            fit: FitKind::Joint,
+            grid: GridSize::Longer(128),
+            steps: 40,
+            fade: Fade::default(),
+            rho: 1.0,
+            guides: 100_000,
+            tolerance: 1e-4,
+        }
+    }
+}
+
+/// Fewest cells along a side: a cubic spline needs room for its boundary.
+pub const MIN_CELLS: u32 = 8;
+/// Bytes the fit holds per node: two potentials, their system of 2 x 2 blocks of 49 entries over all grid levels, moments,
+/// solver vectors.
+const BYTES_PER_NODE: u64 = 2048;
+/// Most memory that a fit may ask for.
+const MAX_BYTES: u64 = 8 << 30;
+
+impl GridSize {
+    /// Cells along x and y on a receiver of this extent.
+    pub fn cells(self, extent: Vec2) -> [u32; 2] {
+        match self {
+            Self::Both(cells) => cells,
+            Self::Longer(n) => {
+                let side = |length: f32| ((length * n as f32).round() as u32).max(MIN_CELLS.min(n));
+                [side(extent.x), side(extent.y)]
+            }
+        }
+    }
+}
+
+impl FlowSettings {
+    /// Refuses values out of range; `place` is the path of these settings, such as `flow`.
+    ///
+    /// # Errors
+    /// `Value` names the first value that is out of its range, `Limit` a grid that would not fit into memory.
+    pub fn check(&self, place: &str) -> Result<()> {
+        let real = |name: &str, value: f32, low: f32, high: f32| {
+            if (low..=high).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
+        };
+        real("gamma", self.gamma, 0.0, 1.0)?;
+        real("alpha", self.alpha, 1e-12, 1e6)?;
+        real("rho", self.rho, f32::MIN_POSITIVE, 1000.0)?;
+        real("tolerance", self.tolerance, 1e-12, 0.1)?;
+        let count = |name: &str, value: u32, high: u32| {
+            if (1..=high).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be 1 to {high}")))
+        };
+        count("steps", self.steps, 10_000)?;
+        count("guides", self.guides, 50_000_000)?;
+        self.fade.check(&format!("{place}.fade"))?;
+        self.grid.check(&format!("{place}.grid"))
+    }
+}
+
+impl GridSize {
+    fn check(self, place: &str) -> Result<()> {
+        let [x, y] = match self {
+            Self::Longer(n) => [n, n],
+            Self::Both(cells) => cells,
+        };
+        if x < MIN_CELLS || y < MIN_CELLS {
+            return Err(Error::value(
+                place,
+                format!("is {x} x {y} cells, must be at least {MIN_CELLS} x {MIN_CELLS}"),
+            ));
+        }
+        let needed = (u64::from(x) + 3) * (u64::from(y) + 3) * BYTES_PER_NODE;
+        if needed <= MAX_BYTES {
+            return Ok(());
+        }
+        let gib = |bytes: u64| bytes as f64 / (1u64 << 30) as f64;
+        let largest = ((MAX_BYTES / BYTES_PER_NODE) as f64).sqrt() as u64 - 3;
+        Err(Error::Limit {
+            place: place.to_owned(),
+            what: format!(
+                "{x} x {y} cells need about {:.1} GiB, the limit is {:.0} GiB; the largest square grid is {largest} x {largest}",
+                gib(needed),
+                gib(MAX_BYTES)
+            ),
+        })
+    }
+}

@@ -1,0 +1,161 @@
+//! The fields of a segment, kept, and the photons of any pass carried along them.
+
+use glam::Vec2;
+
+use super::advect::{Step, Swarm};
+use super::fade::Fade;
+use super::field::Field;
+use crate::{Progress, Result};
+
+/// The fields fitted between two key frames: all that moves photons, whatever pass they are from.
+///
+/// Between the times of the fits the field goes on as it did between the last two,
+/// u(t) = u_n + (t - t_n)/h (u_n - u_(n-1)): second order in h at one fit per step, and known before the next fit, so that
+/// the photons which are fitted to and those of later passes move alike.
+pub struct Fields {
+    nodes: Vec<Field>,
+    steps: usize,
+    fade: Fade,
+    mean_straight: f32,
+}
+
+impl Fields {
+    pub(super) fn new(steps: usize, fade: Fade, mean_straight: f32) -> Self {
+        Self { nodes: Vec::new(), steps, fade, mean_straight }
+    }
+
+    pub(super) fn push(&mut self, field: Field) {
+        self.nodes.push(field);
+    }
+
+    /// Time steps of the segment.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The field of each step at its begin, t = n / steps. Fewer than steps where the fade ends before t = 1: all
+    /// photons go straight from there on.
+    pub fn nodes(&self) -> &[Field] {
+        &self.nodes
+    }
+
+    /// How the photons leave the field.
+    pub fn fade(&self) -> Fade {
+        self.fade
+    }
+
+    /// The mean straight way |b - a| of the photons that were fitted to: the measure of every speed limit.
+    pub fn mean_straight(&self) -> f32 {
+        self.mean_straight
+    }
+
+    /// Begin of step `n`.
+    pub(super) fn time(&self, n: usize) -> f64 {
+        n as f64 / self.steps as f64
+    }
+
+    /// Step `n`, whose field must be there unless the fade has ended.
+    pub(super) fn step(&self, n: usize) -> Step {
+        let (start, end) = (self.time(n), self.time(n + 1));
+        let stages = self.nodes.get(n).map(|now| {
+            let before = &self.nodes[n.saturating_sub(1)];
+            [0.0, 0.5, 1.0].map(|x| {
+                let mut field = now.clone();
+                Field::blend(now, 1.0 + x, before, -x, &mut field);
+                (field, self.fade.rate(start + f64::from(x) * (end - start)))
+            })
+        });
+        Step { start, length: end - start, stages }
+    }
+}
+
+/// Photons of one pass on their way along the fields. Its memory is 36 bytes a photon, whatever the number of frames.
+///
+/// Rows keep their order. Photons in the order of [`spatial_order`] move faster: neighbours read the same coefficients.
+pub struct Carrier<'a> {
+    fields: &'a Fields,
+    source: &'a [Vec2],
+    targets: &'a [Vec2],
+    swarm: Swarm<'a>,
+    /// Steps begun; the swarm is in the last of them.
+    begun: usize,
+}
+
+impl<'a> Carrier<'a> {
+    /// Photons at `source`, each bound for the target in the same row.
+    ///
+    /// # Panics
+    /// When the columns differ in length.
+    pub fn new(fields: &'a Fields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
+        assert_eq!(source.len(), targets.len(), "each photon has one target");
+        let swarm = Swarm::new(source, targets, &fields.fade, fields.mean_straight);
+        Self { fields, source, targets, swarm, begun: 0 }
+    }
+
+    /// Carries the photons into step `n` (clipped to the last), whose times are n/steps to (n+1)/steps; back to the start first if they are
+    /// beyond.
+    ///
+    /// # Errors
+    /// `Numeric` with the count when photons are no longer finite, `Cancelled`.
+    pub fn advance_to(&mut self, n: usize, progress: &Progress) -> Result<()> {
+        let n = n.min(self.fields.steps - 1);
+        if self.begun > n + 1 {
+            *self = Self::new(self.fields, self.source, self.targets);
+        }
+        while self.begun <= n {
+            self.swarm.advance(&self.fields.step(self.begun), progress)?;
+            self.begun += 1;
+        }
+        Ok(())
+    }
+
+    /// Positions at time `t`, clipped to 0..=1. Ascending times cost one way through the fields in all; at t = 1 each photon
+    /// is at its target.
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    ///
+    /// # Panics
+    /// When `out` has not one place for each photon.
+    pub fn positions_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+        let t = self.enter(t, out.len(), progress)?;
+        self.swarm.positions(t, out);
+        Ok(())
+    }
+
+    /// Velocities at time `t` in plane units per unit of t; as [`Self::positions_at`].
+    ///
+    /// # Errors
+    /// As [`Self::advance_to`].
+    pub fn velocities_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+        let t = self.enter(t, out.len(), progress)?;
+        self.swarm.velocities(t, out);
+        Ok(())
+    }
+
+    fn enter(&mut self, t: f64, places: usize, progress: &Progress) -> Result<f64> {
+        assert_eq!(places, self.targets.len(), "one place for each photon");
+        let t = t.clamp(0.0, 1.0);
+        self.advance_to((t * self.fields.steps as f64) as usize, progress)?;
+        Ok(t)
+    }
+}
+
+/// Rows in an order (Morton's) in which neighbours in the plane are mostly neighbours in memory; equal places keep their order.
+pub fn spatial_order(points: &[Vec2]) -> Vec<u32> {
+    let mut keyed: Vec<(u32, u32)> = points.iter().zip(0..).map(|(&p, i)| (morton(p), i)).collect();
+    keyed.sort_unstable();
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Bits of the cell in x and y, of 1024 each, in turn; what lies outside counts as on the border.
+fn morton(p: Vec2) -> u32 {
+    let spread = |x: f32| {
+        let mut bits = (x * 1024.0).clamp(0.0, 1023.0) as u32;
+        bits = (bits | bits << 8) & 0x00ff_00ff;
+        bits = (bits | bits << 4) & 0x0f0f_0f0f;
+        bits = (bits | bits << 2) & 0x3333_3333;
+        (bits | bits << 1) & 0x5555_5555
+    };
+    spread(p.x) | spread(p.y) << 1
+}
