@@ -2,7 +2,7 @@
 
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::AssetFolder;
-use lightloom_core::{Progress, Result};
+use lightloom_core::Result;
 
 use super::args::CheckArgs;
 
@@ -10,7 +10,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     args.project.set_threads()?;
     let project = args.project.load()?;
     let assets = AssetFolder::new(&args.project.path, args.project.allow_external)?;
-    let report = Pipeline::new(assets).check(&project, &Progress::new())?;
+    let report = Pipeline::new(assets).check(&project)?;
     print!("{}", if args.project.json { report.to_json() } else { report.to_text() });
     Ok(0)
 }

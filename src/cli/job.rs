@@ -1,5 +1,6 @@
 //! What every command that works does around its work: Ctrl-C, the folder, the progress, the summary.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use lightloom_core::pipeline::Summary;
@@ -30,7 +31,7 @@ pub(super) fn prepare_folder(dir: &Path) -> Result<()> {
 pub(super) fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
     let path = dir.join("summary.json");
-    lightloom_core::files::write_atomic(&path, text.as_bytes())?;
+    lightloom_core::files::write_atomic(&path, |file| file.write_all(text.as_bytes()))?;
     print!("{}", if json { text } else { summary.to_text() });
     Ok(())
 }

@@ -15,7 +15,7 @@ use exr::prelude::{
 use glam::Vec3;
 use half::f16;
 
-use super::{Frame, Repairs, atomic};
+use super::{Frame, Repairs};
 use crate::{Error, Result};
 
 /// What a frame's file says about itself.
@@ -65,7 +65,7 @@ pub fn write(path: &Path, frame: &Frame<'_>) -> Result<Repairs> {
         .to_buffered(Cursor::new(&mut bytes))
         .map_err(|error| Error::format(path, "", format!("cannot be made: {error}")))?;
     sort_attributes(&mut bytes, 3);
-    atomic::write(path, |file| file.write_all(&bytes))?;
+    crate::files::write_atomic(path, |file| file.write_all(&bytes))?;
     Ok(repairs)
 }
 

@@ -1,6 +1,5 @@
 //! Picture files. A new format is a file here, a variant of [`FrameFormat`] and its arms.
 
-pub mod atomic;
 pub mod exr;
 pub mod pattern;
 pub mod png;
@@ -61,6 +60,13 @@ pub struct Repairs {
     pub half_clamped: u64,
     /// Samples that were not finite, replaced by 0.
     pub nonfinite_replaced: u64,
+}
+
+impl std::ops::AddAssign for Repairs {
+    fn add_assign(&mut self, other: Self) {
+        self.half_clamped += other.half_clamped;
+        self.nonfinite_replaced += other.nonfinite_replaced;
+    }
 }
 
 /// Writes a frame whole or not at all: to a temporary file in the same folder, then renamed. `view` and `depth` concern

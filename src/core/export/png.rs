@@ -6,7 +6,6 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::atomic;
 use crate::Result;
 use crate::render::image::Image;
 
@@ -32,7 +31,7 @@ pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
             (png::BitDepth::Sixteen, quantize(encoded, 65_535.0, push))
         }
     };
-    atomic::write(path, |writer| {
+    crate::files::write_atomic(path, |writer| {
         let mut encoder = png::Encoder::new(writer, encoded.width as u32, encoded.height as u32);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(bits);

@@ -48,6 +48,32 @@ pub struct FlowReport {
     pub endpoint_error: f64,
 }
 
+impl FlowReport {
+    /// The worse of two flows in every number.
+    pub fn worst(&self, other: &Self) -> Self {
+        let (a, b) = (self, other);
+        Self {
+            guides: a.guides.max(b.guides),
+            fits: a.fits + b.fits,
+            unknowns: a.unknowns.max(b.unknowns),
+            solver_iterations: a.solver_iterations.max(b.solver_iterations),
+            solver_iterations_mean: a.solver_iterations_mean.max(b.solver_iterations_mean),
+            solver_residual: a.solver_residual.max(b.solver_residual),
+            fit_residual: a.fit_residual.max(b.fit_residual),
+            divergence_rms: a.divergence_rms.max(b.divergence_rms),
+            curl_rms: a.curl_rms.max(b.curl_rms),
+            mean_straight: a.mean_straight.max(b.mean_straight),
+            peak_speed_ratio: a.peak_speed_ratio.max(b.peak_speed_ratio),
+            dispersion: a.dispersion.max(b.dispersion),
+            dispersion_max: a.dispersion_max.max(b.dispersion_max),
+            crossing_index: [0, 1, 2].map(|i| a.crossing_index[i].max(b.crossing_index[i])),
+            field_share: a.field_share.min(b.field_share),
+            wander: a.wander.max(b.wander),
+            endpoint_error: a.endpoint_error.max(b.endpoint_error),
+        }
+    }
+}
+
 /// Gathers the report while the photons move.
 pub(super) struct Observer<'a> {
     source: &'a [Vec2],

@@ -55,7 +55,7 @@ impl Finisher<'_> {
         let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
         let path = self.out.join("contact_sheet.png");
-        sheet::write(&path, &thumbnails, SHEET_COLUMNS)?;
+        sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS)?;
         (self.saved)(&path);
         Ok(BadValues::sum(&repairs))
     }
@@ -71,7 +71,7 @@ impl Finisher<'_> {
         let mut all = Repairs::default();
         for &format in &output.formats {
             let path = pattern.path(self.out, frame, format);
-            all.add(write_frame(&path, format, &picture, view, output.png_depth())?);
+            all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }
         Ok((all, self.background.plus(&caustic)))

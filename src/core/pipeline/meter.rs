@@ -20,13 +20,13 @@ pub struct StageCost {
 
 /// Measures the stages of one run.
 #[derive(Default)]
-pub struct Meter {
+pub(super) struct Meter {
     costs: Vec<StageCost>,
 }
 
 impl Meter {
     /// Runs `work` as `stage`. A stage that runs again adds to its first entry.
-    pub fn measure<T>(&mut self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+    pub(super) fn measure<T>(&mut self, stage: &'static str, work: impl FnOnce() -> T) -> T {
         reset_peak();
         let (start, cpu) = (Instant::now(), cpu_seconds());
         let result = work();
@@ -48,7 +48,7 @@ impl Meter {
     }
 
     /// The stages so far, in the order they first ran.
-    pub fn costs(&self) -> &[StageCost] {
+    pub(super) fn costs(&self) -> &[StageCost] {
         &self.costs
     }
 }

@@ -190,11 +190,11 @@ impl Pipeline {
         meter: &mut Meter,
         progress: &Progress,
     ) -> Result<(Arc<Visible>, Arc<Image>)> {
-        let Prepared { extent, plan, .. } = *prepared;
+        let (extent, passes) = (prepared.extent, prepared.plan.passes);
         let scene = prepared.scene.as_deref();
         let (render, seed) = (&project.render, project.seed);
         let first = first_radius(render, extent);
-        let layout = layout_for(scene, extent, render, (first, radius_of_pass(first, plan.passes - 1)));
+        let layout = layout_for(scene, extent, render, (first, radius_of_pass(first, passes - 1)));
         // The photons change nothing here but the layout, and how a picture is shown changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
         let background = ViewInput { scene: project.scene.clone(), render: seen, extent, seed, layout: None };

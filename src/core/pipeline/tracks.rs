@@ -10,7 +10,7 @@ use super::batch::Batch;
 use super::motion::Motion;
 use super::passes::{Account, total};
 use super::supply::KeyPhotons;
-use crate::export::atomic;
+use crate::files::write_atomic;
 use crate::flow::{Carrier, flux};
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -83,7 +83,7 @@ impl Table<'_> {
     fn write_tracks(&self, path: &Path, progress: &Progress) -> Result<()> {
         let photons = self.stops[0].positions.len();
         let mut failure = None;
-        let written = atomic::write(path, |file| {
+        let written = write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 2];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut positions = vec![Vec2::ZERO; photons];
@@ -107,7 +107,7 @@ impl Table<'_> {
         let photons = self.stops[0].flux.len();
         let mut account = Account::default();
         let source = total(&self.stops[0].flux);
-        atomic::write(path, |file| {
+        write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 3];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut now = vec![Vec3::ZERO; photons];
@@ -127,7 +127,7 @@ impl Table<'_> {
 /// Writes the coefficients of all fields: for segment i `psi_i` and `phi_i` of shape (steps, N + 3, M + 3) for M x N
 /// cells, each fitted at the time in `times_i`; and `grid` (M, N) and `extent` of the plane. u = J grad psi + grad phi.
 fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
-    atomic::write(path, |file| {
+    write_atomic(path, |file| {
         let mut npz = npyz::npz::NpzWriter::new(file);
         for (i, segment) in motion.segments.iter().enumerate() {
             let fields = &segment.fields;

@@ -15,6 +15,7 @@ mod keyframe;
 mod load;
 mod output;
 
+use std::io::Write as _;
 use std::path::Path;
 
 use glam::Vec2;
@@ -188,7 +189,7 @@ impl Project {
     /// Names the file and the system's reason; the old file is left as it was.
     pub fn save(&self, path: &Path) -> Result<()> {
         let text = self.to_json()?;
-        crate::files::write_atomic(path, text.as_bytes())
+        crate::files::write_atomic(path, |file| file.write_all(text.as_bytes()))
     }
 
     /// The JSON schema of the format (draft 2020-12).

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::frames;
-use crate::export::FrameFormat;
+use crate::export::{FrameFormat, FramePattern, PngDepth};
 use crate::{Error, Result};
 
 /// What is written.
@@ -36,9 +36,15 @@ impl Default for OutputSettings {
 }
 
 impl OutputSettings {
+    /// The depth of PNG files.
+    pub fn png_depth(&self) -> PngDepth {
+        if self.png_bits == 16 { PngDepth::Sixteen } else { PngDepth::Eight }
+    }
+
     /// Refuses values that cannot be used, naming them below `place`.
     pub(super) fn check(&self, place: &str) -> Result<()> {
         let wrong = |field: &str, what: String| Err(Error::value(format!("{place}.{field}"), what));
+        FramePattern::parse(&self.name, &format!("{place}.name"))?;
         if let Some(list) = &self.frames {
             frames::parse(list, &format!("{place}.frames"))?;
         }

@@ -39,6 +39,11 @@ impl Workspace {
     pub fn new(layout: TextureLayout) -> Self {
         Self { texture: ReceiverTexture::new(layout), splatter: Splatter::default() }
     }
+
+    /// What was added last, filtered, in watts per texel.
+    pub fn texture(&self) -> &ReceiverTexture {
+        &self.texture
+    }
 }
 
 impl ProgressiveRender {

@@ -123,6 +123,11 @@ impl Visible {
         image
     }
 
+    /// Where the texels lie that it looks at.
+    pub fn layout(&self) -> &TextureLayout {
+        &self.layout
+    }
+
     /// Memory that it holds, in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(self.taps.as_slice()) + size_of_val(self.starts.as_slice())
