@@ -1,4 +1,14 @@
 //! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
 
 pub mod bspline;
+pub mod cg;
+pub mod cholesky;
+pub mod kronecker;
+pub mod multigrid;
+pub mod null_space;
+pub mod operator;
+pub mod real;
 pub mod rng;
+pub mod stencil;
+pub mod transfer;
+pub mod vector;
