@@ -3,6 +3,8 @@
 pub mod error;
 pub mod progress;
 
+pub mod files;
+
 pub mod math;
 
 pub mod scene;

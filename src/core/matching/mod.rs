@@ -1,1 +1,25 @@
-//! The bijection between source and target (Sec. 3).
+//! The bijection between source and target (Sec. 3): which photon goes where.
+//!
+//! Two steps, so that millions of photons in many passes move together:
+//!
+//! 1. [`TransportMap`]: the optimal (Brenier) map between the two *densities*, once per segment, by the back-and-forth method.
+//! 2. [`Matching`]: an exact bijection between the *points* of one pass, near that map: equal halves, then local swaps.
+//!
+//! Cost is squared distance throughout: its optimum never lets two straight paths collide, which is what ghosting is made of.
+
+mod back_and_forth;
+mod bijection;
+mod dual;
+mod halves;
+mod lattice;
+mod legendre;
+mod poisson;
+mod push_forward;
+mod settings;
+mod swap;
+mod transport_map;
+
+pub use bijection::Matching;
+pub use dual::dual_bound;
+pub use settings::{MatchSettings, Method};
+pub use transport_map::{TransportMap, transport_map};

@@ -12,3 +12,6 @@ pub mod rng;
 pub mod stencil;
 pub mod transfer;
 pub mod vector;
+pub mod distribution;
+pub mod hilbert;
+pub mod sobol;

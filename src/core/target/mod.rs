@@ -1,1 +1,10 @@
-//! Where the photons should go (Sec. 3).
+//! Where photons should go: pictures, drawn from by brightness, and files of points.
+
+mod decode;
+mod picture;
+mod points;
+mod settings;
+
+pub use picture::PictureSampler;
+pub use points::{Points, load_points};
+pub use settings::{Channel, ImageTarget, Placement, PointsTarget};

@@ -1,0 +1,123 @@
+//! The bijection between the points of one pass.
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::halves::{Item, halve};
+use super::swap::{Pair, sweep};
+use super::transport_map::{TransportMap, require_points};
+use crate::math::rng::{Purpose, Stream};
+use crate::{Error, Progress, Result};
+
+/// Times at which pairs are compared with their neighbours, one sweep each.
+const SWEEPS: [f32; 6] = [1.0, 0.0, 0.5, 0.25, 0.75, 0.5];
+/// Followers each pair is compared with in a sweep.
+const WINDOW: usize = 16;
+
+/// Which target each source point goes to: a permutation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Matching {
+    /// Source row -> target row.
+    pub target_of: Vec<u32>,
+}
+
+impl Matching {
+    /// Pairs `source` with `target`, as many points, near `map` and with (nearly) least total squared distance.
+    ///
+    /// Different passes over one map are coherent. Deterministic in (seed, pass).
+    ///
+    /// # Errors
+    /// `Value` when the counts differ, a set is empty or a point is not finite; `Cancelled`.
+    pub fn new(
+        source: &[Vec2],
+        target: &[Vec2],
+        map: &TransportMap,
+        seed: u64,
+        pass: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        require_points("source", source)?;
+        require_points("target", target)?;
+        require_equal_counts(source.len(), target.len())?;
+        progress.begin("match", 1 + SWEEPS.len() as u64);
+        let mut pairs = halved(source, target, map, seed, pass, progress);
+        progress.check()?;
+        progress.advance(1);
+        let mut stream = Stream::new(seed, Purpose::Match, pass, 0);
+        for t in SWEEPS {
+            sweep(&mut pairs, t, Vec2::new(stream.f32(), stream.f32()), WINDOW, progress)?;
+            progress.advance(1);
+        }
+        let mut target_of = vec![0; pairs.len()];
+        pairs.iter().for_each(|pair| target_of[pair.source_row as usize] = pair.target_row);
+        Ok(Self { target_of })
+    }
+
+    /// Row i to row i.
+    ///
+    /// # Errors
+    /// `Value` when the counts differ.
+    pub fn given(source_count: usize, target_count: usize) -> Result<Self> {
+        require_equal_counts(source_count, target_count)?;
+        Ok(Self { target_of: (0..source_count as u32).collect() })
+    }
+
+    /// Mean squared distance between source points and their targets, plane units squared.
+    pub fn cost(&self, source: &[Vec2], target: &[Vec2]) -> f64 {
+        let sum: f64 = source
+            .iter()
+            .zip(&self.target_of)
+            .map(|(a, &row)| a.as_dvec2().distance_squared(target[row as usize].as_dvec2()))
+            .sum();
+        sum / source.len() as f64
+    }
+
+    /// Whether every target is taken exactly once.
+    pub fn is_bijection(&self) -> bool {
+        let mut taken = vec![false; self.target_of.len()];
+        self.target_of
+            .iter()
+            .all(|&row| taken.get_mut(row as usize).is_some_and(|taken| !std::mem::replace(taken, true)))
+    }
+}
+
+fn halved(
+    source: &[Vec2],
+    target: &[Vec2],
+    map: &TransportMap,
+    seed: u64,
+    pass: u64,
+    progress: &Progress,
+) -> Vec<Pair> {
+    let mut a: Vec<Item> = source
+        .par_iter()
+        .enumerate()
+        .with_min_len(4096)
+        .map(|(row, point)| Item { position: map.apply(*point), row: row as u32 })
+        .collect();
+    let mut b: Vec<Item> =
+        target.iter().enumerate().map(|(row, &position)| Item { position, row: row as u32 }).collect();
+    halve(&mut a, &mut b, seed, pass, progress);
+    a.par_iter()
+        .zip(&b)
+        .with_min_len(4096)
+        .map(|(a, b)| Pair {
+            source: source[a.row as usize],
+            target: b.position,
+            source_row: a.row,
+            target_row: b.row,
+        })
+        .collect()
+}
+
+fn require_equal_counts(source: usize, target: usize) -> Result<()> {
+    if source == target && u32::try_from(source).is_ok() {
+        return Ok(());
+    }
+    Err(Error::value(
+        "matching",
+        format!(
+            "{source} source points cannot be paired one to one with {target} target points; make the counts equal"
+        ),
+    ))
+}

@@ -1,0 +1,39 @@
+//! Hilbert's space-filling curve: points that are near on the curve are near in the plane.
+
+/// The place of cell (x, y), each below 2^16, on the curve through 2^16 x 2^16 cells.
+pub fn index(x: u32, y: u32) -> u32 {
+    let (mut x, mut y) = (x & 0xffff, y & 0xffff);
+    let mut index = 0;
+    let mut side = 1 << 15;
+    while side > 0 {
+        let right = (x & side != 0) as u32;
+        let upper = (y & side != 0) as u32;
+        index = index << 2 | ((3 * right) ^ upper);
+        if upper == 0 {
+            if right == 1 {
+                (x, y) = (!x, !y);
+            }
+            (x, y) = (y, x);
+        }
+        side >>= 1;
+    }
+    index
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn followers_on_the_curve_are_neighbours_in_the_plane() {
+        // The first 16 x 16 cells of the plane are the first 256 of the curve.
+        let mut cells: Vec<(u32, u32, u32)> =
+            (0..256).map(|i| (index(i % 16, i / 16), i % 16, i / 16)).collect();
+        cells.sort_unstable();
+        for (place, pair) in cells.windows(2).enumerate() {
+            let ((place_0, x0, y0), (_, x1, y1)) = (pair[0], pair[1]);
+            assert_eq!(place_0, place as u32);
+            assert_eq!(x0.abs_diff(x1) + y0.abs_diff(y1), 1);
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Target points, and reading them from CSV and NPY files.
+
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+
+use crate::files::read_regular_file;
+use crate::math::hilbert;
+use crate::math::rng::{Purpose, Stream};
+use crate::{Error, Result};
+
+/// Luminance of linear Rec. 709.
+pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+/// Largest file.
+const MAX_BYTES: u64 = 64 << 20;
+/// Most points.
+const MAX_POINTS: usize = 10_000_000;
+/// Largest coordinate; beyond it f32 squares lose their meaning.
+const MAX_COORDINATE: f32 = 1e6;
+
+/// Points on the plane, perhaps coloured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Points {
+    /// Plane coordinates.
+    pub positions: Vec<Vec2>,
+    /// Relative colours, linear Rec. 709, of mean luminance 1; empty when the points have none.
+    pub colours: Vec<Vec3>,
+}
+
+impl Points {
+    /// `n` of these points, spread evenly over the plane: all of them when there are `n`, a part of them when there are
+    /// more (another part each pass), each one several times when there are fewer.
+    pub fn resampled(&self, n: usize, seed: u64, pass: u64) -> Self {
+        let count = self.positions.len();
+        if count == n || count == 0 {
+            return self.clone();
+        }
+        // Systematic sampling along a space-filling curve: neighbours on it are neighbours in the plane.
+        let order = along_curve(&self.positions);
+        let offset = Stream::new(seed, Purpose::Target, pass, 1).f64();
+        let row = |i: usize| order[((i as f64 + offset) * count as f64 / n as f64) as usize % count] as usize;
+        let positions = (0..n).map(|i| self.positions[row(i)]).collect();
+        let colours =
+            if self.colours.is_empty() { Vec::new() } else { (0..n).map(|i| self.colours[row(i)]).collect() };
+        Self { positions, colours }.with_mean_luminance_one()
+    }
+
+    /// Scales the colours; colours without any light are dropped.
+    pub(super) fn with_mean_luminance_one(mut self) -> Self {
+        let sum: f64 = self.colours.iter().map(|colour| colour.dot(LUMINANCE) as f64).sum();
+        if sum > 0.0 {
+            let scale = (self.colours.len() as f64 / sum) as f32;
+            self.colours.iter_mut().for_each(|colour| *colour *= scale);
+        } else {
+            self.colours.clear();
+        }
+        self
+    }
+}
+
+fn along_curve(positions: &[Vec2]) -> Vec<u32> {
+    let (low, high) = positions
+        .iter()
+        .fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)));
+    let scale = 65535.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
+    let mut order: Vec<(u32, u32)> = positions
+        .iter()
+        .enumerate()
+        .map(|(row, point)| {
+            let cell = (*point - low) * scale;
+            (hilbert::index(cell.x as u32, cell.y as u32), row as u32)
+        })
+        .collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, row)| row).collect()
+}
+
+/// Reads points in plane coordinates.
+///
+/// NPY (known by its content): an n x 2 or n x 5 array of f32 or f64. Anything else is text: on each line x, y and perhaps r,
+/// g, b, parted by commas, semicolons, spaces or tabs; a first line of names, empty lines and lines from `#` are skipped.
+///
+/// # Errors
+/// `Io`, `Limit` (64 MiB, 10 million points), or `Format` naming the line or row that cannot be a point.
+pub fn load_points(path: &Path) -> Result<Points> {
+    let bytes = read_regular_file(path, MAX_BYTES)?;
+    let mut reading = Reading { path, points: Points::default(), columns: 0 };
+    if bytes.starts_with(b"\x93NUMPY") {
+        reading.read_npy(&bytes)?
+    } else {
+        reading.read_text(&bytes)?
+    }
+    let points = reading.points;
+    if points.positions.is_empty() {
+        return Err(Error::format(path, "", "there are no points in it"));
+    }
+    let coloured = !points.colours.is_empty();
+    let points = points.with_mean_luminance_one();
+    if coloured && points.colours.is_empty() {
+        return Err(Error::format(
+            path,
+            "",
+            "all points are black; leave the colours out, or give them light",
+        ));
+    }
+    Ok(points)
+}
+
+struct Reading<'a> {
+    path: &'a Path,
+    points: Points,
+    /// 2 or 5, from the first point on.
+    columns: usize,
+}
+
+impl Reading<'_> {
+    fn read_text(&mut self, bytes: &[u8]) -> Result<()> {
+        let text =
+            std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).map_err(|_| {
+                Error::format(self.path, "", "this is neither NPY nor UTF-8 text; save it as one of them")
+            })?;
+        let mut first = true;
+        for (number, line) in text.lines().enumerate() {
+            if line.trim().is_empty() || line.trim_start().starts_with('#') {
+                continue;
+            }
+            let (numbers, count, readable) = numbers_of(line);
+            if !(first && readable == 0) {
+                let place = || format!("line {}", number + 1);
+                if readable < count {
+                    return Err(Error::format(self.path, place(), "not all its fields are numbers"));
+                }
+                self.add(&numbers[..count.min(6)], place)?;
+            }
+            first = false;
+        }
+        Ok(())
+    }
+
+    fn read_npy(&mut self, bytes: &[u8]) -> Result<()> {
+        let bad = |what: String| Error::format(self.path, "", what);
+        let file = npyz::NpyFile::new(bytes)
+            .map_err(|error| bad(format!("the NPY header cannot be read ({error})")))?;
+        let shape = file.shape().to_vec();
+        if shape.len() != 2 || !matches!(shape[1], 2 | 5) || file.order() != npyz::Order::C {
+            return Err(bad(format!(
+                "an array of shape {shape:?} cannot be points; save n x 2 (x, y) or n x 5 (x, y, r, g, b) in C order"
+            )));
+        }
+        if shape[0] > MAX_POINTS as u64 {
+            return Err(self.too_many());
+        }
+        let short = |error| bad(format!("the array is cut short ({error})"));
+        let numbers: Vec<f32> = match file.try_data::<f32>() {
+            Ok(data) => data.collect::<Result<_, _>>().map_err(short)?,
+            Err(file) => match file.try_data::<f64>() {
+                Ok(data) => data.map(|n| n.map(|n| n as f32)).collect::<Result<_, _>>().map_err(short)?,
+                Err(_) => {
+                    return Err(bad("the array does not hold f32 or f64 numbers; convert it".to_owned()));
+                }
+            },
+        };
+        for (row, numbers) in numbers.chunks_exact(shape[1] as usize).enumerate() {
+            self.add(numbers, || format!("row {row}"))?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, numbers: &[f32], place: impl Fn() -> String) -> Result<()> {
+        let bad = |what: &str| Err(Error::format(self.path, place(), what));
+        if self.columns == 0 {
+            self.columns = numbers.len();
+        }
+        if !matches!(numbers.len(), 2 | 5) || numbers.len() != self.columns {
+            return bad("each point needs x, y, or x, y, r, g, b, and all points the same");
+        }
+        if !numbers.iter().all(|n| n.is_finite()) || numbers[..2].iter().any(|n| n.abs() > MAX_COORDINATE) {
+            return bad("a number is NaN, infinite or too large; remove or correct the point");
+        }
+        if numbers[2..].iter().any(|n| *n < 0.0) {
+            return bad("a colour is negative; give 0 or more");
+        }
+        if self.points.positions.len() == MAX_POINTS {
+            return Err(self.too_many());
+        }
+        self.points.positions.push(Vec2::from_slice(numbers));
+        if numbers.len() == 5 {
+            self.points.colours.push(Vec3::from_slice(&numbers[2..]));
+        }
+        Ok(())
+    }
+
+    fn too_many(&self) -> Error {
+        Error::Limit {
+            place: format!("'{}'", self.path.display()),
+            what: format!("there are more than {MAX_POINTS} points; use fewer"),
+        }
+    }
+}
+
+/// The first six numbers of a line, its count of fields, and how many of those are numbers.
+fn numbers_of(line: &str) -> ([f32; 6], usize, usize) {
+    let mut numbers = [0.0; 6];
+    let (mut count, mut readable) = (0, 0);
+    let separator = |c: char| matches!(c, ',' | ';' | '\t' | ' ' | '\r');
+    for field in line.split(separator).filter(|field| !field.is_empty()) {
+        if let Ok(number) = field.parse::<f32>() {
+            numbers[count.min(5)] = number;
+            readable += 1;
+        }
+        count += 1;
+    }
+    (numbers, count, readable)
+}
