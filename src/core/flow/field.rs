@@ -5,7 +5,7 @@
 
 use glam::{Mat2, Vec2};
 
-use crate::math::bspline::EXTRA;
+use crate::math::bspline::{self, EXTRA};
 
 /// M x N cells over `[0, extent.x] x [0, extent.y]`: (M+3)(N+3) coefficients for each potential.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -137,6 +137,28 @@ impl Field {
             Vec2::new(phi_xx - psi_xy, phi_xy + psi_xx) * inside(p.x, self.grid.extent.x),
             Vec2::new(phi_xy - psi_yy, phi_yy + psi_xy) * inside(p.y, self.grid.extent.y),
         )
+    }
+
+    /// The velocity in double precision, for sums that must not see rounding.
+    pub fn velocity_f64(&self, p: [f64; 2]) -> [f64; 2] {
+        let size = self.grid.cell_size();
+        let place = [0, 1].map(|axis| {
+            let x = (p[axis] / size[axis]).clamp(0.0, self.grid.cells[axis] as f64);
+            let cell = (x as usize).min(self.grid.cells[axis] - 1);
+            (cell, bspline::values(x - cell as f64), bspline::slopes(x - cell as f64))
+        });
+        let [(column, bx, dx), (row, by, dy)] = place;
+        let mut u = [0.0; 2];
+        for k in 0..4 {
+            let c = self.nodes_at(column, row + k);
+            for i in 0..4 {
+                let (gx, gy) = (dx[i] * by[k] / size[0], bx[i] * dy[k] / size[1]);
+                let (psi, phi) = (c[2 * i] as f64, c[2 * i + 1] as f64);
+                u[0] += gx * phi - gy * psi;
+                u[1] += gx * psi + gy * phi;
+            }
+        }
+        u
     }
 
     /// Coefficients of four neighbouring nodes of a row.

@@ -1,9 +1,21 @@
 //! The fit of Eqs. (3)-(7): the field that follows the guidance of the photons and bends as little as it can.
+//!
+//! The unknowns are psi' = sqrt(1-gamma) psi and phi' = sqrt(gamma) phi. Then u = sqrt(1-gamma) J grad psi' +
+//! sqrt(gamma) grad phi', both bend at the price alpha, and the system stays well posed up to gamma = 0 and 1, where
+//! one of the two drops out. Its null space (u does not see constants, nor a linear psi whose velocity a linear phi
+//! cancels) is left to conjugate gradients, which never go there, and taken out of the result.
 
 use glam::Vec2;
 
+use super::assembly::{Assembly, Rows};
+use super::bending::bending;
 use super::field::{Field, Grid};
-use crate::{Progress, Result};
+use crate::math::cg::{ConjugateGradients, Solved};
+use crate::math::multigrid::Multigrid;
+use crate::math::null_space::NullSpace;
+use crate::math::operator::{Operator, Weights};
+use crate::math::vector::{GridVector, HALO, Layout};
+use crate::{Error, Progress, Result};
 
 /// How psi and phi share the velocity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -17,11 +29,11 @@ pub enum Blend {
 /// What is fitted, and how well.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct FitSettings {
-    /// The grid of the potentials.
+    /// The grid of the potentials; 4..=2048 cells along each axis.
     pub grid: Grid,
     /// Share of the irrotational part, 0..=1.
     pub gamma: f64,
-    /// Weight of the bending energy, > 0.
+    /// Weight of the bending energy, > 0. Features shorter than sqrt(alpha / density) of the plane are smoothed.
     pub alpha: f64,
     /// Joint or separate.
     pub blend: Blend,
@@ -36,7 +48,7 @@ pub struct FitSettings {
 pub struct FitReport {
     /// Iterations of conjugate gradients, of the longer solve where there are two.
     pub iterations: usize,
-    /// Relative residual reached.
+    /// Relative residual reached, |b - A x| / |b|.
     pub residual: f64,
     /// Unknowns solved for.
     pub unknowns: usize,
@@ -45,6 +57,27 @@ pub struct FitReport {
 /// A solver for many steps: keeps its storage, and starts from its last solution.
 pub struct Fitter {
     settings: FitSettings,
+    assembly: Assembly,
+    operator: Operator<f64>,
+    solver: ConjugateGradients,
+    right: GridVector<f64>,
+    systems: Vec<System>,
+}
+
+/// One solve: psi' and phi' coupled, or one of the two alone.
+struct System {
+    unknown: Unknown,
+    weights: Weights,
+    null: NullSpace,
+    null_vectors: Vec<GridVector<f64>>,
+    solution: GridVector<f64>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Unknown {
+    Both,
+    Psi,
+    Phi,
 }
 
 impl Fitter {
@@ -53,7 +86,23 @@ impl Fitter {
     /// # Errors
     /// `Value` for a setting out of range.
     pub fn new(settings: FitSettings) -> Result<Self> {
-        Ok(Self { settings })
+        check(&settings)?;
+        let unknowns: &[Unknown] = match (settings.blend, settings.gamma) {
+            (_, 0.0) => &[Unknown::Psi],
+            (_, 1.0) => &[Unknown::Phi],
+            (Blend::Joint, _) => &[Unknown::Both],
+            (Blend::Separate, _) => &[Unknown::Psi, Unknown::Phi],
+        };
+        let systems: Vec<_> = unknowns.iter().map(|&unknown| System::new(&settings, unknown)).collect();
+        let zero = systems[0].solution.clone();
+        Ok(Self {
+            settings,
+            assembly: Assembly::new(settings.grid, zero.components == 2),
+            operator: Operator::zero(zero.layout, zero.components),
+            solver: ConjugateGradients::new(&zero),
+            right: zero,
+            systems,
+        })
     }
 
     /// Fits to the velocity wanted at each position, both in plane units.
@@ -67,12 +116,179 @@ impl Fitter {
         velocities: &[Vec2],
         progress: &Progress,
     ) -> Result<(Field, FitReport)> {
-        progress.check()?;
-        let _ = (positions, velocities);
-        let unknowns = 0;
-        Ok((Field::zero(self.settings.grid), FitReport { iterations: 0, residual: 0.0, unknowns }))
+        check_columns(positions, velocities)?;
+        let rows = Rows { positions, velocities, weight: 1.0 / positions.len().max(1) as f64 };
+        // Inside the thread pool the many small parallel loops need not wake it up each time.
+        rayon::scope(|_| self.fit_rows(&[rows], progress))
+    }
+
+    fn fit_rows(&mut self, terms: &[Rows], progress: &Progress) -> Result<(Field, FitReport)> {
+        self.assembly.clear();
+        for &rows in terms {
+            progress.check()?;
+            self.assembly.add(rows);
+        }
+        // Where psi and phi are fitted apart, both have the same matrix.
+        let System { weights, null, .. } = &self.systems[0];
+        self.operator.set(&self.assembly.parts, *weights);
+        let mut multigrid = Multigrid::new(&self.assembly.parts, *weights, null);
+        let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0 };
+        for system in &mut self.systems {
+            progress.check()?;
+            system.set_right(&self.settings, &self.assembly.right, &mut self.right);
+            let limits = (self.settings.tolerance, self.settings.max_iterations);
+            let solved = self.solver.solve(
+                &self.operator,
+                &mut multigrid,
+                &self.right,
+                &mut system.solution,
+                limits,
+                progress,
+            )?;
+            system.finish(solved)?;
+            report.iterations = report.iterations.max(solved.iterations);
+            report.residual = report.residual.max(solved.residual);
+            let [nx, ny] = self.settings.grid.nodes();
+            report.unknowns += system.solution.components * nx * ny;
+        }
+        Ok((self.field(), report))
     }
 
     /// Forgets the last solution: the next fit starts from zero.
-    pub fn reset(&mut self) {}
+    pub fn reset(&mut self) {
+        self.systems.iter_mut().for_each(|system| system.solution.clear());
+    }
+
+    /// The field of the solutions, potentials times their weights in u.
+    fn field(&self) -> Field {
+        let FitSettings { grid, gamma, blend, .. } = self.settings;
+        let [nx, ny] = grid.nodes();
+        let (psi_weight, phi_weight) = match blend {
+            Blend::Joint => ((1.0 - gamma).sqrt(), gamma.sqrt()),
+            Blend::Separate => (1.0 - gamma, gamma),
+        };
+        let (mut psi, mut phi) = (vec![0.0; nx * ny], vec![0.0; nx * ny]);
+        let copy = |out: &mut [f32], weight: f64, solution: &GridVector<f64>, component: usize| {
+            for (y, out) in out.chunks_exact_mut(nx).enumerate() {
+                for (out, value) in out.iter_mut().zip(&solution.padded(y + HALO, component)[HALO..]) {
+                    *out = (weight * value) as f32;
+                }
+            }
+        };
+        for system in &self.systems {
+            if system.unknown != Unknown::Phi {
+                copy(&mut psi, psi_weight, &system.solution, 0);
+            }
+            if system.unknown != Unknown::Psi {
+                copy(&mut phi, phi_weight, &system.solution, system.solution.components - 1);
+            }
+        }
+        Field::from_potentials(grid, &psi, &phi)
+    }
+}
+
+impl System {
+    fn new(settings: &FitSettings, unknown: Unknown) -> Self {
+        let FitSettings { grid, gamma, alpha, .. } = *settings;
+        let layout = Layout::new(grid.nodes());
+        let (a, b) = ((1.0 - gamma).sqrt(), gamma.sqrt());
+        let (weights, null) = if unknown == Unknown::Both {
+            // u = a J grad psi' + b grad phi': psi' = b y has the velocity (-a b, 0), phi' = a x has (a b, 0).
+            let linear = vec![[[0.0, 0.0, b], [0.0, a, 0.0]], [[0.0, b, 0.0], [0.0, 0.0, -a]]];
+            let weights = Weights { psi: 1.0 - gamma, phi: gamma, cross: a * b, smooth: alpha };
+            (weights, NullSpace::new(2, linear))
+        } else {
+            (Weights { psi: 1.0, phi: 0.0, cross: 0.0, smooth: alpha }, NullSpace::new(1, Vec::new()))
+        };
+        let null_vectors = null.vectors(layout, grid.cell_size());
+        Self { unknown, weights, solution: GridVector::zero(layout, null.components()), null, null_vectors }
+    }
+
+    /// The right side, from the sums over the points.
+    fn set_right(&self, settings: &FitSettings, sums: &GridVector<f64>, right: &mut GridVector<f64>) {
+        let weights = [(1.0 - settings.gamma).sqrt(), settings.gamma.sqrt()];
+        let picked: &[(usize, f64)] = match self.unknown {
+            Unknown::Both => &[(0, weights[0]), (1, weights[1])],
+            Unknown::Psi => &[(0, 1.0)],
+            Unknown::Phi => &[(1, 1.0)],
+        };
+        for (component, &(from, weight)) in picked.iter().enumerate() {
+            right.set_component(component, weight, sums, from);
+        }
+    }
+
+    /// Takes the null space out of the solution, and refuses one that is not finite.
+    fn finish(&mut self, solved: Solved) -> Result<()> {
+        for vector in &self.null_vectors {
+            let share = self.solution.dot(vector);
+            self.solution.combine(1.0, -share, vector);
+        }
+        if solved.residual.is_finite() && self.solution.dot(&self.solution).is_finite() {
+            return Ok(());
+        }
+        self.solution.clear();
+        let what = format!("no solution after {} iterations; choose a larger alpha", solved.iterations);
+        Err(Error::Numeric { stage: "fit", what })
+    }
+}
+
+/// The energy E of a field, Terms (3) to (5): `alpha` and `gamma` of the settings, points and velocities as in a fit.
+/// A potential that the settings leave out must be zero; its bending is not counted.
+pub fn energy(field: &Field, settings: &FitSettings, positions: &[Vec2], velocities: &[Vec2]) -> f64 {
+    let misfit: f64 = (positions.iter().zip(velocities))
+        .map(|(&p, &v)| {
+            let [ux, uy] = field.velocity_f64([p.x as f64, p.y as f64]);
+            (ux - v.x as f64).powi(2) + (uy - v.y as f64).powi(2)
+        })
+        .sum();
+    let (psi, phi) = field.potentials();
+    let bends = bending(field.grid());
+    let layout = Layout::new(field.grid().nodes());
+    let bend = |coefficients: &[f32], weight: f64| {
+        if weight == 0.0 {
+            return 0.0;
+        }
+        let mut vector = GridVector::<f64>::zero(layout, 1);
+        for (i, &value) in coefficients.iter().enumerate() {
+            vector.set(0, i % layout.nodes[0], i / layout.nodes[0], value as f64);
+        }
+        // The potentials carry their weight w in u, so w times the bending of psi is 1/w times that of w psi.
+        bends.quadratic_form(&vector, 0) / weight
+    };
+    let bent = bend(&psi, 1.0 - settings.gamma) + bend(&phi, settings.gamma);
+    0.5 * misfit / positions.len().max(1) as f64 + 0.5 * settings.alpha * bent
+}
+
+fn check(settings: &FitSettings) -> Result<()> {
+    let FitSettings { grid, gamma, alpha, tolerance, .. } = *settings;
+    if !grid.cells.iter().all(|cells| (4..=2048).contains(cells)) {
+        return Err(Error::value("flow.grid", format!("{:?} cells; 4 to 2048 along each axis", grid.cells)));
+    }
+    let sides = [grid.extent.x, grid.extent.y];
+    if !sides.iter().all(|side| side.is_finite() && *side > 0.0) {
+        return Err(Error::value("receiver", format!("a rectangle of {sides:?}; both sides must be > 0")));
+    }
+    if !(0.0..=1.0).contains(&gamma) {
+        return Err(Error::value("flow.gamma", format!("{gamma} is not within 0 and 1")));
+    }
+    if !(alpha.is_finite() && alpha > 0.0) {
+        return Err(Error::value("flow.alpha", format!("{alpha} is not a number > 0")));
+    }
+    if !(tolerance.is_finite() && tolerance > 0.0) {
+        return Err(Error::value("flow.tolerance", format!("{tolerance} is not a number > 0")));
+    }
+    Ok(())
+}
+
+fn check_columns(positions: &[Vec2], velocities: &[Vec2]) -> Result<()> {
+    if positions.len() != velocities.len() {
+        let what = format!("{} velocities for {} positions", velocities.len(), positions.len());
+        return Err(Error::value("fit", what));
+    }
+    for (name, column) in [("position", positions), ("velocity", velocities)] {
+        if let Some(i) = column.iter().position(|v| !v.is_finite()) {
+            return Err(Error::Numeric { stage: "fit", what: format!("{name} {i} is {}, not finite", column[i]) });
+        }
+    }
+    Ok(())
 }

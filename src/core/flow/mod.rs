@@ -8,6 +8,8 @@
 //!
 //! TABLE
 
+pub mod assembly;
+pub mod bending;
 pub mod fade;
 pub mod field;
 pub mod fit;

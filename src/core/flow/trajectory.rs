@@ -20,6 +20,17 @@ pub struct Fields {
 }
 
 impl Fields {
+    /// Fields that are given, not fitted: `nodes[n]` is the field at t = n / `steps`.
+    ///
+    /// # Panics
+    /// When there is no step, or a field is missing before the fade has ended.
+    pub fn from_nodes(nodes: Vec<Field>, steps: usize, fade: Fade, mean_straight: f32) -> Self {
+        let fields = Self { nodes, steps, fade, mean_straight };
+        let asked = (0..steps).filter(|&n| fields.time(n) < fade.end()).count();
+        assert!(asked > 0 && fields.nodes.len() >= asked, "a field for every step until the fade ends");
+        fields
+    }
+
     pub(super) fn new(steps: usize, fade: Fade, mean_straight: f32) -> Self {
         Self { nodes: Vec::new(), steps, fade, mean_straight }
     }

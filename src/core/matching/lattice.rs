@@ -141,7 +141,8 @@ impl Lattice {
             [0.5 * (0.5 - u) * (0.5 - u), 0.75 - u * u, 0.5 * (0.5 + u) * (0.5 + u)]
         };
         let (across, along) = (weights(point.x), weights(point.y));
-        let nearest = |x: f64, offset: i64, n: usize| (x.floor() as i64 + offset).clamp(0, n as i64 - 1) as usize;
+        let nearest =
+            |x: f64, offset: i64, n: usize| (x.floor() as i64 + offset).clamp(0, n as i64 - 1) as usize;
         let mut sum = 0.0;
         for (row, v) in (-1..=1).zip(along) {
             let line = &values[nearest(point.y, row, height) * width..][..width];

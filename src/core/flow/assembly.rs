@@ -1,0 +1,326 @@
+//! The normal equations of velocities wanted at points, Terms (3) and (6).
+//!
+//! With g the gradients of the basis functions at a point, both potentials see S = sum of g_x g_x^T + g_y g_y^T, and
+//! they see each other by C = sum of g_x g_y^T - g_y g_x^T. Points are sorted by cell; those of a cell are summed into
+//! one element matrix, which is then added to the stencils.
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::bending::bending;
+use super::field::Grid;
+use crate::math::bspline::{slopes, values};
+use crate::math::operator::Parts;
+use crate::math::stencil::{OFFSETS, Stencil, offset_index};
+use crate::math::vector::{GridVector, HALO, Layout};
+
+/// Velocities wanted at points, each with the same weight: the term weight/2 sum |u(p) - v|^2.
+#[derive(Clone, Copy)]
+pub struct Rows<'a> {
+    /// Points on the plane; one beyond the rectangle counts at the nearest border point, as the field does.
+    pub positions: &'a [Vec2],
+    /// Velocity wanted at each.
+    pub velocities: &'a [Vec2],
+    /// 1/K for Term (3), beta/P for Term (6).
+    pub weight: f64,
+}
+
+/// Sums of S, C and the right sides over rows.
+pub struct Assembly {
+    grid: Grid,
+    /// S, C where it is wanted, and the bending B.
+    pub parts: Parts,
+    /// Right sides, psi and phi without their weights: sums of g_x v_y - g_y v_x and of g_x v_x + g_y v_y.
+    pub right: GridVector<f64>,
+    table: Vec<Entry>,
+    sorted: Sorted,
+}
+
+/// A point in its cell: place 0..=1 along x and y, velocity.
+type Point = [f32; 4];
+
+#[derive(Default)]
+struct Sorted {
+    cells: Vec<u32>,
+    points: Vec<Point>,
+    /// First point of each cell, and the end of the last.
+    starts: Vec<u32>,
+}
+
+/// Where a number of the element matrix belongs.
+struct Entry {
+    /// Row and column of the node in its cell, 0..4.
+    row: usize,
+    column: usize,
+    offset: usize,
+    direct: usize,
+    /// Index and factor in `across_x` and `across_y`.
+    cross: [(usize, f64); 2],
+}
+
+/// Sums over the points of a cell, as products of pairs along x and y: symmetric pairs i <= k (10), antisymmetric
+/// pairs i < k (6), padded to whole registers.
+struct Element {
+    direct: [[f64; 12]; 10],
+    /// Antisymmetric along x, symmetric along y.
+    across_x: [[f64; 12]; 6],
+    /// Symmetric along x, antisymmetric along y.
+    across_y: [[f64; 8]; 10],
+    right: [[[f64; 4]; 4]; 2],
+}
+
+impl Assembly {
+    /// All sums zero; `coupled` when C is needed.
+    pub fn new(grid: Grid, coupled: bool) -> Self {
+        let layout = Layout::new(grid.nodes());
+        Self {
+            grid,
+            parts: Parts {
+                direct: Stencil::zero(layout),
+                cross: coupled.then(|| Stencil::zero(layout)),
+                smooth: bending(grid),
+                cell: grid.cell_size(),
+            },
+            right: GridVector::zero(layout, 2),
+            table: table(),
+            sorted: Sorted::default(),
+        }
+    }
+
+    /// All sums zero again.
+    pub fn clear(&mut self) {
+        self.parts.direct.clear();
+        self.parts.cross.iter_mut().for_each(Stencil::clear);
+        self.right.clear();
+    }
+
+    /// Adds the sums over `rows`, always in the same order.
+    pub fn add(&mut self, rows: Rows) {
+        self.sorted.sort(self.grid, rows);
+        // Tasks own 16 node rows each and may take the cell rows that touch no other; the three cell rows between two
+        // tasks come in a second round.
+        self.add_round(0, rows.weight);
+        self.add_round(PERIOD - 3, rows.weight);
+    }
+
+    fn add_round(&mut self, first: usize, weight: f64) {
+        let (grid, sorted, table) = (self.grid, &self.sorted, &self.table);
+        let layout = self.parts.direct.layout;
+        if first >= layout.nodes[1] {
+            return;
+        }
+        let (len, right_len) = (self.parts.direct.row_len(), self.right.row_len());
+        let direct = self.parts.direct.rows_mut()[first * len..].par_chunks_mut(PERIOD * len);
+        let right = self.right.rows_mut()[first * right_len..].par_chunks_mut(PERIOD * right_len);
+        let taken = if first == 0 { PERIOD - 3 } else { 3 };
+        let run = |task: usize, direct: &mut [f64], mut cross: Option<&mut [f64]>, right: &mut [f64]| {
+            let start = first + task * PERIOD;
+            for cell_row in start..(start + taken).min(grid.cells[1]) {
+                let at = cell_row - start;
+                let target = Target {
+                    layout,
+                    direct: &mut direct[at * len..],
+                    cross: cross.as_deref_mut().map(|cross| &mut cross[at * len..]),
+                    right: &mut right[at * right_len..],
+                };
+                sorted.add_cell_row(grid, cell_row, weight, table, target);
+            }
+        };
+        match &mut self.parts.cross {
+            None => direct.zip(right).enumerate().for_each(|(task, (d, r))| run(task, d, None, r)),
+            Some(cross) => {
+                let cross = cross.rows_mut()[first * len..].par_chunks_mut(PERIOD * len);
+                direct.zip(cross).zip(right).enumerate().for_each(|(t, ((d, c), r))| run(t, d, Some(c), r));
+            }
+        }
+    }
+}
+
+/// Node rows of a task.
+const PERIOD: usize = 16;
+
+/// Memory from the lowest node row of a cell row upwards.
+struct Target<'a> {
+    layout: Layout,
+    direct: &'a mut [f64],
+    cross: Option<&'a mut [f64]>,
+    right: &'a mut [f64],
+}
+
+impl Sorted {
+    /// Counting sort by cell.
+    fn sort(&mut self, grid: Grid, rows: Rows) {
+        let [width, height] = grid.cells;
+        let per_plane = grid.cell_size().map(|size| (1.0 / size) as f32);
+        let locate = |x: f32, cells: usize| {
+            let x = x.clamp(0.0, cells as f32);
+            let cell = (x as usize).min(cells - 1);
+            (cell, x - cell as f32)
+        };
+        let place = |p: Vec2| (locate(p.x * per_plane[0], width), locate(p.y * per_plane[1], height));
+        self.cells.clear();
+        self.cells.par_extend(rows.positions.par_iter().map(|&p| {
+            let ((column, _), (row, _)) = place(p);
+            (row * width + column) as u32
+        }));
+        self.starts.clear();
+        self.starts.resize(width * height + 1, 0);
+        for &cell in &self.cells {
+            self.starts[cell as usize + 1] += 1;
+        }
+        for i in 0..width * height {
+            self.starts[i + 1] += self.starts[i];
+        }
+        self.points.resize(self.cells.len(), [0.0; 4]);
+        // The start of each cell moves to its end, which is the start of the next.
+        for ((&cell, &position), &velocity) in self.cells.iter().zip(rows.positions).zip(rows.velocities) {
+            let ((_, x), (_, y)) = place(position);
+            let slot = &mut self.starts[cell as usize];
+            self.points[*slot as usize] = [x, y, velocity.x, velocity.y];
+            *slot += 1;
+        }
+    }
+
+    /// Points of a cell, after `sort`.
+    fn points_of(&self, cell: usize) -> &[Point] {
+        let start = if cell == 0 { 0 } else { self.starts[cell - 1] };
+        &self.points[start as usize..self.starts[cell] as usize]
+    }
+
+    fn add_cell_row(&self, grid: Grid, row: usize, weight: f64, table: &[Entry], mut target: Target) {
+        let scale = grid.cell_size().map(|size| 1.0 / size);
+        for column in 0..grid.cells[0] {
+            let points = self.points_of(row * grid.cells[0] + column);
+            if points.is_empty() {
+                continue;
+            }
+            let mut element = Element::zero();
+            for point in points {
+                element.add(point, scale, target.cross.is_some());
+            }
+            element.scatter(column, weight, table, &mut target);
+        }
+    }
+}
+
+impl Element {
+    fn zero() -> Self {
+        Self {
+            direct: [[0.0; 12]; 10],
+            across_x: [[0.0; 12]; 6],
+            across_y: [[0.0; 8]; 10],
+            right: [[[0.0; 4]; 4]; 2],
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, &[x, y, vx, vy]: &Point, scale: [f64; 2], coupled: bool) {
+        let (bx, by) = (values(x as f64), values(y as f64));
+        let (dx, dy) = (slopes(x as f64).map(|d| d * scale[0]), slopes(y as f64).map(|d| d * scale[1]));
+        let (bx2, dx2): ([f64; 12], [f64; 12]) = (symmetric(bx, bx), symmetric(dx, dx));
+        let (by2, dy2): ([f64; 12], [f64; 12]) = (symmetric(by, by), symmetric(dy, dy));
+        for (sum, (b, d)) in self.direct.iter_mut().zip(bx2.into_iter().zip(dx2)) {
+            for q in 0..12 {
+                sum[q] = d.mul_add(by2[q], b.mul_add(dy2[q], sum[q]));
+            }
+        }
+        if coupled {
+            let (xs, ys): ([f64; 12], [f64; 12]) = (symmetric(dx, bx), symmetric(dy, by));
+            let (xa, ya) = (antisymmetric(dx, bx), antisymmetric(dy, by));
+            for (sum, x) in self.across_x.iter_mut().zip(xa) {
+                for q in 0..12 {
+                    sum[q] = x.mul_add(ys[q], sum[q]);
+                }
+            }
+            for (sum, x) in self.across_y.iter_mut().zip(xs) {
+                for q in 0..8 {
+                    sum[q] = x.mul_add(ya[q], sum[q]);
+                }
+            }
+        }
+        let (vx, vy) = (vx as f64, vy as f64);
+        for row in 0..4 {
+            for i in 0..4 {
+                let (gx, gy) = (dx[i] * by[row], bx[i] * dy[row]);
+                self.right[0][row][i] += gx * vy - gy * vx;
+                self.right[1][row][i] += gx * vx + gy * vy;
+            }
+        }
+    }
+
+    /// Adds the sums to the nodes of the cell in column `column`.
+    fn scatter(&self, column: usize, weight: f64, table: &[Entry], target: &mut Target) {
+        let stride = target.layout.stride;
+        let first = HALO + column;
+        let direct = self.direct.as_flattened();
+        for entry in table {
+            let at = (entry.row * OFFSETS + entry.offset) * stride + first + entry.column;
+            target.direct[at] += weight * direct[entry.direct];
+        }
+        if let Some(cross) = &mut target.cross {
+            let (across_x, across_y) = (self.across_x.as_flattened(), self.across_y.as_flattened());
+            for entry in table {
+                let at = (entry.row * OFFSETS + entry.offset) * stride + first + entry.column;
+                let [(x, x_sign), (y, y_sign)] = entry.cross;
+                cross[at] += weight * (x_sign * across_x[x] + y_sign * across_y[y]);
+            }
+        }
+        for (component, right) in self.right.iter().enumerate() {
+            for (row, right) in right.iter().enumerate() {
+                let out = &mut target.right[(row * 2 + component) * stride + first..][..4];
+                for (out, value) in out.iter_mut().zip(right) {
+                    *out += weight * value;
+                }
+            }
+        }
+    }
+}
+
+/// a_i b_k + b_i a_k for i <= k, halved for a = b.
+#[inline(always)]
+fn symmetric(a: [f64; 4], b: [f64; 4]) -> [f64; 12] {
+    let mut pairs = [0.0; 12];
+    for (pair, (i, k)) in pairs.iter_mut().zip(PAIRS) {
+        *pair = 0.5 * (a[i] * b[k] + b[i] * a[k]);
+    }
+    pairs
+}
+
+/// (a_i b_k - b_i a_k) / 2 for i < k.
+#[inline(always)]
+fn antisymmetric(a: [f64; 4], b: [f64; 4]) -> [f64; 8] {
+    let mut pairs = [0.0; 8];
+    for (pair, (i, k)) in pairs.iter_mut().zip(UNEQUAL) {
+        *pair = 0.5 * (a[i] * b[k] - b[i] * a[k]);
+    }
+    pairs
+}
+
+const PAIRS: [(usize, usize); 10] =
+    [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
+const UNEQUAL: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+
+/// The stored half of an element matrix: all pairs of its 16 nodes whose offset is stored.
+///
+/// With X = x' x, Y = y y' split into symmetric and antisymmetric parts, an entry of C is
+/// X Y - X^T Y^T = 2 (Xa Ys + Xs Ya); Y here has its derivative on the other side than `antisymmetric` has.
+fn table() -> Vec<Entry> {
+    let pair = |i: usize, k: usize| PAIRS.iter().position(|&p| p == (i.min(k), i.max(k))).unwrap_or(0);
+    let unequal = |i: usize, k: usize| match UNEQUAL.iter().position(|&p| p == (i.min(k), i.max(k))) {
+        Some(at) => (at, if i < k { 2.0 } else { -2.0 }),
+        None => (0, 0.0),
+    };
+    let nodes = || (0..4).flat_map(|row| (0..4).map(move |column| (row, column)));
+    let mut table = Vec::new();
+    for ((row, column), (to_row, to_column)) in nodes().flat_map(|a| nodes().map(move |b| (a, b))) {
+        let (dx, dy) = (to_column as isize - column as isize, to_row as isize - row as isize);
+        if dy < 0 || (dy == 0 && dx < 0) {
+            continue;
+        }
+        let (x, y) = (pair(column, to_column), pair(row, to_row));
+        let ((xa, x_sign), (ya, y_sign)) = (unequal(column, to_column), unequal(row, to_row));
+        let cross = [(12 * xa + y, x_sign), (8 * x + ya, -y_sign)];
+        table.push(Entry { row, column, offset: offset_index(dx, dy), direct: 12 * x + y, cross });
+    }
+    table
+}

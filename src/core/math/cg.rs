@@ -1,0 +1,91 @@
+//! Preconditioned conjugate gradients.
+
+use super::multigrid::Multigrid;
+use super::operator::Operator;
+use super::vector::GridVector;
+use crate::{Progress, Result};
+
+/// How a solve went.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Solved {
+    /// Iterations made.
+    pub iterations: usize,
+    /// |b - A x| / |b|.
+    pub residual: f64,
+}
+
+/// Storage of conjugate gradients for vectors of one shape.
+pub struct ConjugateGradients {
+    residual: GridVector<f64>,
+    previous: GridVector<f64>,
+    direction: GridVector<f64>,
+    /// -A direction.
+    image: GridVector<f64>,
+    preconditioned: GridVector<f64>,
+    single: [GridVector<f32>; 2],
+}
+
+impl ConjugateGradients {
+    /// Storage for vectors like `shape`.
+    pub fn new(shape: &GridVector<f64>) -> Self {
+        let zero = || GridVector::zero(shape.layout, shape.components);
+        let single = || GridVector::zero(shape.layout, shape.components);
+        Self {
+            residual: zero(),
+            previous: zero(),
+            direction: zero(),
+            image: zero(),
+            preconditioned: zero(),
+            single: [single(), single()],
+        }
+    }
+
+    /// Improves `x` until |b - A x| <= `tolerance` |b| or `max_iterations` are made. The preconditioner works in single
+    /// precision, so it is not quite the same linear map each time: beta is the flexible one (Notay 2000).
+    pub fn solve(
+        &mut self,
+        operator: &Operator<f64>,
+        preconditioner: &mut Multigrid,
+        right: &GridVector<f64>,
+        x: &mut GridVector<f64>,
+        (tolerance, max_iterations): (f64, usize),
+        progress: &Progress,
+    ) -> Result<Solved> {
+        let scale = right.dot(right).sqrt();
+        if scale == 0.0 {
+            x.clear();
+            return Ok(Solved { iterations: 0, residual: 0.0 });
+        }
+        self.residual.convert(1.0, right);
+        operator.subtract_product(x, &mut self.residual);
+        let mut norm = self.residual.dot(&self.residual).sqrt();
+        let mut rho = 1.0;
+        let mut iterations = 0;
+        while norm > tolerance * scale && iterations < max_iterations {
+            progress.check()?;
+            self.single[0].convert(1.0 / norm, &self.residual);
+            let [right, solution] = &mut self.single;
+            preconditioner.apply(right, solution);
+            self.preconditioned.convert(norm, solution);
+            let rho_new = self.preconditioned.dot(&self.residual);
+            let beta = if iterations == 0 { 0.0 } else { (rho_new - self.preconditioned.dot(&self.previous)) / rho };
+            if iterations == 0 {
+                self.direction.clear();
+            }
+            self.direction.combine(beta, 1.0, &self.preconditioned);
+            self.image.clear();
+            operator.subtract_product(&self.direction, &mut self.image);
+            let step = self.direction.dot(&self.residual) / -self.direction.dot(&self.image);
+            if !(step.is_finite() && rho_new > 0.0) {
+                break;
+            }
+            x.combine(1.0, step, &self.direction);
+            self.previous.convert(1.0, &self.residual);
+            self.residual.combine(1.0, step, &self.image);
+            norm = self.residual.dot(&self.residual).sqrt();
+            rho = rho_new;
+            iterations += 1;
+        }
+        Ok(Solved { iterations, residual: norm / scale })
+    }
+}

@@ -1,0 +1,236 @@
+//! One multigrid V-cycle as a preconditioner (Galerkin grids, Chebyshev smoothing, a direct solve at the end).
+//!
+//! Chebyshev smoothing by the diagonal: Adams, Brezina, Hu, Tuminaro, "Parallel multigrid smoothing: polynomial versus
+//! Gauss-Seidel", J. Comput. Phys. 188 (2003). It is symmetric, needs only products with the matrix, and gives the
+//! same bits for any number of threads.
+
+use rayon::prelude::*;
+
+use super::cholesky::Cholesky;
+use super::null_space::NullSpace;
+use super::operator::{Operator, Parts, Weights};
+use super::real::Real;
+use super::transfer::{Transfer, coarse_nodes};
+use super::vector::{GridVector, Layout};
+
+/// Axes with fewer nodes than this are not coarsened further: 4 cells and the 3 functions that reach beyond.
+const COARSEST: usize = 7;
+/// Products with the matrix on each side of the coarse grid.
+const DEGREE: usize = 3;
+/// The smoother works on eigenvalues down to this share of the largest.
+const SMOOTHED: f64 = 0.06;
+
+/// A hierarchy of grids for one matrix.
+pub struct Multigrid {
+    levels: Vec<Level>,
+    coarsest: Coarsest,
+}
+
+struct Level {
+    operator: Operator<f32>,
+    largest: f64,
+    transfer: Transfer<f32>,
+    solution: GridVector<f32>,
+    residual: GridVector<f32>,
+    steps: [GridVector<f32>; 2],
+    coarse_right: GridVector<f32>,
+    coarse_solution: GridVector<f32>,
+}
+
+struct Coarsest {
+    layout: Layout,
+    factor: Cholesky,
+    right: Vec<f64>,
+}
+
+impl Multigrid {
+    /// The hierarchy for the matrix of `parts` and `weights`, which is zero on `null` and nowhere else.
+    pub fn new(parts: &Parts, weights: Weights, null: &NullSpace) -> Self {
+        let mut levels = Vec::new();
+        let mut coarse: Option<Parts> = None;
+        loop {
+            let fine = coarse.as_ref().unwrap_or(parts);
+            let layout = fine.direct.layout;
+            let nodes = next_nodes(layout.nodes, fine.cell);
+            if nodes == layout.nodes {
+                let coarsest = Coarsest::new(fine, weights, null);
+                return Self { levels, coarsest };
+            }
+            let mut operator = Operator::zero(layout, fine.components());
+            operator.set(fine, weights);
+            levels.push(Level::new(operator, Layout::new(nodes)));
+            coarse = Some(fine.coarsened(nodes));
+        }
+    }
+
+    /// `solution` = V-cycle for `right`, from zero.
+    pub fn apply(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
+        cycle(&mut self.levels, &mut self.coarsest, right, solution);
+    }
+}
+
+fn cycle(levels: &mut [Level], coarsest: &mut Coarsest, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
+    let Some((level, coarser)) = levels.split_first_mut() else {
+        return coarsest.solve(right, solution);
+    };
+    level.residual.convert(1.0, right);
+    level.solution.clear();
+    level.smooth();
+    level.operator.subtract_product(&level.steps[0], &mut level.residual);
+    level.transfer.restrict(&level.residual, &mut level.coarse_right);
+    cycle(coarser, coarsest, &level.coarse_right, &mut level.coarse_solution);
+    level.steps[0].clear();
+    level.transfer.prolong_add(&level.coarse_solution, &mut level.steps[0]);
+    level.solution.combine(1.0, 1.0, &level.steps[0]);
+    level.operator.subtract_product(&level.steps[0], &mut level.residual);
+    level.smooth();
+    solution.convert(1.0, &level.solution);
+}
+
+/// Nodes of the next grid: the axes with the narrower cells are coarsened, so that cells become square.
+fn next_nodes(nodes: [usize; 2], cell: [f64; 2]) -> [usize; 2] {
+    let width = [0, 1].map(|axis| if nodes[axis] > COARSEST { cell[axis] } else { f64::INFINITY });
+    let narrowest = width[0].min(width[1]);
+    [0, 1].map(|axis| {
+        let narrow = width[axis].is_finite() && width[axis] < 1.5 * narrowest;
+        if narrow { coarse_nodes(nodes[axis]) } else { nodes[axis] }
+    })
+}
+
+impl Level {
+    fn new(operator: Operator<f32>, coarse: Layout) -> Self {
+        let zero = |layout| GridVector::zero(layout, operator.components);
+        let fine = operator.layout;
+        Self {
+            largest: largest_eigenvalue(&operator),
+            transfer: Transfer::new(fine, coarse, operator.components),
+            solution: zero(fine),
+            residual: zero(fine),
+            steps: [zero(fine), zero(fine)],
+            coarse_right: zero(coarse),
+            coarse_solution: zero(coarse),
+            operator,
+        }
+    }
+
+    /// Improves the solution by a Chebyshev polynomial in the residual. The last step is left in `steps[0]`, not yet
+    /// taken off the residual.
+    fn smooth(&mut self) {
+        let (top, bottom) = (self.largest, self.largest * SMOOTHED);
+        let (centre, half) = (0.5 * (top + bottom), 0.5 * (top - bottom));
+        let mut rho = half / centre;
+        self.step(0.0, 1.0 / centre);
+        for _ in 1..DEGREE {
+            let next = 1.0 / (2.0 * centre / half - rho);
+            self.step(next * rho, 2.0 * next / half);
+            rho = next;
+        }
+    }
+
+    /// residual -= A step; step = keep step + factor D^-1 residual; solution += step.
+    fn step(&mut self, keep: f64, factor: f64) {
+        let (operator, inverse) = (&self.operator, &self.operator.inverse_diagonal);
+        let [old, new] = &mut self.steps;
+        let (len, rows) = (old.row_len(), operator.layout.rows_per_task());
+        let (old_rows, old, keep, factor) = (old.rows(), &*old, keep as f32, factor as f32);
+        let parts = self.residual.rows_mut().par_chunks_mut(len * rows);
+        let parts = parts.zip(new.rows_mut().par_chunks_mut(len * rows));
+        let parts = parts.zip(self.solution.rows_mut().par_chunks_mut(len * rows)).enumerate();
+        parts.for_each(|(task, ((residual, new), solution))| {
+            let parts = residual.chunks_exact_mut(len).zip(new.chunks_exact_mut(len));
+            let parts = parts.zip(solution.chunks_exact_mut(len)).enumerate();
+            for (i, ((residual, new), solution)) in parts {
+                let row = task * rows + i;
+                let span = row * len..(row + 1) * len;
+                let (old_row, inverse) = (&old_rows[span.clone()], &inverse.rows()[span]);
+                if keep != 0.0 {
+                    operator.subtract_row(row, old, residual);
+                }
+                for i in 0..len {
+                    let old = if keep != 0.0 { keep * old_row[i] } else { 0.0 };
+                    new[i] = (factor * inverse[i]).mul_add(residual[i], old);
+                    solution[i] += new[i];
+                }
+            }
+        });
+        self.steps.swap(0, 1);
+    }
+}
+
+/// An upper estimate of the largest eigenvalue of D^-1 A by power iterations from a fixed rough vector.
+fn largest_eigenvalue(operator: &Operator<f32>) -> f64 {
+    let mut vector = GridVector::<f32>::zero(operator.layout, operator.components);
+    let [nx, ny] = operator.layout.nodes;
+    for component in 0..operator.components {
+        for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
+            let rough = ((x * 7 + y * 13 + component * 5) % 17) as f32 - 8.0;
+            vector.set(component, x, y, if (x + y) % 2 == 0 { 20.0 + rough } else { -20.0 + rough });
+        }
+    }
+    let mut estimate = 0.0;
+    for _ in 0..8 {
+        let mut product = GridVector::zero(operator.layout, operator.components);
+        operator.subtract_product(&vector, &mut product);
+        for (value, inverse) in product.rows_mut().iter_mut().zip(operator.inverse_diagonal.rows()) {
+            *value *= -inverse;
+        }
+        let norm = product.dot(&product).sqrt();
+        estimate = norm / vector.dot(&vector).sqrt().max(f64::MIN_POSITIVE);
+        vector.convert(1.0 / norm.max(f64::MIN_POSITIVE), &product);
+    }
+    (1.15 * estimate).max(f64::MIN_POSITIVE)
+}
+
+impl Coarsest {
+    fn new(parts: &Parts, weights: Weights, null: &NullSpace) -> Self {
+        let components = parts.components();
+        let layout = parts.direct.layout;
+        let [nx, ny] = layout.nodes;
+        let mut operator = Operator::<f64>::zero(layout, components);
+        operator.set(parts, weights);
+        let size = components * nx * ny;
+        let mut lower = vec![0.0; size * size];
+        let index = |component: usize, x: usize, y: usize| (component * ny + y) * nx + x;
+        for (i, k) in (0..components).flat_map(|i| (0..components).map(move |k| (i, k))) {
+            for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
+                for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
+                    let (to_x, to_y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
+                    if to_x < nx && to_y < ny {
+                        lower[index(i, x, y) * size + index(k, to_x, to_y)] = operator.entry([i, k], x, y, dx, dy);
+                    }
+                }
+            }
+        }
+        fill_null_space(&mut lower, size, &null.vectors(layout, parts.cell));
+        Self { layout, factor: Cholesky::new(size, lower), right: vec![0.0; size] }
+    }
+
+    fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
+        let [nx, ny] = self.layout.nodes;
+        for (i, value) in self.right.iter_mut().enumerate() {
+            *value = number(right, i) as f64;
+        }
+        self.factor.solve(&mut self.right);
+        for (i, &value) in self.right.iter().enumerate() {
+            solution.set(i / (nx * ny), i % nx, i / nx % ny, value as f32);
+        }
+    }
+}
+
+/// Makes a singular matrix definite without touching what it does outside of its null space.
+fn fill_null_space(matrix: &mut [f64], size: usize, null: &[GridVector<f64>]) {
+    let mean = (0..size).map(|i| matrix[i * size + i]).sum::<f64>() / size as f64;
+    for vector in null {
+        for i in 0..size {
+            for k in 0..size {
+                matrix[i * size + k] += mean * number(vector, i) * number(vector, k);
+            }
+        }
+    }
+}
+
+/// The `i`-th unknown: components one after the other, each row by row.
+fn number<T: Real>(vector: &GridVector<T>, i: usize) -> T {
+    let [nx, ny] = vector.layout.nodes;
+    vector.at(i / (nx * ny), i % nx, i / nx % ny)
+}

@@ -1,0 +1,227 @@
+//! The matrix of one or two coupled potentials on a grid, and its products with vectors.
+
+use rayon::prelude::*;
+
+use super::kronecker::Kronecker;
+use super::real::Real;
+use super::stencil::{OFFSETS, Stencil, offset, offset_index};
+use super::vector::{GridVector, HALO, Layout};
+
+/// What the matrix of a grid is made of:
+/// `[ psi S + smooth B, cross C; -cross C, phi S + smooth B ]`, S and B symmetric, C antisymmetric.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// S.
+    pub direct: Stencil<f64>,
+    /// C, where two potentials are coupled.
+    pub cross: Option<Stencil<f64>>,
+    /// B.
+    pub smooth: Kronecker,
+    /// Width and height of a cell.
+    pub cell: [f64; 2],
+}
+
+/// The factors of the parts.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Weights {
+    /// Of S for the first potential, or for the only one.
+    pub psi: f64,
+    /// Of S for the second.
+    pub phi: f64,
+    /// Of C.
+    pub cross: f64,
+    /// Of B.
+    pub smooth: f64,
+}
+
+impl Parts {
+    /// Potentials: 2 where they are coupled, else 1.
+    pub fn components(&self) -> usize {
+        if self.cross.is_some() { 2 } else { 1 }
+    }
+
+    /// The same on the grid with so many nodes and doubled cells where the number differs.
+    pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
+        let cell = [0, 1].map(|axis| {
+            if nodes[axis] == self.direct.layout.nodes[axis] { self.cell[axis] } else { 2.0 * self.cell[axis] }
+        });
+        Self {
+            direct: self.direct.coarsened(nodes, 1.0),
+            cross: self.cross.as_ref().map(|cross| cross.coarsened(nodes, -1.0)),
+            smooth: self.smooth.coarsened(nodes),
+            cell,
+        }
+    }
+}
+
+/// A symmetric positive semidefinite matrix over a grid.
+pub struct Operator<T> {
+    /// Where the nodes lie.
+    pub layout: Layout,
+    /// Potentials, 1 or 2.
+    pub components: usize,
+    /// Of each unknown: one over its diagonal entry, or 0 where that is 0.
+    pub inverse_diagonal: GridVector<T>,
+    psi: Stencil<T>,
+    coupled: Option<Coupled<T>>,
+}
+
+struct Coupled<T> {
+    phi: Stencil<T>,
+    cross: Stencil<T>,
+}
+
+impl<T: Real> Operator<T> {
+    /// Room for a matrix of zeros.
+    pub fn zero(layout: Layout, components: usize) -> Self {
+        let coupled = || Coupled { phi: Stencil::zero(layout), cross: Stencil::zero(layout) };
+        Self {
+            layout,
+            components,
+            inverse_diagonal: GridVector::zero(layout, components),
+            psi: Stencil::zero(layout),
+            coupled: (components == 2).then(coupled),
+        }
+    }
+
+    /// Sets the matrix. Two potentials need `parts.cross`.
+    pub fn set(&mut self, parts: &Parts, weights: Weights) {
+        let block = |out: &mut Stencil<T>, part: &Stencil<f64>, weight: f64, smooth: f64| {
+            out.fill_rows(|row, dx, dy, entries| {
+                let source = &part.padded(row + HALO, offset_index(dx, dy))[HALO..];
+                for (entry, value) in entries.iter_mut().zip(source) {
+                    *entry = T::from_f64(weight * value);
+                }
+                if smooth != 0.0 {
+                    parts.smooth.add_entries(smooth, row, dx, dy as usize, entries);
+                }
+            });
+        };
+        block(&mut self.psi, &parts.direct, weights.psi, weights.smooth);
+        if let (Some(coupled), Some(cross)) = (&mut self.coupled, &parts.cross) {
+            block(&mut coupled.phi, &parts.direct, weights.phi, weights.smooth);
+            block(&mut coupled.cross, cross, weights.cross, 0.0);
+        }
+        self.set_inverse_diagonal();
+    }
+
+    fn set_inverse_diagonal(&mut self) {
+        let blocks = [Some(&self.psi), self.coupled.as_ref().map(|coupled| &coupled.phi)];
+        for (component, block) in blocks.iter().flatten().enumerate() {
+            for y in 0..self.layout.nodes[1] {
+                for x in 0..self.layout.nodes[0] {
+                    let value = block.entry(x, y, 0, 0, T::from_f64(1.0)).to_f64();
+                    let inverse = if value > 0.0 { 1.0 / value } else { 0.0 };
+                    self.inverse_diagonal.set(component, x, y, T::from_f64(inverse));
+                }
+            }
+        }
+    }
+
+    /// Entry between component `i` of node (x, y) and component `k` of the node at offset (dx, dy).
+    pub fn entry(&self, [i, k]: [usize; 2], x: usize, y: usize, dx: isize, dy: isize) -> f64 {
+        let one = T::from_f64(1.0);
+        let entry = match (&self.coupled, i, k) {
+            (Some(coupled), 1, 1) => coupled.phi.entry(x, y, dx, dy, one),
+            (Some(coupled), 0, 1) => coupled.cross.entry(x, y, dx, dy, -one),
+            (Some(coupled), 1, 0) => -coupled.cross.entry(x, y, dx, dy, -one),
+            _ => self.psi.entry(x, y, dx, dy, one),
+        };
+        entry.to_f64()
+    }
+
+    /// `out` -= A `vector`.
+    pub fn subtract_product(&self, vector: &GridVector<T>, out: &mut GridVector<T>) {
+        let (len, rows) = (out.row_len(), self.layout.rows_per_task());
+        out.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
+            for (i, out) in part.chunks_exact_mut(len).enumerate() {
+                self.subtract_row(task * rows + i, vector, out);
+            }
+        });
+    }
+
+    /// `out` -= node row `row` of A `vector`; `out` is all components of the row with their halo.
+    #[inline]
+    pub fn subtract_row(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+        match &self.coupled {
+            None => self.subtract_single(row, vector, out),
+            Some(coupled) => self.subtract_coupled(coupled, row, vector, out),
+        }
+    }
+
+    fn subtract_single(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+        let width = self.layout.width;
+        let out = &mut out[HALO..HALO + width];
+        let at = row + HALO;
+        let centre = &self.psi.padded(at, 0)[HALO..HALO + width];
+        let x = &vector.padded(at, 0)[HALO..HALO + width];
+        for i in 0..width {
+            out[i] = (-centre[i]).fused(x[i], out[i]);
+        }
+        for k in 1..OFFSETS {
+            let (dx, dy) = offset(k);
+            let (after, before) = (HALO.wrapping_add_signed(dx), HALO.wrapping_add_signed(-dx));
+            let (above, below) = (at + dy as usize, at - dy as usize);
+            let s = &self.psi.padded(at, k)[HALO..HALO + width];
+            let t = &self.psi.padded(below, k)[before..before + width];
+            let x = &vector.padded(above, 0)[after..after + width];
+            let y = &vector.padded(below, 0)[before..before + width];
+            for i in 0..width {
+                out[i] = (-t[i]).fused(y[i], (-s[i]).fused(x[i], out[i]));
+            }
+        }
+    }
+
+    fn subtract_coupled(&self, coupled: &Coupled<T>, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+        let Layout { width, stride, .. } = self.layout;
+        let (out_psi, out_phi) = out.split_at_mut(stride);
+        let (out_psi, out_phi) = (&mut out_psi[HALO..HALO + width], &mut out_phi[HALO..HALO + width]);
+        let at = row + HALO;
+        // The centre of C is zero.
+        let (p, q) =
+            (&self.psi.padded(at, 0)[HALO..HALO + width], &coupled.phi.padded(at, 0)[HALO..HALO + width]);
+        let (psi, phi) =
+            (&vector.padded(at, 0)[HALO..HALO + width], &vector.padded(at, 1)[HALO..HALO + width]);
+        for i in 0..width {
+            out_psi[i] = (-p[i]).fused(psi[i], out_psi[i]);
+            out_phi[i] = (-q[i]).fused(phi[i], out_phi[i]);
+        }
+        for k in 1..OFFSETS {
+            self.subtract_offset(coupled, (at, k), vector, out_psi, out_phi);
+        }
+    }
+
+    /// Both neighbours at plus and minus offset `k` of node row `at`.
+    #[inline(always)]
+    fn subtract_offset(
+        &self,
+        coupled: &Coupled<T>,
+        (at, k): (usize, usize),
+        vector: &GridVector<T>,
+        out_psi: &mut [T],
+        out_phi: &mut [T],
+    ) {
+        let width = self.layout.width;
+        let (dx, dy) = offset(k);
+        let (after, before) = (HALO.wrapping_add_signed(dx), HALO.wrapping_add_signed(-dx));
+        let (above, below) = (at + dy as usize, at - dy as usize);
+        let p = &self.psi.padded(at, k)[HALO..HALO + width];
+        let q = &coupled.phi.padded(at, k)[HALO..HALO + width];
+        let c = &coupled.cross.padded(at, k)[HALO..HALO + width];
+        let psi = &vector.padded(above, 0)[after..after + width];
+        let phi = &vector.padded(above, 1)[after..after + width];
+        for i in 0..width {
+            out_psi[i] = (-p[i]).fused(psi[i], (-c[i]).fused(phi[i], out_psi[i]));
+            out_phi[i] = (-q[i]).fused(phi[i], c[i].fused(psi[i], out_phi[i]));
+        }
+        let p = &self.psi.padded(below, k)[before..before + width];
+        let q = &coupled.phi.padded(below, k)[before..before + width];
+        let c = &coupled.cross.padded(below, k)[before..before + width];
+        let psi = &vector.padded(below, 0)[before..before + width];
+        let phi = &vector.padded(below, 1)[before..before + width];
+        for i in 0..width {
+            out_psi[i] = (-p[i]).fused(psi[i], c[i].fused(phi[i], out_psi[i]));
+            out_phi[i] = (-q[i]).fused(phi[i], (-c[i]).fused(psi[i], out_phi[i]));
+        }
+    }
+}
