@@ -9,7 +9,8 @@ use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
 use glam::Vec3;
 use half::f16;
 use lightloom_core::export::{
-    Frame, FrameFormat, FramePattern, Metadata, PngDepth, Repairs, evenly_chosen, write_contact_sheet, write_frame,
+    Frame, FrameFormat, FramePattern, Metadata, PngDepth, Repairs, evenly_chosen, write_contact_sheet,
+    write_frame,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::{Image, View, ViewSettings, ViewTransform};
@@ -29,7 +30,11 @@ fn metadata() -> Metadata {
         frames_per_second: (24, 1),
         seed: u64::MAX,
         passes: 8,
-        settings: vec![("gamma".into(), "0.5".into()), ("project".into(), "Blüte".into()), ("z".into(), "1".into())],
+        settings: vec![
+            ("gamma".into(), "0.5".into()),
+            ("project".into(), "Blüte".into()),
+            ("z".into(), "1".into()),
+        ],
     }
 }
 
@@ -37,7 +42,12 @@ fn view(transform: ViewTransform) -> View {
     ViewSettings { exposure: 0.0, transform }.view()
 }
 
-fn write(path: &Path, format: FrameFormat, background: &Image, caustic: &Image) -> lightloom_core::Result<Repairs> {
+fn write(
+    path: &Path,
+    format: FrameFormat,
+    background: &Image,
+    caustic: &Image,
+) -> lightloom_core::Result<Repairs> {
     let frame = Frame { background, caustic, metadata: &metadata() };
     write_frame(path, format, &frame, &view(ViewTransform::Agx), PngDepth::Eight)
 }
@@ -103,7 +113,8 @@ fn equal_input_gives_equal_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let (background, caustic) = (noise(1, 1.0), noise(2, 1.0));
     for format in FrameFormat::ALL {
-        let paths: Vec<_> = (0..8).map(|i| folder.path().join(format!("{i}.{}", format.extension()))).collect();
+        let paths: Vec<_> =
+            (0..8).map(|i| folder.path().join(format!("{i}.{}", format.extension()))).collect();
         for path in &paths {
             write(path, format, &background, &caustic).unwrap();
         }

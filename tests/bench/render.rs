@@ -6,7 +6,8 @@ use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{
-    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, Visible, Workspace,
+    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, Visible,
+    Workspace,
 };
 
 const PHOTONS: usize = 1_000_000;
@@ -83,12 +84,14 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
     let mut background = Image::new(1280, 720);
     let rng = &mut Stream::new(2, Purpose::Background, 0, 0);
     background.pixels.iter_mut().for_each(|p| *p = Vec3::splat(0.2 + 0.002 * rng.f32()));
-    let metadata = Metadata { frame: 1, frames_per_second: (24, 1), seed: 1, passes: 8, settings: Vec::new() };
+    let metadata =
+        Metadata { frame: 1, frames_per_second: (24, 1), seed: 1, passes: 8, settings: Vec::new() };
     let frame = Frame { background: &background, caustic: &caustic, metadata: &metadata };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("frame.0001");
     let view = ViewSettings::default().view();
-    bencher.bench_local(|| write_frame(&path, format, &frame, &view, PngDepth::Eight).expect("a written frame"));
+    bencher
+        .bench_local(|| write_frame(&path, format, &frame, &view, PngDepth::Eight).expect("a written frame"));
 }
 
 #[divan::bench(sample_count = 10)]

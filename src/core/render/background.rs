@@ -54,7 +54,9 @@ pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress:
     trace(&mut pixels, &|pixel| pixel.count == 0)?;
     let brightness = pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>() / pixels.len() as f64;
     let floor = 0.5 * brightness as f32;
-    trace(&mut pixels, &|pixel| pixel.count < MOST * base && pixel.error() > TOLERANCE * (pixel.luminance() + floor))?;
+    trace(&mut pixels, &|pixel| {
+        pixel.count < MOST * base && pixel.error() > TOLERANCE * (pixel.luminance() + floor)
+    })?;
     Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
 }
 
@@ -168,7 +170,15 @@ impl Paths<'_> {
     }
 
     /// What a white matt surface sends on of the light that comes straight from the lights.
-    fn direct(&self, hit: &Hit, geometric: Vec3, normal: Vec3, index: u32, bounce: u32, sampler: Sampler) -> Vec3 {
+    fn direct(
+        &self,
+        hit: &Hit,
+        geometric: Vec3,
+        normal: Vec3,
+        index: u32,
+        bounce: u32,
+        sampler: Sampler,
+    ) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for (i, light) in self.scene.lights().iter().enumerate() {
             let pair = (i as u32 + 1) * 16 + bounce;

@@ -20,7 +20,10 @@ impl Sampler {
     pub(super) fn pair(self, index: u32, pair: u32) -> [f32; 2] {
         let seed = hash(self.seed ^ hash(pair));
         let index = scramble(index, seed);
-        [unit(scramble(index.reverse_bits(), hash(seed ^ 1))), unit(scramble(second_sobol(index), hash(seed ^ 2)))]
+        [
+            unit(scramble(index.reverse_bits(), hash(seed ^ 1))),
+            unit(scramble(second_sobol(index), hash(seed ^ 2))),
+        ]
     }
 }
 

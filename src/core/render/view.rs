@@ -6,7 +6,7 @@
 //! and white. Its values are meant for a display with the exponent 2.2 and are written as they are, as Blender does.
 //! *standard* is the sRGB curve of IEC 61966-2-1: colours as they are, clipped at 1.
 
-use glam::{Mat3, Vec3};
+use glam::{DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -96,13 +96,13 @@ impl Agx {
 
     fn new() -> Self {
         let rows = [
-            Vec3::new(0.842_479_06, 0.078_433_6, 0.079_223_745),
-            Vec3::new(0.042_328_242, 0.878_468_64, 0.079_166_13),
-            Vec3::new(0.042_375_655, 0.078_433_6, 0.879_142_97),
+            DVec3::new(0.842_479_062_253_094, 0.078_433_6, 0.079_223_745_147_764_3),
+            DVec3::new(0.042_328_242_261_012_3, 0.878_468_636_469_772, 0.079_166_127_460_543_4),
+            DVec3::new(0.042_375_654_905_705_1, 0.078_433_6, 0.879_142_973_793_104),
         ];
         let [r, g, b] = rows.map(|row| row / row.element_sum());
-        let inset = Mat3::from_cols(r, g, b).transpose();
-        Self { inset, outset: inset.inverse() }
+        let inset = DMat3::from_cols(r, g, b).transpose();
+        Self { inset: inset.as_mat3(), outset: inset.inverse().as_mat3() }
     }
 
     fn encode(&self, linear: Vec3) -> Vec3 {
