@@ -249,7 +249,7 @@ fn what_cannot_be_matched_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn any_two_sets_of_equal_size_are_matched_one_to_one(
         points in prop::collection::vec((0_u8..20, 0_u8..20, -1.0_f32..2.0, -1.0_f32..2.0), 1..200),
