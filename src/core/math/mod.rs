@@ -1,20 +1,17 @@
 //! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
 
 pub mod bspline;
-pub mod distribution;
-pub mod hilbert;
-pub mod rng;
 pub mod cg;
 pub mod cholesky;
+pub mod distribution;
+pub mod hilbert;
 pub mod kronecker;
 pub mod multigrid;
 pub mod null_space;
 pub mod operator;
 pub mod real;
 pub mod rng;
+pub mod sobol;
 pub mod stencil;
 pub mod transfer;
 pub mod vector;
-pub mod distribution;
-pub mod hilbert;
-pub mod sobol;
