@@ -16,14 +16,14 @@ pub(crate) const WINE_GLASS: Vessel = Vessel {
     thickness: 1.2,
     lip: &[(31.5, 220.9), (30.5, 220.9)],
     floor: &[(8.0, 96.9), (0.0, 96.0)],
-    section: None,
+    section: Section::Round,
 };
 
 /// Wine for the wine glass. Its surface lies in the middle of the wall, so that the two overlap.
 pub(crate) const WINE: [(f64, f64); 7] =
     [(41.2, 136.2), (41.3, 137.4), (40.9, 138.1), (39.4, 138.0), (30.0, 138.0), (15.0, 138.0), (0.0, 138.0)];
 
-/// A heavy goblet with a ball in its stem.
+/// A heavy goblet with a ball in its stem and soft ribs inside.
 pub(crate) const GOBLET: Vessel = Vessel {
     foot: &[
         (0.0, 3.4), (10.0, 3.1), (20.0, 1.6), (28.0, 0.1), (33.4, -0.3), (36.0, 1.0), (35.8, 3.2), (32.0, 4.7),
@@ -37,7 +37,7 @@ pub(crate) const GOBLET: Vessel = Vessel {
     thickness: 3.4,
     lip: &[(36.6, 168.2), (33.8, 168.2)],
     floor: &[(11.0, 74.9), (0.0, 73.8)],
-    section: None,
+    section: Section::Ribbed { count: 12.0, depth: 0.005, heights: [74.0, 96.0, 140.0, 166.0] },
 };
 
 /// A round-bellied bottle with a flared lip.
@@ -51,7 +51,7 @@ pub(crate) const BOTTLE_ROUND: Vessel = Vessel {
     thickness: 3.0,
     lip: &[(18.0, 206.6), (20.0, 211.4), (18.6, 213.8), (16.4, 212.4), (14.4, 206.4)],
     floor: &[(35.0, 5.4), (24.0, 7.0), (12.0, 10.8), (0.0, 11.8)],
-    section: None,
+    section: Section::Round,
 };
 
 /// A slender bottle with long shoulders and a ring at the mouth.
@@ -67,7 +67,7 @@ pub(crate) const BOTTLE_TALL: Vessel = Vessel {
         (11.8, 330.4), (10.8, 328.0), (10.7, 320.0),
     ],
     floor: &[(33.4, 8.6), (29.0, 6.8), (18.0, 7.8), (9.0, 9.0), (0.0, 9.4)],
-    section: None,
+    section: Section::Round,
 };
 
 /// A square bottle with round corners, a round neck and a collar.
@@ -83,5 +83,5 @@ pub(crate) const BOTTLE_SQUARE: Vessel = Vessel {
         (12.2, 236.4), (11.2, 233.6), (11.0, 222.0),
     ],
     floor: &[(34.2, 9.4), (28.0, 7.6), (18.0, 8.0), (9.0, 9.0), (0.0, 9.4)],
-    section: Some(Section { exponents: [7.0, 2.0], heights: [140.0, 190.0] }),
+    section: Section::Squared { exponent: 7.0, heights: [140.0, 190.0] },
 };

@@ -8,7 +8,7 @@ use crate::curve::Station;
 use crate::mesh::Mesh;
 
 /// The round cross-section: the surface is one of revolution.
-pub(crate) fn round(_angle: f64, _height: f64) -> f64 {
+pub(crate) fn round(_angle: f64, _height: f64, _inside: bool) -> f64 {
     1.0
 }
 
@@ -18,9 +18,10 @@ pub(crate) fn superellipse(exponent: f64, angle: f64) -> f64 {
     libm::pow(c + s, -1.0 / exponent)
 }
 
-/// The closed surface R(u, angle) = x(u) section(angle, y(u)) at height y(u), for a profile (x, y)(u) from axis to axis that keeps
-/// the outside on its right. `sides` vertices stand on each ring; the two ends are single vertices.
-pub(crate) fn loft(profile: &[Station], section: impl Fn(f64, f64) -> f64, sides: usize) -> Mesh {
+/// The closed surface R(u, angle) = x(u) section(angle, y(u), inside) at height y(u), for a profile (x, y)(u) from axis to axis
+/// that keeps the outside on its right; `inside` is true on its way down, in the hollow of a vessel. `sides` vertices stand
+/// on each ring; the two ends are single vertices.
+pub(crate) fn loft(profile: &[Station], section: impl Fn(f64, f64, bool) -> f64, sides: usize) -> Mesh {
     let last = profile.len() - 1;
     let mut mesh = Mesh::default();
     for (i, station) in profile.iter().enumerate() {
@@ -40,11 +41,12 @@ pub(crate) fn loft(profile: &[Station], section: impl Fn(f64, f64) -> f64, sides
 }
 
 /// Position and outward normal, the cross product of the derivatives along the profile and around the axis.
-fn vertex(station: &Station, section: impl Fn(f64, f64) -> f64, angle: f64) -> (DVec3, DVec3) {
+fn vertex(station: &Station, section: impl Fn(f64, f64, bool) -> f64, angle: f64) -> (DVec3, DVec3) {
     /// Step of the central differences of the section, which is smooth over degrees and millimetres.
     const STEP: f64 = 1e-5;
     let (x, y) = station.point.into();
     let (dx, dy) = station.tangent.into();
+    let section = |angle, height| section(angle, height, dy < 0.0);
     let scale = section(angle, y);
     let by_angle = (section(angle + STEP, y) - section(angle - STEP, y)) / (2.0 * STEP);
     let by_height = (section(angle, y + STEP) - section(angle, y - STEP)) / (2.0 * STEP);
@@ -108,7 +110,7 @@ mod tests {
 
     #[test]
     fn normals_of_a_square_section_stand_on_its_tangents() {
-        let section = |angle, height: f64| superellipse(4.0 + height, angle);
+        let section = |angle, height: f64, _| superellipse(4.0 + height, angle);
         let mesh = loft(&half_circle(60), section, 120);
         mesh.check().unwrap();
         let fine = half_circle(6000);

@@ -1,4 +1,4 @@
-//! Wavefront OBJ and MTL, written compactly: micrometres for positions, 1e-5 for normals.
+//! Wavefront OBJ and MTL, written compactly: micrometres for positions, 1e-4 for normals.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ pub(crate) fn obj(name: &str, title: &str, medium: &Medium, mesh: &Mesh) -> Stri
         push_row(&mut text, "v", p.to_array().map(|x| decimal(x, 6)));
     }
     for n in &mesh.normals {
-        push_row(&mut text, "vn", n.to_array().map(|x| decimal(x, 5)));
+        push_row(&mut text, "vn", n.to_array().map(|x| decimal(x, 4)));
     }
     for triangle in &mesh.triangles {
         push_row(&mut text, "f", triangle.map(|i| format!("{0}//{0}", i + 1)));

@@ -10,8 +10,8 @@ use crate::loft::{loft, round, superellipse};
 use crate::mesh::Mesh;
 
 const METRES: f64 = 1e-3;
-const FINENESS: Fineness = Fineness { step: 7.0, turn: 0.16 };
-const SIDES: usize = 128;
+const FINENESS: Fineness = Fineness { step: 3.8, turn: 0.25 };
+const SIDES: usize = 96;
 
 /// Control points of a hollow vessel: radius and height in millimetres.
 pub(crate) struct Vessel {
@@ -25,26 +25,37 @@ pub(crate) struct Vessel {
     pub lip: &'static [(f64, f64)],
     /// From the inner wall to the axis.
     pub floor: &'static [(f64, f64)],
-    /// Where it is not round.
-    pub section: Option<Section>,
+    /// Cross-section of all surfaces.
+    pub section: Section,
 }
 
-/// A superelliptic cross-section that changes with height.
-pub(crate) struct Section {
-    /// Exponents below and above: 2 is round, larger is squarer.
-    pub exponents: [f64; 2],
-    /// Heights between which one becomes the other.
-    pub heights: [f64; 2],
+/// How a vessel differs from a surface of revolution.
+pub(crate) enum Section {
+    /// Not at all.
+    Round,
+    /// A superellipse below, a circle above.
+    Squared {
+        /// Of the superellipse: 2 is round, larger is squarer.
+        exponent: f64,
+        /// Between which it becomes round.
+        heights: [f64; 2],
+    },
+    /// Soft ribs in the inner wall, as in optic-blown glass: each is a lens.
+    Ribbed {
+        /// Ribs around.
+        count: f64,
+        /// Greatest share of the radius by which they rise and fall.
+        depth: f64,
+        /// Where they begin to grow, are grown, begin to fade, have faded.
+        heights: [f64; 4],
+    },
 }
 
 impl Vessel {
     /// The mesh in metres, standing on y = 0.
     pub(crate) fn mesh(&self) -> Mesh {
         let profile = grounded(self.profile(), self.ground());
-        match &self.section {
-            None => lofted(&profile, round),
-            Some(section) => lofted(&profile, |angle, height| section.radius(angle, height)),
-        }
+        lofted(&profile, |angle, height, inside| self.section.radius(angle, height, inside))
     }
 
     /// The liquid that fills the vessel up to `surface`, the control points from the wall to the axis.
@@ -75,13 +86,26 @@ impl Vessel {
 }
 
 impl Section {
-    fn radius(&self, angle: f64, height: f64) -> f64 {
-        let [low, high] = self.heights;
-        let t = ((height - low) / (high - low)).clamp(0.0, 1.0);
-        // Twice differentiable at both ends.
-        let blend = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
-        superellipse(self.exponents[0] + blend * (self.exponents[1] - self.exponents[0]), angle)
+    /// Factor on the radius of the profile, twice differentiable.
+    fn radius(&self, angle: f64, height: f64, inside: bool) -> f64 {
+        match *self {
+            Self::Squared { exponent, heights: [low, high] } => {
+                superellipse(exponent + (2.0 - exponent) * smooth((height - low) / (high - low)), angle)
+            }
+            Self::Ribbed { count, depth, heights: [low, grown, fading, high] } if inside => {
+                let rise = smooth((height - low) / (grown - low));
+                let fall = smooth((height - fading) / (high - fading));
+                1.0 + depth * (rise - fall) * libm::cos(count * angle)
+            }
+            Self::Round | Self::Ribbed { .. } => 1.0,
+        }
     }
+}
+
+/// Step from 0 at 0 to 1 at 1 with two continuous derivatives.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
 }
 
 /// The profile moved down by `ground`.
@@ -94,7 +118,7 @@ fn points(list: &[(f64, f64)]) -> Vec<DVec2> {
     list.iter().copied().map(DVec2::from).collect()
 }
 
-fn lofted(profile: &[Station], section: impl Fn(f64, f64) -> f64) -> Mesh {
+fn lofted(profile: &[Station], section: impl Fn(f64, f64, bool) -> f64) -> Mesh {
     let mut mesh = loft(profile, section, SIDES);
     mesh.positions.iter_mut().for_each(|p| *p *= METRES);
     mesh
