@@ -161,7 +161,7 @@ fn domains(scene: &Scene, aim: Aim) -> Vec<Domain> {
     let (lower, upper) = scene.bounds();
     let world = Ball::around(lower, upper);
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
-    let mut targets: Vec<Ball> = specular().map(|mesh| Ball::around(mesh.lower, mesh.upper)).collect();
+    let mut targets: Vec<Ball> = specular().map(|mesh| mesh.ball()).collect();
     if targets.len() > MAX_TARGETS {
         let lower = specular().map(|mesh| mesh.lower).fold(lower, glam::Vec3::min);
         let upper = specular().map(|mesh| mesh.upper).fold(upper, glam::Vec3::max);

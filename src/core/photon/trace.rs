@@ -166,12 +166,12 @@ impl<'a> Tracer<'a> {
 fn thin(batches: &[Batch], count: u64, landed: u64, offset: u64, candidates: u64) -> Photons {
     let factor = (landed as f64 / count as f64 / candidates as f64) as f32;
     let mut photons = Photons::with_capacity(count as usize);
-    let mut kept = u128::from(offset);
+    let mut kept = offset;
     for batch in batches.iter().map(|batch| &batch.photons) {
         for i in 0..batch.len() {
-            kept += u128::from(count);
-            if kept >= u128::from(landed) {
-                kept -= u128::from(landed);
+            kept += count;
+            if kept >= landed {
+                kept -= landed;
                 photons.push(batch.positions[i], batch.flux[i] * factor, batch.light[i], batch.mesh[i]);
             }
         }

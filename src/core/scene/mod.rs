@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 pub use camera::CameraDesc;
 pub use environment::EnvironmentDesc;
-pub use light::LightDesc;
+pub use light::{Ball, LightDesc};
 pub use material::Material;
 pub use media::Media;
 pub use mesh::MeshDesc;
@@ -61,10 +61,19 @@ pub struct Mesh {
     pub lower: Vec3,
     /// Upper corner of its bounds, world [m].
     pub upper: Vec3,
+    /// Distance of its farthest vertex from the middle of its bounds [m].
+    pub radius: f32,
     /// Where solids of glass overlap, the higher priority fills the place; equal priorities: the later mesh.
     pub priority: i32,
     /// Triangles after clean-up.
     pub triangles: usize,
+}
+
+impl Mesh {
+    /// A ball that encloses it, slightly larger than needed, so that rounding leaves no vertex outside.
+    pub fn ball(&self) -> Ball {
+        Ball { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
+    }
 }
 
 /// A scene resolved from its description: checked, in world space, ready to be asked by rays.

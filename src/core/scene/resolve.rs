@@ -24,11 +24,15 @@ pub(super) fn load(
         for part in mesh::load(mesh_desc, &format!("scene.meshes[{index}]"), assets, &mut notes)? {
             let corners = || part.triangles.iter().flat_map(|t| t.corners);
             let number = meshes.len() as u16;
+            let lower = corners().fold(Vec3::INFINITY, Vec3::min);
+            let upper = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
+            let middle = (lower + upper) / 2.0;
             meshes.push(Mesh {
                 name: part.name,
                 material: part.material,
-                lower: corners().fold(Vec3::INFINITY, Vec3::min),
-                upper: corners().fold(Vec3::NEG_INFINITY, Vec3::max),
+                lower,
+                upper,
+                radius: corners().map(|p| p.distance(middle)).fold(0.0, f32::max),
                 priority: mesh_desc.priority,
                 triangles: part.triangles.len(),
             });
