@@ -36,7 +36,7 @@ impl Points {
             return self.clone();
         }
         // Systematic sampling along a space-filling curve: neighbours on it are neighbours in the plane.
-        let order = along_curve(&self.positions);
+        let order = hilbert::order(&self.positions, Vec2::ZERO);
         let offset = Stream::new(seed, Purpose::Target, pass, 1).f64();
         let row = |i: usize| order[((i as f64 + offset) * count as f64 / n as f64) as usize % count] as usize;
         let positions = (0..n).map(|i| self.positions[row(i)]).collect();
@@ -56,23 +56,6 @@ impl Points {
         }
         self
     }
-}
-
-fn along_curve(positions: &[Vec2]) -> Vec<u32> {
-    let (low, high) = positions
-        .iter()
-        .fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)));
-    let scale = 65535.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut order: Vec<(u32, u32)> = positions
-        .iter()
-        .enumerate()
-        .map(|(row, point)| {
-            let cell = (*point - low) * scale;
-            (hilbert::index(cell.x as u32, cell.y as u32), row as u32)
-        })
-        .collect();
-    order.sort_unstable();
-    order.into_iter().map(|(_, row)| row).collect()
 }
 
 /// Reads points in plane coordinates.
