@@ -281,7 +281,7 @@ fn pictures_beyond_the_limits_are_refused_by_their_header() {
 /// As PNG asks for (ISO 3309).
 fn crc32(bytes: &[u8]) -> u32 {
     let bit = |crc: u32| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ *byte as u32, |crc, _| bit(crc)))
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| bit(crc)))
 }
 
 #[test]

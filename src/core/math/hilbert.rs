@@ -19,7 +19,7 @@ pub fn order(points: &[Vec2], shift: Vec2) -> Vec<u32> {
         .with_min_len(4096)
         .map(|(row, point)| {
             let cell = (*point - low + shift * side) * scale;
-            (index(cell.x as u32, cell.y as u32) as u64) << 32 | row as u64
+            u64::from(index(cell.x as u32, cell.y as u32)) << 32 | row as u64
         })
         .collect();
     keys.par_sort_unstable();
@@ -32,8 +32,8 @@ pub fn index(x: u32, y: u32) -> u32 {
     let mut index = 0;
     let mut side = 1 << 15;
     while side > 0 {
-        let right = (x & side != 0) as u32;
-        let upper = (y & side != 0) as u32;
+        let right = u32::from(x & side != 0);
+        let upper = u32::from(y & side != 0);
         index = index << 2 | ((3 * right) ^ upper);
         if upper == 0 {
             if right == 1 {

@@ -47,7 +47,7 @@ impl Points {
 
     /// Scales the colours; colours without any light are dropped.
     pub(super) fn with_mean_luminance_one(mut self) -> Self {
-        let sum: f64 = self.colours.iter().map(|colour| colour.dot(LUMINANCE) as f64).sum();
+        let sum: f64 = self.colours.iter().map(|colour| f64::from(colour.dot(LUMINANCE))).sum();
         if sum > 0.0 {
             let scale = (self.colours.len() as f64 / sum) as f32;
             self.colours.iter_mut().for_each(|colour| *colour *= scale);
@@ -69,9 +69,9 @@ pub fn load_points(path: &Path) -> Result<Points> {
     let bytes = read_regular_file(path, MAX_BYTES)?;
     let mut reading = Reading { path, points: Points::default(), columns: 0 };
     if bytes.starts_with(b"\x93NUMPY") {
-        reading.read_npy(&bytes)?
+        reading.read_npy(&bytes)?;
     } else {
-        reading.read_text(&bytes)?
+        reading.read_text(&bytes)?;
     }
     let points = reading.points;
     if points.positions.is_empty() {
