@@ -197,8 +197,17 @@ fn every_usual_kind_of_png_is_read() {
 
 #[test]
 fn a_cmyk_jpeg_is_read_whatever_its_name() {
-    // 8 x 8 pixels of white, four components, named .png.
-    let (_folder, path) = written(include_bytes!("data/cmyk.jpg"));
+    // ITU T.81: one block of mean value in each of four components, with Adobe's marker for CMYK.
+    let mut bytes = b"\xff\xd8\xff\xee\0\x0eAdobe\0\x64\0\0\0\0\0\xff\xdb\0\x43\0".to_vec();
+    bytes.extend([1; 64]);
+    bytes.extend(b"\xff\xc0\0\x14\x08\0\x08\0\x08\x04\x01\x11\0\x02\x11\0\x03\x11\0\x04\x11\0");
+    for table in [0x00, 0x10] {
+        // A single code of one bit: difference 0, or end of block.
+        bytes.extend([0xff, 0xc4, 0, 20, table, 1]);
+        bytes.extend([0; 16]);
+    }
+    bytes.extend(b"\xff\xda\0\x0e\x04\x01\0\x02\0\x03\0\x04\0\0\x3f\0\0\xff\xd9");
+    let (_folder, path) = written(&bytes);
     assert_eq!(load(&path, &filling()).unwrap().sample(1, 0, 100).positions.len(), 100);
 }
 
@@ -272,7 +281,7 @@ fn pictures_beyond_the_limits_are_refused_by_their_header() {
 /// As PNG asks for (ISO 3309).
 fn crc32(bytes: &[u8]) -> u32 {
     let bit = |crc: u32| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ *byte as u32, |crc, _| bit(crc)))
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| bit(crc)))
 }
 
 #[test]

@@ -44,6 +44,7 @@ pub fn transport_map(
     let points = source.len().min(target.len()) as f64;
     let finest = ((points / POINTS_PER_CELL).sqrt() as usize).next_multiple_of(16).clamp(COARSEST, FINEST);
     let lattice = Lattice::covering(source, target, extent, finest);
+    progress.begin("transport map", back_and_forth::work(&lattice));
     let mu = lattice.density(source, FLOOR, progress)?;
     let nu = lattice.density(target, FLOOR, progress)?;
     let potentials = back_and_forth::solve(&lattice, &mu, &nu, progress)?;
