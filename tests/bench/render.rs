@@ -4,6 +4,7 @@ use divan::{Bencher, black_box};
 use glam::{Vec2, Vec3, vec2};
 use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
+use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{
     Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, Visible,
@@ -57,7 +58,8 @@ fn splat_1m_photons_1024(bencher: Bencher<'_, '_>) {
 #[divan::bench(args = [0.002, 0.006, 0.05])]
 fn filter_1024(bencher: Bencher<'_, '_>, radius: f32) {
     let mut texture = splatted();
-    bencher.bench_local(|| texture.filter(black_box(radius)));
+    let mut smoother = Smoother::default();
+    bencher.bench_local(|| smoother.filter(&mut texture, black_box(radius)));
 }
 
 /// Splat, filter and store: what each frame costs in each pass, apart from the advection.

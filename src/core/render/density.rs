@@ -9,7 +9,6 @@
 //! extended box filtering*: a whole box plus a fraction of one texel on either side, with exactly the variance asked
 //! for. Running sums make the cost independent of the radius.
 
-use glam::{DVec4, Vec4};
 use rayon::prelude::*;
 
 use super::texture::ReceiverTexture;
@@ -18,6 +17,8 @@ use super::texture::ReceiverTexture;
 const ALPHA: f64 = 2.0 / 3.0;
 /// Boxes in a row.
 const BOXES: usize = 3;
+/// Numbers per texel.
+const LANES: usize = 4;
 /// Columns filtered together: two cache lines.
 const STRIP: usize = 8;
 
@@ -38,35 +39,40 @@ pub fn default_radius(photons: usize, area: f32) -> f32 {
     (9.0 * UNDER_KERNEL * per_photon / (4.0 * std::f32::consts::PI)).sqrt()
 }
 
-impl ReceiverTexture {
+/// The filter with its buffers, kept from call to call.
+#[derive(Debug, Default)]
+pub struct Smoother {
+    strips: Vec<Line<{ LANES * STRIP }>>,
+}
+
+impl Smoother {
     /// Spreads the light with the kernel of `radius` (plane units), which reaches as far as the radius along each axis
     /// and has the variance radius^2/9. Flux is conserved: at the border the kernel is reflected.
-    pub fn filter(&mut self, radius: f32) {
-        let variance = (radius / self.layout().texel).powi(2) as f64 / 9.0 / BOXES as f64;
+    pub fn filter(&mut self, texture: &mut ReceiverTexture, radius: f32) {
+        let variance = f64::from(radius / texture.layout().texel).powi(2) / 9.0 / BOXES as f64;
         let kernel = Box1::with_variance(variance);
         if kernel.is_identity() {
             return;
         }
-        let (columns, rows) = (self.layout().columns, self.layout().rows);
-        let texels = self.texels();
-        let strips: Vec<Vec<[Vec4; STRIP]>> = (0..columns.div_ceil(STRIP))
-            .into_par_iter()
-            .map_init(Lines::default, |lines, strip| {
-                let first = strip * STRIP;
-                let width = STRIP.min(columns - first);
-                let column = texels.chunks_exact(columns).map(|row| {
-                    let mut group = [Vec4::ZERO; STRIP];
-                    group[..width].copy_from_slice(&row[first..first + width]);
-                    group
-                });
-                lines.filter(column, rows, &kernel).to_vec()
-            })
-            .collect();
-        let by_row = self.texels_mut().par_chunks_exact_mut(columns).enumerate();
-        by_row.for_each_init(Lines::default, |lines, (y, row)| {
-            let line = (0..columns).map(|x| [strips[x / STRIP][y][x % STRIP]]);
-            let filtered = lines.filter(line, columns, &kernel);
-            row.iter_mut().zip(filtered).for_each(|(texel, &[value])| *texel = value);
+        let columns = texture.layout().columns;
+        self.strips.resize_with(columns.div_ceil(STRIP), Line::default);
+        let texels: &[f32] = bytemuck::cast_slice(texture.texels());
+        self.strips.par_iter_mut().enumerate().for_each(|(strip, line)| {
+            let first = strip * STRIP;
+            let width = STRIP.min(columns - first);
+            let rows = texels.chunks_exact(LANES * columns).map(|row| {
+                let mut group = [0.0; LANES * STRIP];
+                group[..LANES * width].copy_from_slice(&row[LANES * first..LANES * (first + width)]);
+                group
+            });
+            line.filter(rows, &kernel);
+        });
+        let strips = &self.strips;
+        let rows = texture.texels_mut().par_chunks_exact_mut(columns).enumerate();
+        rows.for_each_init(Line::<LANES>::default, |line, (y, row)| {
+            let groups = strips.iter().flat_map(|strip| strip.cells[y].as_chunks::<LANES>().0);
+            line.filter(groups.copied().take(columns), &kernel);
+            row.copy_from_slice(bytemuck::cast_slice(&line.cells));
         });
     }
 }
@@ -93,53 +99,52 @@ impl Box1 {
     }
 
     /// One box over `from`, which reaches `half` + 1 cells further on either side than `to`.
-    fn apply<const W: usize>(&self, from: &[[Vec4; W]], to: &mut [[Vec4; W]]) {
+    fn apply<const W: usize>(&self, from: &[[f32; W]], to: &mut [[f32; W]]) {
         let length = 2 * self.half + 1;
         let norm = 1.0 / (length as f64 + 2.0 * self.edge);
+        let edge = self.edge * norm;
         // In f64: a running sum in f32 would leave a residue of bright texels behind.
-        let mut sum = [DVec4::ZERO; W];
+        let mut sum = [0.0_f64; W];
         for cell in &from[1..length] {
-            (0..W).for_each(|lane| sum[lane] += cell[lane].as_dvec4());
+            (0..W).for_each(|lane| sum[lane] += f64::from(cell[lane]));
         }
-        let before = from;
-        let last = &from[length..];
-        let after = &from[length + 1..];
-        for (i, out) in to.iter_mut().enumerate() {
+        let entering = from[length..].iter().zip(&from[length + 1..]);
+        let leaving = from.iter().zip(&from[1..]);
+        for ((out, (last, after)), (before, first)) in to.iter_mut().zip(entering).zip(leaving) {
             for lane in 0..W {
-                sum[lane] += last[i][lane].as_dvec4();
-                let edges = (before[i][lane] + after[i][lane]).as_dvec4();
-                out[lane] = ((sum[lane] + edges * self.edge) * norm).as_vec4();
-                sum[lane] -= before[i + 1][lane].as_dvec4();
+                sum[lane] += f64::from(last[lane]);
+                out[lane] = (sum[lane] * norm + f64::from(before[lane] + after[lane]) * edge) as f32;
+                sum[lane] -= f64::from(first[lane]);
             }
         }
     }
 }
 
-/// Two buffers between which the boxes go to and fro, kept by each thread.
-#[derive(Default)]
-struct Lines<const W: usize> {
-    from: Vec<[Vec4; W]>,
-    to: Vec<[Vec4; W]>,
+/// A line of cells, and a buffer from which the next box reads.
+#[derive(Debug, Default)]
+struct Line<const W: usize> {
+    cells: Vec<[f32; W]>,
+    from: Vec<[f32; W]>,
 }
 
-impl<const W: usize> Lines<W> {
-    /// All boxes over a line of `count` cells.
-    fn filter(&mut self, line: impl Iterator<Item = [Vec4; W]>, count: usize, kernel: &Box1) -> &[[Vec4; W]] {
+impl<const W: usize> Line<W> {
+    /// Takes a line and applies all boxes to it.
+    fn filter(&mut self, line: impl Iterator<Item = [f32; W]>, kernel: &Box1) {
+        self.cells.clear();
+        self.cells.extend(line);
+        let count = self.cells.len();
         let reach = kernel.half + 1;
-        self.to.clear();
-        self.to.extend(line);
+        // Reflected with the edge cell repeated, as often as the kernel is longer than the line.
+        let mirror = |i: isize| {
+            let i = i.rem_euclid(2 * count as isize) as usize;
+            if i < count { i } else { 2 * count - 1 - i }
+        };
         for _ in 0..BOXES {
-            // Reflected with the edge cell repeated, as often as the kernel is longer than the line.
-            let mirror = |i: isize| {
-                let i = i.rem_euclid(2 * count as isize) as usize;
-                if i < count { i } else { 2 * count - 1 - i }
-            };
             self.from.clear();
-            self.from.extend((0..reach).map(|i| self.to[mirror(i as isize - reach as isize)]));
-            self.from.extend_from_slice(&self.to);
-            self.from.extend((0..reach).map(|i| self.to[mirror((count + i) as isize)]));
-            kernel.apply(&self.from, &mut self.to);
+            self.from.extend((0..reach).map(|i| self.cells[mirror(i as isize - reach as isize)]));
+            self.from.extend_from_slice(&self.cells);
+            self.from.extend((0..reach).map(|i| self.cells[mirror((count + i) as isize)]));
+            kernel.apply(&self.from, &mut self.cells);
         }
-        &self.to
     }
 }

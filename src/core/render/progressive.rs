@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
-use super::density::{default_radius, radius_of_pass};
+use super::density::{Smoother, default_radius, radius_of_pass};
 use super::frames::FrameStore;
 use super::settings::RenderSettings;
 use super::splat::{Outside, Splatter};
@@ -32,12 +32,17 @@ pub struct ProgressiveRender {
 pub struct Workspace {
     texture: ReceiverTexture,
     splatter: Splatter,
+    smoother: Smoother,
 }
 
 impl Workspace {
     /// For textures of one layout.
     pub fn new(layout: TextureLayout) -> Self {
-        Self { texture: ReceiverTexture::new(layout), splatter: Splatter::default() }
+        Self {
+            texture: ReceiverTexture::new(layout),
+            splatter: Splatter::default(),
+            smoother: Smoother::default(),
+        }
     }
 
     /// What was added last, filtered, in watts per texel.
@@ -69,7 +74,7 @@ impl ProgressiveRender {
     ) -> Result<Outside> {
         work.texture.clear();
         let outside = work.splatter.splat(positions, flux, &mut work.texture);
-        work.texture.filter(radius_of_pass(self.first_radius, pass));
+        work.smoother.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
         self.store.add(frame, &work.texture)?;
         Ok(outside)
     }

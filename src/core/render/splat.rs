@@ -29,17 +29,15 @@ pub struct Splatter {
     seams: Vec<Vec4>,
 }
 
+/// The photons of one chunk by band, in their order within each.
 #[derive(Debug, Default)]
 struct Chunk {
-    /// Photons of the chunk by band, in their order within each.
-    sorted: Vec<Landed>,
-    /// Where each band begins in `sorted`, and the end.
-    starts: Vec<usize>,
+    bands: Vec<Vec<Landed>>,
     outside: Outside,
 }
 
-/// A photon in texel coordinates.
-#[derive(Clone, Copy, Debug, Default)]
+/// A photon in texel coordinates; rows counted within its band.
+#[derive(Clone, Copy, Debug)]
 struct Landed {
     x: f32,
     y: f32,
@@ -75,9 +73,7 @@ impl Splatter {
             .enumerate()
             .for_each(|(band, (rows, seam))| {
                 for chunk in sorted {
-                    for photon in &chunk.sorted[chunk.starts[band]..chunk.starts[band + 1]] {
-                        photon.add(columns, band * BAND, rows, seam);
-                    }
+                    chunk.bands[band].iter().for_each(|photon| photon.add(columns, rows, seam));
                 }
             });
         for (band, seam) in self.seams.chunks_exact(columns).enumerate() {
@@ -93,50 +89,34 @@ impl Splatter {
 }
 
 impl Chunk {
-    /// Counting sort by band.
     fn sort(&mut self, layout: &TextureLayout, positions: &[Vec2], flux: &[Vec3]) {
-        let bands = layout.rows.div_ceil(BAND);
         let limit = Vec2::new((layout.columns - 1) as f32, (layout.rows - 1) as f32);
-        let texel = |p: Vec2| layout.texel_from_plane(p);
-        // Written so that NaN is outside, too.
-        let inside =
-            |p: Vec2, f: Vec3| p.x >= 0.0 && p.y >= 0.0 && p.x < limit.x && p.y < limit.y && f.is_finite();
         self.outside = Outside::default();
-        self.starts.clear();
-        self.starts.resize(bands + 1, 0);
+        self.bands.resize_with(layout.rows.div_ceil(BAND), Vec::new);
+        self.bands.iter_mut().for_each(Vec::clear);
         for (&position, &flux) in positions.iter().zip(flux) {
-            let p = texel(position);
-            if inside(p, flux) {
-                self.starts[p.y as usize / BAND + 1] += 1;
+            let p = layout.texel_from_plane(position);
+            // Written so that NaN is outside, too.
+            let inside = p.x >= 0.0 && p.y >= 0.0 && p.x < limit.x && p.y < limit.y;
+            if inside && flux.is_finite() {
+                let row = p.y as usize;
+                let (band, row) = (row / BAND, (row % BAND) as f32);
+                self.bands[band].push(Landed { x: p.x, y: row + p.y.fract(), flux });
             } else {
                 self.outside.photons += 1;
                 self.outside.flux += if flux.is_finite() { flux.as_dvec3() } else { DVec3::ZERO };
-            }
-        }
-        for band in 0..bands {
-            self.starts[band + 1] += self.starts[band];
-        }
-        self.sorted.resize(self.starts[bands], Landed::default());
-        let mut next = self.starts.clone();
-        for (&position, &flux) in positions.iter().zip(flux) {
-            let p = texel(position);
-            if inside(p, flux) {
-                let slot = &mut next[p.y as usize / BAND];
-                self.sorted[*slot] = Landed { x: p.x, y: p.y, flux };
-                *slot += 1;
             }
         }
     }
 }
 
 impl Landed {
-    /// Adds the photon to the rows of its band, which begin at row `first`, and to the seam above them.
-    fn add(&self, columns: usize, first: usize, rows: &mut [Vec4], seam: &mut [Vec4]) {
+    /// Adds the photon to the rows of its band and to the seam above them.
+    fn add(&self, columns: usize, rows: &mut [Vec4], seam: &mut [Vec4]) {
         let (column, row) = (self.x as usize, self.y as usize);
         let (fx, fy) = (self.x - column as f32, self.y - row as f32);
         let flux = self.flux.extend(0.0);
         let (lower, upper) = (flux * (1.0 - fy), flux * fy);
-        let row = row - first;
         let pair = &mut rows[row * columns + column..][..2];
         pair[0] += lower * (1.0 - fx);
         pair[1] += lower * fx;
