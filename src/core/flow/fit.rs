@@ -287,7 +287,10 @@ fn check_columns(positions: &[Vec2], velocities: &[Vec2]) -> Result<()> {
     }
     for (name, column) in [("position", positions), ("velocity", velocities)] {
         if let Some(i) = column.iter().position(|v| !v.is_finite()) {
-            return Err(Error::Numeric { stage: "fit", what: format!("{name} {i} is {}, not finite", column[i]) });
+            return Err(Error::Numeric {
+                stage: "fit",
+                what: format!("{name} {i} is {}, not finite", column[i]),
+            });
         }
     }
     Ok(())

@@ -6,7 +6,25 @@
 //!
 //! # The fade, measured
 //!
-//! TABLE
+//! 40 000 photons, 64 x 64 cells, 30 steps, transport matching; the paper's fade (tau 0.85) / the default. peak: 99.9 % fastest
+//! photon over the mean straight speed; dispersion: neighbour-velocity variance over mean square, largest of the run;
+//! field: share of the motion that the field steers; wander: distance from the straight ways over their length.
+//!
+//! | gamma | peak | dispersion | field | wander |
+//! |---|---|---|---|---|
+//! | caustic to flower (straight lines: 1.7) | | | | |
+//! | 0 | 16.7 / 2.9 | .095 / .015 | .86 / .58 | .21 / .14 |
+//! | 0.25 | 12.3 / 2.6 | .301 / .021 | .92 / .60 | .09 / .06 |
+//! | 0.5 | 12.2 / 2.5 | .337 / .021 | .92 / .60 | .08 / .05 |
+//! | 1 | 12.0 / 2.5 | .334 / .021 | .92 / .61 | .07 / .05 |
+//! | letter C to letter S in one place (straight lines: 3.3) | | | | |
+//! | 0 | 56.3 / 3.7 | .130 / .049 | .79 / .43 | .39 / .16 |
+//! | 0.25 | 27.0 / 3.5 | .264 / .057 | .88 / .49 | .18 / .09 |
+//! | 0.5 | 29.6 / 3.5 | .366 / .060 | .90 / .50 | .15 / .08 |
+//! | 1 | 32.9 / 3.5 | .356 / .063 | .89 / .52 | .15 / .07 |
+//!
+//! No fade can go below the straight lines: a photon has to be there in time. Tried and left: 1 - s = (1-t)^q for all
+//! (q 1: less wander at a higher peak), and a late smooth fade without the speed limit (letters at gamma 0: peak 6.1).
 
 pub mod assembly;
 pub mod bending;

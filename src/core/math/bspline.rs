@@ -78,7 +78,8 @@ impl Band {
                     let (from, to) = (2 * i as isize - 3 + a, 2 * (i + d) as isize - 3 + b);
                     let near = (from - to).abs() <= 3 && (0..fine).contains(&from) && (0..fine).contains(&to);
                     if near {
-                        *value += REFINE[a as usize] * REFINE[b as usize] * self.entry(from as usize, to - from);
+                        *value +=
+                            REFINE[a as usize] * REFINE[b as usize] * self.entry(from as usize, to - from);
                     }
                 }
             }

@@ -68,7 +68,8 @@ impl ConjugateGradients {
             preconditioner.apply(right, solution);
             self.preconditioned.convert(norm, solution);
             let rho_new = self.preconditioned.dot(&self.residual);
-            let beta = if iterations == 0 { 0.0 } else { (rho_new - self.preconditioned.dot(&self.previous)) / rho };
+            let beta =
+                if iterations == 0 { 0.0 } else { (rho_new - self.preconditioned.dot(&self.previous)) / rho };
             if iterations == 0 {
                 self.direction.clear();
             }

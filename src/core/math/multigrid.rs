@@ -69,7 +69,12 @@ impl Multigrid {
     }
 }
 
-fn cycle(levels: &mut [Level], coarsest: &mut Coarsest, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
+fn cycle(
+    levels: &mut [Level],
+    coarsest: &mut Coarsest,
+    right: &GridVector<f32>,
+    solution: &mut GridVector<f32>,
+) {
     let Some((level, coarser)) = levels.split_first_mut() else {
         return coarsest.solve(right, solution);
     };
@@ -196,7 +201,8 @@ impl Coarsest {
                 for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
                     let (to_x, to_y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
                     if to_x < nx && to_y < ny {
-                        lower[index(i, x, y) * size + index(k, to_x, to_y)] = operator.entry([i, k], x, y, dx, dy);
+                        lower[index(i, x, y) * size + index(k, to_x, to_y)] =
+                            operator.entry([i, k], x, y, dx, dy);
                     }
                 }
             }

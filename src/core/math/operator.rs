@@ -43,7 +43,11 @@ impl Parts {
     /// The same on the grid with so many nodes and doubled cells where the number differs.
     pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
         let cell = [0, 1].map(|axis| {
-            if nodes[axis] == self.direct.layout.nodes[axis] { self.cell[axis] } else { 2.0 * self.cell[axis] }
+            if nodes[axis] == self.direct.layout.nodes[axis] {
+                self.cell[axis]
+            } else {
+                2.0 * self.cell[axis]
+            }
         });
         Self {
             direct: self.direct.coarsened(nodes, 1.0),
