@@ -23,7 +23,7 @@ pub enum Fade {
         #[serde(default = "default_end")]
         end: f32,
         /// Speed towards which a photon leaves the field early, in mean straight speeds, 1 to 1000; a photon whose own
-        /// way is longer may keep its pace. Default 3.5.
+        /// way is longer may keep its pace. Default 3.
         #[serde(default = "default_limit")]
         limit: f32,
     },
@@ -42,16 +42,17 @@ fn default_end() -> f32 {
     0.9
 }
 fn default_limit() -> f32 {
-    3.5
+    3.0
 }
 fn default_tau() -> f32 {
     0.85
 }
 
 /// A photon keeps the field while it is slower than this share of its speed limit.
-const AT_EASE: f32 = 0.5;
-/// A photon with a long way may go this much faster than on its straight line.
-const OWN_PACE: f32 = 1.2;
+const AT_EASE: f32 = 0.7;
+/// A photon with a long way may go this much faster than on its straight line. AT_EASE times this is more than 1, so that
+/// none leaves the field at the start.
+const OWN_PACE: f32 = 1.5;
 
 impl Default for Fade {
     fn default() -> Self {
