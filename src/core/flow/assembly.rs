@@ -53,19 +53,18 @@ struct Entry {
     row: usize,
     column: usize,
     offset: usize,
+    /// Index in `direct`.
     direct: usize,
-    /// Index and factor in `across_x` and `across_y`.
-    cross: [(usize, f64); 2],
+    /// Indices in `cross`, the second to be subtracted.
+    cross: [usize; 2],
 }
 
-/// Sums over the points of a cell, as products of pairs along x and y: symmetric pairs i <= k (10), antisymmetric
-/// pairs i < k (6), padded to whole registers.
+/// Sums over the points of a cell, products of one number along x and one along y.
 struct Element {
-    direct: [[f64; 12]; 10],
-    /// Antisymmetric along x, symmetric along y.
-    across_x: [[f64; 12]; 6],
-    /// Symmetric along x, antisymmetric along y.
-    across_y: [[f64; 8]; 10],
+    /// Pairs (i, k) along x with i <= k, all pairs (j, l) along y: x'_i x'_k y_j y_l + x_i x_k y'_j y'_l.
+    direct: [[f64; 16]; 10],
+    /// All pairs (i, k) along x, all (j, l) along y: x'_i x_k y_j y'_l. C is this minus its transpose.
+    cross: [[f64; 16]; 16],
     right: [[[f64; 4]; 4]; 2],
 }
 
@@ -189,14 +188,16 @@ impl Sorted {
 
     fn add_cell_row(&self, grid: Grid, row: usize, weight: f64, table: &[Entry], mut target: Target) {
         let scale = grid.cell_size().map(|size| 1.0 / size);
+        let coupled = target.cross.is_some();
+        let mut element = Element::zero();
         for column in 0..grid.cells[0] {
             let points = self.points_of(row * grid.cells[0] + column);
             if points.is_empty() {
                 continue;
             }
-            let mut element = Element::zero();
+            element.clear(coupled);
             for point in points {
-                element.add(point, scale, target.cross.is_some());
+                element.add(point, scale, coupled);
             }
             element.scatter(column, weight, table, &mut target);
         }
@@ -205,11 +206,14 @@ impl Sorted {
 
 impl Element {
     fn zero() -> Self {
-        Self {
-            direct: [[0.0; 12]; 10],
-            across_x: [[0.0; 12]; 6],
-            across_y: [[0.0; 8]; 10],
-            right: [[[0.0; 4]; 4]; 2],
+        Self { direct: [[0.0; 16]; 10], cross: [[0.0; 16]; 16], right: [[[0.0; 4]; 4]; 2] }
+    }
+
+    fn clear(&mut self, coupled: bool) {
+        self.direct = [[0.0; 16]; 10];
+        self.right = [[[0.0; 4]; 4]; 2];
+        if coupled {
+            self.cross = [[0.0; 16]; 16];
         }
     }
 
@@ -217,24 +221,18 @@ impl Element {
     fn add(&mut self, &[x, y, vx, vy]: &Point, scale: [f64; 2], coupled: bool) {
         let (bx, by) = (values(x as f64), values(y as f64));
         let (dx, dy) = (slopes(x as f64).map(|d| d * scale[0]), slopes(y as f64).map(|d| d * scale[1]));
-        let (bx2, dx2): ([f64; 12], [f64; 12]) = (symmetric(bx, bx), symmetric(dx, dx));
-        let (by2, dy2): ([f64; 12], [f64; 12]) = (symmetric(by, by), symmetric(dy, dy));
-        for (sum, (b, d)) in self.direct.iter_mut().zip(bx2.into_iter().zip(dx2)) {
-            for q in 0..12 {
+        let (by2, dy2) = (outer(by, by), outer(dy, dy));
+        for (sum, (i, k)) in self.direct.iter_mut().zip(PAIRS) {
+            let (b, d) = (bx[i] * bx[k], dx[i] * dx[k]);
+            for q in 0..16 {
                 sum[q] = d.mul_add(by2[q], b.mul_add(dy2[q], sum[q]));
             }
         }
         if coupled {
-            let (xs, ys): ([f64; 12], [f64; 12]) = (symmetric(dx, bx), symmetric(dy, by));
-            let (xa, ya) = (antisymmetric(dx, bx), antisymmetric(dy, by));
-            for (sum, x) in self.across_x.iter_mut().zip(xa) {
-                for q in 0..12 {
+            let (xs, ys) = (outer(dx, bx), outer(by, dy));
+            for (sum, x) in self.cross.iter_mut().zip(xs) {
+                for q in 0..16 {
                     sum[q] = x.mul_add(ys[q], sum[q]);
-                }
-            }
-            for (sum, x) in self.across_y.iter_mut().zip(xs) {
-                for q in 0..8 {
-                    sum[q] = x.mul_add(ya[q], sum[q]);
                 }
             }
         }
@@ -257,12 +255,11 @@ impl Element {
             let at = (entry.row * OFFSETS + entry.offset) * stride + first + entry.column;
             target.direct[at] += weight * direct[entry.direct];
         }
-        if let Some(cross) = &mut target.cross {
-            let (across_x, across_y) = (self.across_x.as_flattened(), self.across_y.as_flattened());
+        if let Some(out) = &mut target.cross {
+            let cross = self.cross.as_flattened();
             for entry in table {
                 let at = (entry.row * OFFSETS + entry.offset) * stride + first + entry.column;
-                let [(x, x_sign), (y, y_sign)] = entry.cross;
-                cross[at] += weight * (x_sign * across_x[x] + y_sign * across_y[y]);
+                out[at] += weight * (cross[entry.cross[0]] - cross[entry.cross[1]]);
             }
         }
         for (component, right) in self.right.iter().enumerate() {
@@ -276,51 +273,35 @@ impl Element {
     }
 }
 
-/// a_i b_k + b_i a_k for i <= k, halved for a = b.
+/// a_i b_k for all i, k.
 #[inline(always)]
-fn symmetric(a: [f64; 4], b: [f64; 4]) -> [f64; 12] {
-    let mut pairs = [0.0; 12];
-    for (pair, (i, k)) in pairs.iter_mut().zip(PAIRS) {
-        *pair = 0.5 * (a[i] * b[k] + b[i] * a[k]);
+fn outer(a: [f64; 4], b: [f64; 4]) -> [f64; 16] {
+    let mut pairs = [0.0; 16];
+    for (pairs, a) in pairs.chunks_exact_mut(4).zip(a) {
+        for k in 0..4 {
+            pairs[k] = a * b[k];
+        }
     }
     pairs
 }
 
-/// (a_i b_k - b_i a_k) / 2 for i < k.
-#[inline(always)]
-fn antisymmetric(a: [f64; 4], b: [f64; 4]) -> [f64; 8] {
-    let mut pairs = [0.0; 8];
-    for (pair, (i, k)) in pairs.iter_mut().zip(UNEQUAL) {
-        *pair = 0.5 * (a[i] * b[k] - b[i] * a[k]);
-    }
-    pairs
-}
-
+/// Pairs i <= k in the order of `Element::direct`.
 const PAIRS: [(usize, usize); 10] =
     [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
-const UNEQUAL: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 /// The stored half of an element matrix: all pairs of its 16 nodes whose offset is stored.
-///
-/// With X = x' x, Y = y y' split into symmetric and antisymmetric parts, an entry of C is
-/// X Y - X^T Y^T = 2 (Xa Ys + Xs Ya); Y here has its derivative on the other side than `antisymmetric` has.
 fn table() -> Vec<Entry> {
     let pair = |i: usize, k: usize| PAIRS.iter().position(|&p| p == (i.min(k), i.max(k))).unwrap_or(0);
-    let unequal = |i: usize, k: usize| match UNEQUAL.iter().position(|&p| p == (i.min(k), i.max(k))) {
-        Some(at) => (at, if i < k { 2.0 } else { -2.0 }),
-        None => (0, 0.0),
-    };
     let nodes = || (0..4).flat_map(|row| (0..4).map(move |column| (row, column)));
     let mut table = Vec::new();
-    for ((row, column), (to_row, to_column)) in nodes().flat_map(|a| nodes().map(move |b| (a, b))) {
-        let (dx, dy) = (to_column as isize - column as isize, to_row as isize - row as isize);
+    for ((j, i), (l, k)) in nodes().flat_map(|a| nodes().map(move |b| (a, b))) {
+        let (dx, dy) = (k as isize - i as isize, l as isize - j as isize);
         if dy < 0 || (dy == 0 && dx < 0) {
             continue;
         }
-        let (x, y) = (pair(column, to_column), pair(row, to_row));
-        let ((xa, x_sign), (ya, y_sign)) = (unequal(column, to_column), unequal(row, to_row));
-        let cross = [(12 * xa + y, x_sign), (8 * x + ya, -y_sign)];
-        table.push(Entry { row, column, offset: offset_index(dx, dy), direct: 12 * x + y, cross });
+        let cross = [(4 * i + k) * 16 + 4 * j + l, (4 * k + i) * 16 + 4 * l + j];
+        let direct = pair(i, k) * 16 + 4 * j + l;
+        table.push(Entry { row: j, column: i, offset: offset_index(dx, dy), direct, cross });
     }
     table
 }

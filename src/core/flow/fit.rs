@@ -140,6 +140,7 @@ impl Fitter {
             let solved = self.solver.solve(
                 &self.operator,
                 &mut multigrid,
+                &system.null_vectors,
                 &self.right,
                 &mut system.solution,
                 limits,
@@ -219,10 +220,7 @@ impl System {
 
     /// Takes the null space out of the solution, and refuses one that is not finite.
     fn finish(&mut self, solved: Solved) -> Result<()> {
-        for vector in &self.null_vectors {
-            let share = self.solution.dot(vector);
-            self.solution.combine(1.0, -share, vector);
-        }
+        self.solution.remove(&self.null_vectors);
         if solved.residual.is_finite() && self.solution.dot(&self.solution).is_finite() {
             return Ok(());
         }

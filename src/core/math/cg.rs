@@ -46,6 +46,7 @@ impl ConjugateGradients {
         &mut self,
         operator: &Operator<f64>,
         preconditioner: &mut Multigrid,
+        null: &[GridVector<f64>],
         right: &GridVector<f64>,
         x: &mut GridVector<f64>,
         (tolerance, max_iterations): (f64, usize),
@@ -58,6 +59,7 @@ impl ConjugateGradients {
         }
         self.residual.convert(1.0, right);
         operator.subtract_product(x, &mut self.residual);
+        self.residual.remove(null);
         let mut norm = self.residual.dot(&self.residual).sqrt();
         let mut rho = 1.0;
         let mut iterations = 0;
@@ -83,6 +85,8 @@ impl ConjugateGradients {
             x.combine(1.0, step, &self.direction);
             self.previous.convert(1.0, &self.residual);
             self.residual.combine(1.0, step, &self.image);
+            // Exactly it has no share in the null space; what rounding gives it would grow in the preconditioner.
+            self.residual.remove(null);
             norm = self.residual.dot(&self.residual).sqrt();
             rho = rho_new;
             iterations += 1;

@@ -9,15 +9,14 @@ use rayon::prelude::*;
 use super::cholesky::Cholesky;
 use super::null_space::NullSpace;
 use super::operator::{Operator, Parts, Weights};
-use super::real::Real;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
 
 /// Axes with fewer nodes than this are not coarsened further: 4 cells and the 3 functions that reach beyond.
 const COARSEST: usize = 7;
-/// Products with the matrix on each side of the coarse grid.
+/// Degree of the smoother: products with the matrix on each side of the coarse grid.
 const DEGREE: usize = 3;
-/// The smoother works on eigenvalues down to this share of the largest.
+/// The smoother works on the eigenvalues of D^-1 A from here to 1, the bound that D gives.
 const SMOOTHED: f64 = 0.06;
 
 /// A hierarchy of grids for one matrix.
@@ -28,7 +27,6 @@ pub struct Multigrid {
 
 struct Level {
     operator: Operator<f32>,
-    largest: f64,
     transfer: Transfer<f32>,
     solution: GridVector<f32>,
     residual: GridVector<f32>,
@@ -40,7 +38,9 @@ struct Level {
 struct Coarsest {
     layout: Layout,
     factor: Cholesky,
-    right: Vec<f64>,
+    null: Vec<GridVector<f64>>,
+    right: GridVector<f64>,
+    numbers: Vec<f64>,
 }
 
 impl Multigrid {
@@ -107,7 +107,6 @@ impl Level {
         let zero = |layout| GridVector::zero(layout, operator.components);
         let fine = operator.layout;
         Self {
-            largest: largest_eigenvalue(&operator),
             transfer: Transfer::new(fine, coarse, operator.components),
             solution: zero(fine),
             residual: zero(fine),
@@ -121,8 +120,7 @@ impl Level {
     /// Improves the solution by a Chebyshev polynomial in the residual. The last step is left in `steps[0]`, not yet
     /// taken off the residual.
     fn smooth(&mut self) {
-        let (top, bottom) = (self.largest, self.largest * SMOOTHED);
-        let (centre, half) = (0.5 * (top + bottom), 0.5 * (top - bottom));
+        let (centre, half) = (0.5 * (1.0 + SMOOTHED), 0.5 * (1.0 - SMOOTHED));
         let mut rho = half / centre;
         self.step(0.0, 1.0 / centre);
         for _ in 1..DEGREE {
@@ -149,7 +147,7 @@ impl Level {
                 let span = row * len..(row + 1) * len;
                 let (old_row, inverse) = (&old_rows[span.clone()], &inverse.rows()[span]);
                 if keep != 0.0 {
-                    operator.subtract_row(row, old, residual);
+                    operator.subtract_row::<false>(row, old, residual);
                 }
                 for i in 0..len {
                     let old = if keep != 0.0 { keep * old_row[i] } else { 0.0 };
@@ -160,30 +158,6 @@ impl Level {
         });
         self.steps.swap(0, 1);
     }
-}
-
-/// An upper estimate of the largest eigenvalue of D^-1 A by power iterations from a fixed rough vector.
-fn largest_eigenvalue(operator: &Operator<f32>) -> f64 {
-    let mut vector = GridVector::<f32>::zero(operator.layout, operator.components);
-    let [nx, ny] = operator.layout.nodes;
-    for component in 0..operator.components {
-        for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
-            let rough = ((x * 7 + y * 13 + component * 5) % 17) as f32 - 8.0;
-            vector.set(component, x, y, if (x + y) % 2 == 0 { 20.0 + rough } else { -20.0 + rough });
-        }
-    }
-    let mut estimate = 0.0;
-    for _ in 0..8 {
-        let mut product = GridVector::zero(operator.layout, operator.components);
-        operator.subtract_product(&vector, &mut product);
-        for (value, inverse) in product.rows_mut().iter_mut().zip(operator.inverse_diagonal.rows()) {
-            *value *= -inverse;
-        }
-        let norm = product.dot(&product).sqrt();
-        estimate = norm / vector.dot(&vector).sqrt().max(f64::MIN_POSITIVE);
-        vector.convert(1.0 / norm.max(f64::MIN_POSITIVE), &product);
-    }
-    (1.15 * estimate).max(f64::MIN_POSITIVE)
 }
 
 impl Coarsest {
@@ -207,17 +181,22 @@ impl Coarsest {
                 }
             }
         }
-        fill_null_space(&mut lower, size, &null.vectors(layout, parts.cell));
-        Self { layout, factor: Cholesky::new(size, lower), right: vec![0.0; size] }
+        let null = null.vectors(layout, parts.cell);
+        fill_null_space(&mut lower, size, &null);
+        let right = GridVector::zero(layout, components);
+        Self { layout, factor: Cholesky::new(size, lower), null, right, numbers: vec![0.0; size] }
     }
 
+    /// What rounding left of the null space in `right` is taken out: it would come back much larger.
     fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
+        self.right.convert(1.0, right);
+        self.right.remove(&self.null);
         let [nx, ny] = self.layout.nodes;
-        for (i, value) in self.right.iter_mut().enumerate() {
-            *value = number(right, i) as f64;
+        for (i, value) in self.numbers.iter_mut().enumerate() {
+            *value = number(&self.right, i);
         }
-        self.factor.solve(&mut self.right);
-        for (i, &value) in self.right.iter().enumerate() {
+        self.factor.solve(&mut self.numbers);
+        for (i, &value) in self.numbers.iter().enumerate() {
             solution.set(i / (nx * ny), i % nx, i / nx % ny, value as f32);
         }
     }
@@ -236,7 +215,7 @@ fn fill_null_space(matrix: &mut [f64], size: usize, null: &[GridVector<f64>]) {
 }
 
 /// The `i`-th unknown: components one after the other, each row by row.
-fn number<T: Real>(vector: &GridVector<T>, i: usize) -> T {
+fn number(vector: &GridVector<f64>, i: usize) -> f64 {
     let [nx, ny] = vector.layout.nodes;
     vector.at(i / (nx * ny), i % nx, i / nx % ny)
 }

@@ -64,7 +64,7 @@ pub struct Operator<T> {
     pub layout: Layout,
     /// Potentials, 1 or 2.
     pub components: usize,
-    /// Of each unknown: one over its diagonal entry, or 0 where that is 0.
+    /// D^-1 for smoothing, see [`Self::set_inverse_diagonal`]; 0 where a row is zero.
     pub inverse_diagonal: GridVector<T>,
     psi: Stencil<T>,
     coupled: Option<Coupled<T>>,
@@ -109,17 +109,33 @@ impl<T: Real> Operator<T> {
         self.set_inverse_diagonal();
     }
 
+    /// D with d_i = sum over k of |a_ik| sqrt(a_ii / a_kk), by which no eigenvalue of D^-1 A exceeds 1 (Gershgorin's
+    /// circles for A scaled to a unit diagonal). The square root evens out the splines that are cut off at the border.
     fn set_inverse_diagonal(&mut self) {
+        let one = T::from_f64(1.0);
+        let (layout, components) = (self.layout, self.components);
         let blocks = [Some(&self.psi), self.coupled.as_ref().map(|coupled| &coupled.phi)];
+        let mut scale = GridVector::zero(layout, components);
         for (component, block) in blocks.iter().flatten().enumerate() {
-            for y in 0..self.layout.nodes[1] {
-                for x in 0..self.layout.nodes[0] {
-                    let value = block.entry(x, y, 0, 0, T::from_f64(1.0)).to_f64();
-                    let inverse = if value > 0.0 { 1.0 / value } else { 0.0 };
-                    self.inverse_diagonal.set(component, x, y, T::from_f64(inverse));
-                }
+            for (y, x) in (0..layout.nodes[1]).flat_map(|y| (0..layout.nodes[0]).map(move |x| (y, x))) {
+                let value = block.entry(x, y, 0, 0, one).to_f64();
+                let inverse = if value > 0.0 { 1.0 / value.sqrt() } else { 0.0 };
+                scale.set(component, x, y, T::from_f64(inverse));
             }
         }
+        let mut sums = GridVector::zero(layout, components);
+        let (len, rows) = (sums.row_len(), layout.rows_per_task());
+        sums.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
+            for (i, sums) in part.chunks_exact_mut(len).enumerate() {
+                let row = task * rows + i;
+                self.subtract_row::<true>(row, &scale, sums);
+                for (sum, &scale) in sums.iter_mut().zip(&scale.rows()[row * len..]) {
+                    let (sum_f64, scale) = (-sum.to_f64(), scale.to_f64());
+                    *sum = T::from_f64(if sum_f64 > 0.0 { scale / sum_f64 } else { 0.0 });
+                }
+            }
+        });
+        self.inverse_diagonal = sums;
     }
 
     /// Entry between component `i` of node (x, y) and component `k` of the node at offset (dx, dy).
@@ -139,28 +155,28 @@ impl<T: Real> Operator<T> {
         let (len, rows) = (out.row_len(), self.layout.rows_per_task());
         out.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
             for (i, out) in part.chunks_exact_mut(len).enumerate() {
-                self.subtract_row(task * rows + i, vector, out);
+                self.subtract_row::<false>(task * rows + i, vector, out);
             }
         });
     }
 
     /// `out` -= node row `row` of A `vector`; `out` is all components of the row with their halo.
     #[inline]
-    pub fn subtract_row(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+    pub fn subtract_row<const ABSOLUTE: bool>(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
         match &self.coupled {
-            None => self.subtract_single(row, vector, out),
-            Some(coupled) => self.subtract_coupled(coupled, row, vector, out),
+            None => self.subtract_single::<ABSOLUTE>(row, vector, out),
+            Some(coupled) => self.subtract_coupled::<ABSOLUTE>(coupled, row, vector, out),
         }
     }
 
-    fn subtract_single(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+    fn subtract_single<const ABSOLUTE: bool>(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
         let width = self.layout.width;
         let out = &mut out[HALO..HALO + width];
         let at = row + HALO;
         let centre = &self.psi.padded(at, 0)[HALO..HALO + width];
         let x = &vector.padded(at, 0)[HALO..HALO + width];
         for i in 0..width {
-            out[i] = (-centre[i]).fused(x[i], out[i]);
+            out[i] = minus::<T, ABSOLUTE>(centre[i]).fused(x[i], out[i]);
         }
         for k in 1..OFFSETS {
             let (dx, dy) = offset(k);
@@ -171,12 +187,19 @@ impl<T: Real> Operator<T> {
             let x = &vector.padded(above, 0)[after..after + width];
             let y = &vector.padded(below, 0)[before..before + width];
             for i in 0..width {
-                out[i] = (-t[i]).fused(y[i], (-s[i]).fused(x[i], out[i]));
+                out[i] =
+                    minus::<T, ABSOLUTE>(t[i]).fused(y[i], minus::<T, ABSOLUTE>(s[i]).fused(x[i], out[i]));
             }
         }
     }
 
-    fn subtract_coupled(&self, coupled: &Coupled<T>, row: usize, vector: &GridVector<T>, out: &mut [T]) {
+    fn subtract_coupled<const ABSOLUTE: bool>(
+        &self,
+        coupled: &Coupled<T>,
+        row: usize,
+        vector: &GridVector<T>,
+        out: &mut [T],
+    ) {
         let Layout { width, stride, .. } = self.layout;
         let (out_psi, out_phi) = out.split_at_mut(stride);
         let (out_psi, out_phi) = (&mut out_psi[HALO..HALO + width], &mut out_phi[HALO..HALO + width]);
@@ -187,17 +210,17 @@ impl<T: Real> Operator<T> {
         let (psi, phi) =
             (&vector.padded(at, 0)[HALO..HALO + width], &vector.padded(at, 1)[HALO..HALO + width]);
         for i in 0..width {
-            out_psi[i] = (-p[i]).fused(psi[i], out_psi[i]);
-            out_phi[i] = (-q[i]).fused(phi[i], out_phi[i]);
+            out_psi[i] = minus::<T, ABSOLUTE>(p[i]).fused(psi[i], out_psi[i]);
+            out_phi[i] = minus::<T, ABSOLUTE>(q[i]).fused(phi[i], out_phi[i]);
         }
         for k in 1..OFFSETS {
-            self.subtract_offset(coupled, (at, k), vector, out_psi, out_phi);
+            self.subtract_offset::<ABSOLUTE>(coupled, (at, k), vector, out_psi, out_phi);
         }
     }
 
     /// Both neighbours at plus and minus offset `k` of node row `at`.
     #[inline(always)]
-    fn subtract_offset(
+    fn subtract_offset<const ABSOLUTE: bool>(
         &self,
         coupled: &Coupled<T>,
         (at, k): (usize, usize),
@@ -215,8 +238,10 @@ impl<T: Real> Operator<T> {
         let psi = &vector.padded(above, 0)[after..after + width];
         let phi = &vector.padded(above, 1)[after..after + width];
         for i in 0..width {
-            out_psi[i] = (-p[i]).fused(psi[i], (-c[i]).fused(phi[i], out_psi[i]));
-            out_phi[i] = (-q[i]).fused(phi[i], c[i].fused(psi[i], out_phi[i]));
+            out_psi[i] = minus::<T, ABSOLUTE>(p[i])
+                .fused(psi[i], minus::<T, ABSOLUTE>(c[i]).fused(phi[i], out_psi[i]));
+            out_phi[i] =
+                minus::<T, ABSOLUTE>(q[i]).fused(phi[i], plus::<T, ABSOLUTE>(c[i]).fused(psi[i], out_phi[i]));
         }
         let p = &self.psi.padded(below, k)[before..before + width];
         let q = &coupled.phi.padded(below, k)[before..before + width];
@@ -224,8 +249,22 @@ impl<T: Real> Operator<T> {
         let psi = &vector.padded(below, 0)[before..before + width];
         let phi = &vector.padded(below, 1)[before..before + width];
         for i in 0..width {
-            out_psi[i] = (-p[i]).fused(psi[i], c[i].fused(phi[i], out_psi[i]));
-            out_phi[i] = (-q[i]).fused(phi[i], (-c[i]).fused(psi[i], out_phi[i]));
+            out_psi[i] =
+                minus::<T, ABSOLUTE>(p[i]).fused(psi[i], plus::<T, ABSOLUTE>(c[i]).fused(phi[i], out_psi[i]));
+            out_phi[i] = minus::<T, ABSOLUTE>(q[i])
+                .fused(phi[i], minus::<T, ABSOLUTE>(c[i]).fused(psi[i], out_phi[i]));
         }
     }
+}
+
+/// -value, or -|value|.
+#[inline(always)]
+fn minus<T: Real, const ABSOLUTE: bool>(value: T) -> T {
+    if ABSOLUTE { -value.magnitude() } else { -value }
+}
+
+/// value, or -|value|.
+#[inline(always)]
+fn plus<T: Real, const ABSOLUTE: bool>(value: T) -> T {
+    if ABSOLUTE { -value.magnitude() } else { value }
 }

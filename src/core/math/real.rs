@@ -17,6 +17,8 @@ pub trait Real:
     fn from_f64(value: f64) -> Self;
     /// Exact.
     fn to_f64(self) -> f64;
+    /// |self|.
+    fn magnitude(self) -> Self;
     /// self * factor + addend, rounded once.
     fn fused(self, factor: Self, addend: Self) -> Self;
 }
@@ -29,6 +31,10 @@ impl Real for f32 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self as f64
+    }
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
     }
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
@@ -44,6 +50,10 @@ impl Real for f64 {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self
+    }
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
     }
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {

@@ -120,6 +120,14 @@ impl<T: Real> GridVector<T> {
         });
     }
 
+    /// Takes out the share in each of some orthonormal vectors.
+    pub fn remove(&mut self, vectors: &[Self]) {
+        for vector in vectors {
+            let share = self.dot(vector);
+            self.combine(T::from_f64(1.0), T::from_f64(-share), vector);
+        }
+    }
+
     /// self = `factor` other, in this vector's type.
     pub fn convert<U: Real>(&mut self, factor: f64, other: &GridVector<U>) {
         let len = self.task_len();
