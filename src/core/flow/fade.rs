@@ -49,7 +49,10 @@ fn default_tau() -> f32 {
 }
 
 /// A photon keeps the field while it is slower than this share of its speed limit.
-const AT_EASE: f32 = 0.5;
+const AT_EASE: f32 = 0.7;
+/// A photon with a long way may go this much faster than on its straight line. AT_EASE times this is more than 1, so that
+/// none leaves the field at the start.
+const OWN_PACE: f32 = 1.5;
 
 impl Default for Fade {
     fn default() -> Self {
@@ -114,9 +117,6 @@ impl Fade {
         }
     }
 }
-
-/// A photon with a long way may go this much faster than on its straight line.
-const OWN_PACE: f32 = 1.2;
 
 /// Share of the field left to a photon at this part of its speed limit.
 #[inline(always)]

@@ -6,8 +6,8 @@
 //! v' = (1-s)/(1-t) (v - u(c, t))
 //! ```
 //!
-//! whose right side is bounded for all t <= 1, so that any method with any step size ends at c(1) = b to rounding. (The
-//! substitution of the design with an integrating factor is the same equation, scaled.)
+//! whose right side is bounded for all t <= 1, so that any method with any step size ends at c(1) = b to rounding, where
+//! plain Runge-Kutta in c divides by zero at its last stage.
 
 use glam::Vec2;
 

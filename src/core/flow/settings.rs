@@ -73,9 +73,11 @@ impl Default for FlowSettings {
 
 /// Fewest cells along a side: a cubic spline needs room for its boundary.
 pub const MIN_CELLS: u32 = 8;
-/// Bytes the fit holds per node: two potentials, their system of 2 x 2 blocks of 49 entries over all grid levels, moments,
-/// solver vectors.
-const BYTES_PER_NODE: u64 = 2048;
+/// Bytes the fit holds per node: half a symmetric stencil of 2 x 2 blocks in f64, again in f32 on all grid levels, moments and
+/// vectors of the solver.
+const FIT_BYTES_PER_NODE: u64 = 2048;
+/// Bytes that one step keeps per node: the two coefficients of its field.
+const FIELD_BYTES_PER_NODE: u64 = 8;
 /// Most memory that a fit may ask for.
 const MAX_BYTES: u64 = 8 << 30;
 
@@ -85,7 +87,7 @@ impl GridSize {
         match self {
             Self::Both(cells) => cells,
             Self::Longer(n) => {
-                let side = |length: f32| ((length * n as f32).round() as u32).max(MIN_CELLS.min(n));
+                let side = |length: f32| ((length * n as f32).round() as u32).max(MIN_CELLS);
                 [side(extent.x), side(extent.y)]
             }
         }
@@ -117,35 +119,32 @@ impl FlowSettings {
         count("steps", self.steps, 10_000)?;
         count("guides", self.guides, 50_000_000)?;
         self.fade.check(&format!("{place}.fade"))?;
-        self.grid.check(&format!("{place}.grid"))
+        self.check_grid(&format!("{place}.grid"))
     }
-}
 
-impl GridSize {
-    fn check(self, place: &str) -> Result<()> {
-        let [x, y] = match self {
-            Self::Longer(n) => [n, n],
-            Self::Both(cells) => cells,
+    /// A grid neither too coarse for a spline nor too fine for the memory.
+    fn check_grid(&self, place: &str) -> Result<()> {
+        let [x, y] = match self.grid {
+            GridSize::Longer(n) => [n, n],
+            GridSize::Both(cells) => cells,
         };
         if x < MIN_CELLS || y < MIN_CELLS {
-            return Err(Error::value(
-                place,
-                format!("is {x} x {y} cells, must be at least {MIN_CELLS} x {MIN_CELLS}"),
-            ));
+            let what = format!("is {x} x {y} cells, must be at least {MIN_CELLS} x {MIN_CELLS}");
+            return Err(Error::value(place, what));
         }
-        let needed = (u64::from(x) + 3) * (u64::from(y) + 3) * BYTES_PER_NODE;
+        let per_node = FIT_BYTES_PER_NODE + FIELD_BYTES_PER_NODE * u64::from(self.steps);
+        let needed = (u64::from(x) + 3) * (u64::from(y) + 3) * per_node;
         if needed <= MAX_BYTES {
             return Ok(());
         }
         let gib = |bytes: u64| bytes as f64 / (1u64 << 30) as f64;
-        let largest = ((MAX_BYTES / BYTES_PER_NODE) as f64).sqrt() as u64 - 3;
-        Err(Error::Limit {
-            place: place.to_owned(),
-            what: format!(
-                "{x} x {y} cells need about {:.1} GiB, the limit is {:.0} GiB; the largest square grid is {largest} x {largest}",
-                gib(needed),
-                gib(MAX_BYTES)
-            ),
-        })
+        let largest = ((MAX_BYTES / per_node) as f64).sqrt() as u64 - 3;
+        let what = format!(
+            "{x} x {y} cells over {} steps need about {:.1} GiB, the limit is {:.0} GiB; the largest square grid is {largest} x {largest}",
+            self.steps,
+            gib(needed),
+            gib(MAX_BYTES)
+        );
+        Err(Error::Limit { place: place.to_owned(), what })
     }
 }
