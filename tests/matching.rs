@@ -187,8 +187,8 @@ fn a_square_onto_a_smaller_one_is_a_scaling() {
     let map = transport_map(&grid(1.0, 0.0), &grid(0.4, 0.5), Vec2::ONE, &Progress::new()).unwrap();
     for i in 0..100 {
         let p = (vec2((i % 10) as f32, (i / 10) as f32) + 0.5) / 10.0;
-        // A cell is 0.005; the uniform part of the densities (1 %) moves the map by up to 0.005 at the corners.
-        assert!(map.apply(p).distance(p * 0.4 + 0.5) < 0.01, "{p} {}", map.apply(p));
+        // Two cells of 1/254; the uniform part of the densities (0.1 %) moves the map by less than one.
+        assert!(map.apply(p).distance(p * 0.4 + 0.5) < 0.008, "{p} {}", map.apply(p));
     }
 }
 
@@ -249,13 +249,13 @@ fn what_cannot_be_matched_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn any_two_sets_of_equal_size_are_matched_one_to_one(
         points in prop::collection::vec((0_u8..20, 0_u8..20, -1.0_f32..2.0, -1.0_f32..2.0), 1..200),
     ) {
         // Coarse coordinates repeat, fine ones do not.
-        let source: Vec<Vec2> = points.iter().map(|p| vec2(p.0 as f32, p.1 as f32) / 20.0).collect();
+        let source: Vec<Vec2> = points.iter().map(|p| vec2(f32::from(p.0), f32::from(p.1)) / 20.0).collect();
         let target: Vec<Vec2> = points.iter().map(|p| vec2(p.2, p.3)).collect();
         let (map, matching) = matched(&source, &target);
         prop_assert!(dual_bound(&map, &source, &target) <= matching.cost(&source, &target) * (1.0 + 1e-9) + 1e-12);

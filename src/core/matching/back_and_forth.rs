@@ -28,14 +28,24 @@ pub(super) struct Potentials {
 
 /// The potentials between the densities `mu` of the source and `nu` of the target, both positive and of mean 1.
 pub(super) fn solve(lattice: &Lattice, mu: &[f64], nu: &[f64], progress: &Progress) -> Result<Potentials> {
-    let coarser = lattice.coarser();
-    let (start, iterations) = if lattice.size.iter().all(|n| n % 2 == 0 && n / 2 >= COARSEST) {
+    let (start, iterations) = if let Some(coarser) = coarser(lattice) {
         let coarse = solve(&coarser, &lattice.restrict(mu), &lattice.restrict(nu), progress)?;
         (lattice.prolong(&coarse.phi), FINEST_ITERATIONS)
     } else {
         (vec![0.0; lattice.len()], COARSE_ITERATIONS)
     };
-    Ascent::new(lattice, mu, nu, start).run(iterations, progress)
+    let potentials = Ascent::new(lattice, mu, nu, start).run(iterations, progress)?;
+    progress.advance(lattice.len() as u64);
+    Ok(potentials)
+}
+
+/// What [`solve`] advances the progress by: the cells of all its lattices.
+pub(super) fn work(lattice: &Lattice) -> u64 {
+    lattice.len() as u64 + coarser(lattice).map_or(0, |coarser| work(&coarser))
+}
+
+fn coarser(lattice: &Lattice) -> Option<Lattice> {
+    lattice.size.iter().all(|n| n % 2 == 0 && n / 2 >= COARSEST).then(|| lattice.coarser())
 }
 
 struct Ascent<'a> {

@@ -6,6 +6,7 @@ use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
 use super::transport_map::TransportMap;
+use crate::math::hilbert;
 
 /// Most points in a leaf of the tree.
 const LEAF: usize = 8;
@@ -25,9 +26,10 @@ pub fn dual_bound(map: &TransportMap, source: &[Vec2], target: &[Vec2]) -> f64 {
         target.par_iter().with_min_len(4096).map(|&point| map.target_potential(point)).collect();
     let mean_potential = potentials.iter().sum::<f64>() / target.len() as f64;
     let tree = Tree::new(map, target, &potentials);
-    let parts: Vec<f64> = source
+    // Followers on the curve look into the same branches.
+    let parts: Vec<f64> = hilbert::order(source, Vec2::ZERO)
         .par_chunks(CHUNK)
-        .map(|points| points.iter().map(|point| tree.least(point.as_dvec2())).sum())
+        .map(|rows| rows.iter().map(|&row| tree.least(source[row as usize].as_dvec2())).sum())
         .collect();
     mean_potential + parts.iter().sum::<f64>() / source.len() as f64
 }

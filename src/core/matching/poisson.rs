@@ -44,19 +44,19 @@ impl Poisson {
         let [width, height] = self.size;
         let mut rows = f.to_vec();
         self.each_row(&mut rows, 0, |transform, row, scratch| {
-            transform.process_dct2_with_scratch(row, scratch)
+            transform.process_dct2_with_scratch(row, scratch);
         });
         let mut columns = transpose(&rows, width);
         self.each_row(&mut columns, 1, |transform, row, scratch| {
-            transform.process_dct2_with_scratch(row, scratch)
+            transform.process_dct2_with_scratch(row, scratch);
         });
         columns.iter_mut().zip(&self.inverse).for_each(|(value, inverse)| *value *= inverse);
         self.each_row(&mut columns, 1, |transform, row, scratch| {
-            transform.process_dct3_with_scratch(row, scratch)
+            transform.process_dct3_with_scratch(row, scratch);
         });
         let mut solution = transpose(&columns, height);
         self.each_row(&mut solution, 0, |transform, row, scratch| {
-            transform.process_dct3_with_scratch(row, scratch)
+            transform.process_dct3_with_scratch(row, scratch);
         });
         let norm = solution.iter().zip(f).map(|(p, f)| p * f).sum();
         (solution, norm)

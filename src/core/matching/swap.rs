@@ -33,30 +33,11 @@ pub(super) fn sweep(
     progress: &Progress,
 ) -> Result<usize> {
     progress.check()?;
-    *pairs = ordered(pairs, t, shift);
+    let places: Vec<Vec2> = pairs.iter().map(|pair| pair.source.lerp(pair.target, t)).collect();
+    let order = hilbert::order(&places, shift);
+    *pairs = order.par_iter().with_min_len(4096).map(|&row| pairs[row as usize]).collect();
     progress.check()?;
     Ok(pairs.par_chunks_mut(BLOCK).map(|block| exchange(block, window)).sum())
-}
-
-fn ordered(pairs: &[Pair], t: f32, shift: Vec2) -> Vec<Pair> {
-    let place = |pair: &Pair| pair.source.lerp(pair.target, t);
-    let (low, high) = pairs.iter().fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), pair| {
-        (low.min(place(pair)), high.max(place(pair)))
-    });
-    let side = (high - low).max_element().max(f32::MIN_POSITIVE);
-    // The curve's square is twice as large as the points' box, which leaves room to shift it.
-    let scale = 65535.0 / (2.0 * side);
-    let mut keys: Vec<u64> = pairs
-        .par_iter()
-        .enumerate()
-        .with_min_len(4096)
-        .map(|(i, pair)| {
-            let p = (place(pair) - low + shift * side) * scale;
-            (hilbert::index(p.x as u32, p.y as u32) as u64) << 32 | i as u64
-        })
-        .collect();
-    keys.par_sort_unstable();
-    keys.par_iter().with_min_len(4096).map(|key| pairs[*key as u32 as usize]).collect()
 }
 
 fn exchange(block: &mut [Pair], window: usize) -> usize {

@@ -13,8 +13,9 @@ const FINEST: usize = 256;
 const COARSEST: usize = 32;
 /// Points per cell that a lattice of fewer cells aims at.
 const POINTS_PER_CELL: f64 = 4.0;
-/// Share of uniform density mixed into both: without it the iteration stalls where one of them is empty.
-const FLOOR: f64 = 0.01;
+/// Share of uniform density mixed into both: without it the iteration stalls where one of them is empty. At 1 M points
+/// 0.01 costs 0.37 % over the dual bound, 0.002 0.21 %, 0.0005 0.17 %, for the same time.
+const FLOOR: f64 = 0.001;
 
 /// The optimal (Brenier) map between two densities: where a photon of any pass goes, and its neighbours beside it.
 #[derive(Clone, Debug)]
@@ -43,6 +44,7 @@ pub fn transport_map(
     let points = source.len().min(target.len()) as f64;
     let finest = ((points / POINTS_PER_CELL).sqrt() as usize).next_multiple_of(16).clamp(COARSEST, FINEST);
     let lattice = Lattice::covering(source, target, extent, finest);
+    progress.begin("transport map", back_and_forth::work(&lattice));
     let mu = lattice.density(source, FLOOR, progress)?;
     let nu = lattice.density(target, FLOOR, progress)?;
     let potentials = back_and_forth::solve(&lattice, &mu, &nu, progress)?;

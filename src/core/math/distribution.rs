@@ -143,7 +143,7 @@ fn accumulate(weights: &[f32], cdf: &mut [f64]) -> Option<f64> {
     cdf[0] = 0.0;
     for (weight, cdf) in weights.iter().zip(&mut cdf[1..]) {
         (weight.is_finite() && *weight >= 0.0).then_some(())?;
-        sum += *weight as f64;
+        sum += f64::from(*weight);
         *cdf = sum;
     }
     Some(sum)

@@ -13,7 +13,7 @@ pub fn scrambled(index: u32, seed: u32) -> [f64; 2] {
         direction ^= direction >> 1;
         rest >>= 1;
     }
-    let unit = |x: u32| x as f64 / 4_294_967_296.0;
+    let unit = |x: u32| f64::from(x) / 4_294_967_296.0;
     [unit(scramble(first, hash(seed))), unit(scramble(second, hash(seed ^ 0x5bd1_e995)))]
 }
 

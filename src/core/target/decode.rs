@@ -50,7 +50,7 @@ impl Picture {
         line.clear();
         match &self.pixels {
             Pixels::Float(pixels) => {
-                line.extend_from_slice(&pixels[row * self.width..(row + 1) * self.width])
+                line.extend_from_slice(&pixels[row * self.width..(row + 1) * self.width]);
             }
             Pixels::Image { image, linear } => {
                 let strip = image.crop_imm(0, row as u32, self.width as u32, 1).into_rgba32f();

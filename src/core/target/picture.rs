@@ -154,7 +154,7 @@ impl Cells {
         for row in 0..picture.height {
             picture.read_row(row, &mut line);
             for (column, pixel) in line.iter_mut().enumerate() {
-                cells.bad_pixels += clean(pixel) as usize;
+                cells.bad_pixels += usize::from(clean(pixel));
                 let (colour, alpha) = (Vec3::from_slice(pixel), pixel[3].min(1.0));
                 black &= colour == Vec3::ZERO;
                 alphas = (alphas.0.min(alpha), alphas.1.max(alpha));

@@ -36,7 +36,7 @@ impl Points {
             return self.clone();
         }
         // Systematic sampling along a space-filling curve: neighbours on it are neighbours in the plane.
-        let order = along_curve(&self.positions);
+        let order = hilbert::order(&self.positions, Vec2::ZERO);
         let offset = Stream::new(seed, Purpose::Target, pass, 1).f64();
         let row = |i: usize| order[((i as f64 + offset) * count as f64 / n as f64) as usize % count] as usize;
         let positions = (0..n).map(|i| self.positions[row(i)]).collect();
@@ -47,7 +47,7 @@ impl Points {
 
     /// Scales the colours; colours without any light are dropped.
     pub(super) fn with_mean_luminance_one(mut self) -> Self {
-        let sum: f64 = self.colours.iter().map(|colour| colour.dot(LUMINANCE) as f64).sum();
+        let sum: f64 = self.colours.iter().map(|colour| f64::from(colour.dot(LUMINANCE))).sum();
         if sum > 0.0 {
             let scale = (self.colours.len() as f64 / sum) as f32;
             self.colours.iter_mut().for_each(|colour| *colour *= scale);
@@ -56,23 +56,6 @@ impl Points {
         }
         self
     }
-}
-
-fn along_curve(positions: &[Vec2]) -> Vec<u32> {
-    let (low, high) = positions
-        .iter()
-        .fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), point| (low.min(*point), high.max(*point)));
-    let scale = 65535.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut order: Vec<(u32, u32)> = positions
-        .iter()
-        .enumerate()
-        .map(|(row, point)| {
-            let cell = (*point - low) * scale;
-            (hilbert::index(cell.x as u32, cell.y as u32), row as u32)
-        })
-        .collect();
-    order.sort_unstable();
-    order.into_iter().map(|(_, row)| row).collect()
 }
 
 /// Reads points in plane coordinates.
@@ -86,9 +69,9 @@ pub fn load_points(path: &Path) -> Result<Points> {
     let bytes = read_regular_file(path, MAX_BYTES)?;
     let mut reading = Reading { path, points: Points::default(), columns: 0 };
     if bytes.starts_with(b"\x93NUMPY") {
-        reading.read_npy(&bytes)?
+        reading.read_npy(&bytes)?;
     } else {
-        reading.read_text(&bytes)?
+        reading.read_text(&bytes)?;
     }
     let points = reading.points;
     if points.positions.is_empty() {
