@@ -106,8 +106,8 @@ mod tests {
         f.iter_mut().for_each(|value| *value -= mean);
         let (p, norm) = Poisson::new(&lattice).solve(&f);
         assert!(norm > 0.0);
-        for y in 0..16 {
-            for x in 0..32 {
+        for y in 0..16_usize {
+            for x in 0..32_usize {
                 // A mirrored neighbour beyond the border is the cell itself.
                 let at = |x: usize, y: usize| p[y.min(15) * 32 + x.min(31)];
                 let around =

@@ -188,7 +188,7 @@ mod tests {
         let distribution = Distribution1::new(&weights).unwrap();
         let mut counts = [0; 6];
         for i in 0..800 {
-            let sample = distribution.sample((i as f64 + 0.5) / 800.0);
+            let sample = distribution.sample((f64::from(i) + 0.5) / 800.0);
             counts[sample.cell] += 1;
             assert_eq!(sample.pdf, distribution.pdf(sample.value));
             assert!((0.0..1.0).contains(&sample.within));

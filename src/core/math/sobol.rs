@@ -46,7 +46,8 @@ mod tests {
                 let mut held = [0; 256];
                 for i in 0..256 {
                     let [x, y] = scrambled(first + i, seed);
-                    held[((y * rows as f64) as u32 * columns + (x * columns as f64) as u32) as usize] += 1;
+                    held[((y * f64::from(rows)) as u32 * columns + (x * f64::from(columns)) as u32)
+                        as usize] += 1;
                 }
                 assert_eq!(held, [1; 256], "{columns} columns");
             }
