@@ -93,8 +93,7 @@ fn assembly(bencher: Bencher, (n, coupled): (usize, bool)) {
 #[divan::bench(args = SIZES)]
 fn velocity(bencher: Bencher, n: usize) {
     let (positions, velocities) = photons(0.0);
-    let (field, _) =
-        fitter(n, 0.5, 1e-4).fit(&positions, &velocities, &Progress::new()).expect("a field");
+    let (field, _) = fitter(n, 0.5, 1e-4).fit(&positions, &velocities, &Progress::new()).expect("a field");
     bencher
         .counter(ItemsCount::new(positions.len()))
         .bench_local(|| positions.iter().map(|&p| black_box(&field).velocity(p)).sum::<Vec2>());
@@ -123,8 +122,7 @@ fn reference_cholesky(bencher: Bencher, n: usize) {
         }
     }
     let size = 2 * nx * ny;
-    let matrix =
-        SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &triplets).expect("a matrix");
+    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &triplets).expect("a matrix");
     let symbolic = SymbolicLlt::try_new(matrix.symbolic(), faer::Side::Lower).expect("a pattern");
     let right = faer::Mat::<f64>::from_fn(size, 1, |i, _| (i % 7) as f64);
     bencher.bench_local(|| {

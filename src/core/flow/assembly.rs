@@ -78,7 +78,6 @@ impl Assembly {
                 direct: Stencil::zero(layout),
                 cross: coupled.then(|| Stencil::zero(layout)),
                 smooth: bending(grid),
-                cell: grid.cell_size(),
             },
             right: GridVector::zero(layout, 2),
             table: table(),

@@ -59,6 +59,7 @@ pub struct Fitter {
     settings: FitSettings,
     assembly: Assembly,
     operator: Operator<f64>,
+    multigrid: Multigrid,
     solver: ConjugateGradients,
     right: GridVector<f64>,
     systems: Vec<System>,
@@ -99,6 +100,7 @@ impl Fitter {
             settings,
             assembly: Assembly::new(settings.grid, zero.components == 2),
             operator: Operator::zero(zero.layout, zero.components),
+            multigrid: Multigrid::new(zero.layout, settings.grid.cell_size(), &systems[0].null),
             solver: ConjugateGradients::new(&zero),
             right: zero,
             systems,
@@ -129,9 +131,9 @@ impl Fitter {
             self.assembly.add(rows);
         }
         // Where psi and phi are fitted apart, both have the same matrix.
-        let System { weights, null, .. } = &self.systems[0];
-        self.operator.set(&self.assembly.parts, *weights);
-        let mut multigrid = Multigrid::new(&self.assembly.parts, *weights, null);
+        let weights = self.systems[0].weights;
+        self.operator.set(&self.assembly.parts, weights);
+        self.multigrid.set(&self.assembly.parts, weights);
         let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0 };
         for system in &mut self.systems {
             progress.check()?;
@@ -139,7 +141,7 @@ impl Fitter {
             let limits = (self.settings.tolerance, self.settings.max_iterations);
             let solved = self.solver.solve(
                 &self.operator,
-                &mut multigrid,
+                &mut self.multigrid,
                 &system.null_vectors,
                 &self.right,
                 &mut system.solution,

@@ -48,7 +48,7 @@ impl Band {
         ];
         let derivative = [values, slopes, curvatures][order];
         let scale = width / width.powi(2 * order as i32);
-        let mut diagonals = [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; cells + EXTRA]);
+        let mut diagonals = [0; 4].map(|_| vec![0.0; cells + EXTRA]);
         for cell in 0..cells {
             for (x, weight) in POINTS {
                 let basis = derivative(0.5 + 0.5 * x);
@@ -71,7 +71,7 @@ impl Band {
     /// reaches beyond the end.
     pub fn coarsened(&self, nodes: usize) -> Self {
         let fine = self.diagonals[0].len() as isize;
-        let mut diagonals = [const { Vec::new() }; 4].map(|_: Vec<f64>| vec![0.0; nodes]);
+        let mut diagonals = [0; 4].map(|_| vec![0.0; nodes]);
         for (d, diagonal) in diagonals.iter_mut().enumerate() {
             for (i, value) in diagonal.iter_mut().enumerate() {
                 for (a, b) in (0..5).flat_map(|a| (0..5).map(move |b| (a, b))) {
@@ -86,9 +86,7 @@ impl Band {
         }
         Self { diagonals }
     }
-}
 
-impl Band {
     /// All entries times `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         Self { diagonals: self.diagonals.each_ref().map(|d| d.iter().map(|v| factor * v).collect()) }

@@ -44,23 +44,30 @@ struct Coarsest {
 }
 
 impl Multigrid {
-    /// The hierarchy for the matrix of `parts` and `weights`, which is zero on `null` and nowhere else.
-    pub fn new(parts: &Parts, weights: Weights, null: &NullSpace) -> Self {
+    /// The hierarchy below a grid of `layout` with such cells, for a matrix that is zero on `null` and nowhere else.
+    pub fn new(mut layout: Layout, mut cell: [f64; 2], null: &NullSpace) -> Self {
         let mut levels = Vec::new();
-        let mut coarse: Option<Parts> = None;
         loop {
-            let fine = coarse.as_ref().unwrap_or(parts);
-            let layout = fine.direct.layout;
-            let nodes = next_nodes(layout.nodes, fine.cell);
+            let nodes = next_nodes(layout.nodes, cell);
             if nodes == layout.nodes {
-                let coarsest = Coarsest::new(fine, weights, null);
-                return Self { levels, coarsest };
+                return Self { levels, coarsest: Coarsest::new(layout, null.vectors(layout, cell)) };
             }
-            let mut operator = Operator::zero(layout, fine.components());
-            operator.set(fine, weights);
-            levels.push(Level::new(operator, Layout::new(nodes)));
-            coarse = Some(fine.coarsened(nodes));
+            levels.push(Level::new(layout, Layout::new(nodes), null.components()));
+            cell = [0, 1]
+                .map(|axis| if nodes[axis] == layout.nodes[axis] { cell[axis] } else { 2.0 * cell[axis] });
+            layout = Layout::new(nodes);
         }
+    }
+
+    /// Sets the matrix on all grids.
+    pub fn set(&mut self, parts: &Parts, weights: Weights) {
+        let mut coarse: Option<Parts> = None;
+        for level in &mut self.levels {
+            let fine = coarse.as_ref().unwrap_or(parts);
+            level.operator.set(fine, weights);
+            coarse = Some(fine.coarsened(level.coarse_right.layout.nodes));
+        }
+        self.coarsest.set(coarse.as_ref().unwrap_or(parts), weights);
     }
 
     /// `solution` = V-cycle for `right`, from zero.
@@ -103,17 +110,16 @@ fn next_nodes(nodes: [usize; 2], cell: [f64; 2]) -> [usize; 2] {
 }
 
 impl Level {
-    fn new(operator: Operator<f32>, coarse: Layout) -> Self {
-        let zero = |layout| GridVector::zero(layout, operator.components);
-        let fine = operator.layout;
+    fn new(fine: Layout, coarse: Layout, components: usize) -> Self {
+        let zero = |layout| GridVector::zero(layout, components);
         Self {
-            transfer: Transfer::new(fine, coarse, operator.components),
+            operator: Operator::zero(fine, components),
+            transfer: Transfer::new(fine, coarse, components),
             solution: zero(fine),
             residual: zero(fine),
             steps: [zero(fine), zero(fine)],
             coarse_right: zero(coarse),
             coarse_solution: zero(coarse),
-            operator,
         }
     }
 
@@ -161,30 +167,32 @@ impl Level {
 }
 
 impl Coarsest {
-    fn new(parts: &Parts, weights: Weights, null: &NullSpace) -> Self {
-        let components = parts.components();
-        let layout = parts.direct.layout;
-        let [nx, ny] = layout.nodes;
-        let mut operator = Operator::<f64>::zero(layout, components);
+    fn new(layout: Layout, null: Vec<GridVector<f64>>) -> Self {
+        let components = null[0].components;
+        let size = components * layout.nodes[0] * layout.nodes[1];
+        let right = GridVector::zero(layout, components);
+        Self { layout, factor: Cholesky::new(0, Vec::new()), null, right, numbers: vec![0.0; size] }
+    }
+
+    fn set(&mut self, parts: &Parts, weights: Weights) {
+        let ([nx, ny], components, size) = (self.layout.nodes, self.right.components, self.numbers.len());
+        let mut operator = Operator::<f64>::zero(self.layout, components);
         operator.set(parts, weights);
-        let size = components * nx * ny;
-        let mut lower = vec![0.0; size * size];
+        let mut matrix = vec![0.0; size * size];
         let index = |component: usize, x: usize, y: usize| (component * ny + y) * nx + x;
         for (i, k) in (0..components).flat_map(|i| (0..components).map(move |k| (i, k))) {
             for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
                 for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
                     let (to_x, to_y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
                     if to_x < nx && to_y < ny {
-                        lower[index(i, x, y) * size + index(k, to_x, to_y)] =
+                        matrix[index(i, x, y) * size + index(k, to_x, to_y)] =
                             operator.entry([i, k], x, y, dx, dy);
                     }
                 }
             }
         }
-        let null = null.vectors(layout, parts.cell);
-        fill_null_space(&mut lower, size, &null);
-        let right = GridVector::zero(layout, components);
-        Self { layout, factor: Cholesky::new(size, lower), null, right, numbers: vec![0.0; size] }
+        fill_null_space(&mut matrix, size, &self.null);
+        self.factor = Cholesky::new(size, matrix);
     }
 
     /// What rounding left of the null space in `right` is taken out: it would come back much larger.

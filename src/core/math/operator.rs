@@ -17,8 +17,6 @@ pub struct Parts {
     pub cross: Option<Stencil<f64>>,
     /// B.
     pub smooth: Kronecker,
-    /// Width and height of a cell.
-    pub cell: [f64; 2],
 }
 
 /// The factors of the parts.
@@ -35,25 +33,12 @@ pub struct Weights {
 }
 
 impl Parts {
-    /// Potentials: 2 where they are coupled, else 1.
-    pub fn components(&self) -> usize {
-        if self.cross.is_some() { 2 } else { 1 }
-    }
-
     /// The same on the grid with so many nodes and doubled cells where the number differs.
     pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
-        let cell = [0, 1].map(|axis| {
-            if nodes[axis] == self.direct.layout.nodes[axis] {
-                self.cell[axis]
-            } else {
-                2.0 * self.cell[axis]
-            }
-        });
         Self {
             direct: self.direct.coarsened(nodes, 1.0),
             cross: self.cross.as_ref().map(|cross| cross.coarsened(nodes, -1.0)),
             smooth: self.smooth.coarsened(nodes),
-            cell,
         }
     }
 }
