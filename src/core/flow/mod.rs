@@ -87,7 +87,7 @@ pub fn fit_segment(
     let mut observer = Observer::new(&source, &target, extent);
     let mut positions = source.clone();
     let mut directions = guidance::guidance(&source, &target, 0.0);
-    progress.begin("flow", steps as u64);
+    progress.begin("fit", steps as u64);
     for n in 0..steps {
         let t = fields.time(n);
         if let Some(show) = &mut tracks {

@@ -21,5 +21,5 @@ mod transport_map;
 
 pub use bijection::Matching;
 pub use dual::dual_bound;
-pub use settings::{MatchSettings, Method};
+pub use settings::Method;
 pub use transport_map::{TransportMap, transport_map};

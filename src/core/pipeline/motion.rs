@@ -72,7 +72,6 @@ pub(super) fn fit(
     for _ in 1..project.keys.len() {
         progress.begin("match", 1);
         let paired = meter.measure("match", || match_next(&batch, project.matching, extent, progress))?;
-        progress.begin("fit", project.flow.steps.into());
         let (fields, report) = meter.measure("fit", || {
             fit_segment(&batch.at.positions, &paired.next.positions, extent, &project.flow, progress, None)
         })?;

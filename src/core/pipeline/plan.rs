@@ -48,7 +48,9 @@ mod pace {
     pub(super) const SPLAT: f64 = 40.0e6;
     /// Texels filtered and stored per second.
     pub(super) const FILTER: f64 = 40.0e6;
-    /// Camera paths per second.
+    /// Camera samples towards the receiver per second.
+    pub(super) const LOOKS: f64 = 4.0e6;
+    /// Light paths of the background per second.
     pub(super) const PATHS: f64 = 1.0e6;
     /// Pixels gathered, encoded and written per second.
     pub(super) const WRITE: f64 = 6.0e6;
@@ -99,10 +101,10 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     let traced = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
     let trace = if traced { photons / pace::TRACE } else { 0.0 };
     let mut stages = Vec::new();
+    stages.push(("visible", pixels * f64::from(render.camera_samples) / pace::LOOKS));
     if project.scene.is_some() {
         stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
     }
-    stages.push(("visible", pixels * 16.0 / pace::PATHS / 4.0));
     if traced {
         stages.push(("trace", trace));
     }

@@ -111,10 +111,12 @@ impl Supplies {
     /// Pictures and points share the flux of the pass evenly (Sec. 3, "Flux Blending"), times rho except at the first
     /// key, times their own relative colours.
     pub(super) fn key(&self, key: usize, light: &PassLight, pass: u64, count: usize) -> KeyPhotons {
+        // Keys draw from streams of their own, so that two keys with one picture are not the same points.
+        let stream = (pass << 16) + key as u64;
         let points = match &self.keys[key] {
             Supply::Physical => return light.physical.clone().unwrap_or_default(),
-            Supply::Picture(picture) => picture.sample(self.seed, (pass << 16) + key as u64, count),
-            Supply::Points(points) => spread(points, count),
+            Supply::Picture(picture) => picture.sample(self.seed, stream, count),
+            Supply::Points(points) => points.resampled(count, self.seed, stream),
         };
         let rho = if key == 0 { 1.0 } else { self.rho };
         let flux = share_out(light.total * f64::from(rho), &points.colours, count);
@@ -132,15 +134,4 @@ fn share_out(total: DVec3, colours: &[Vec3], count: usize) -> Vec<Vec3> {
         return vec![mean.as_vec3(); count];
     }
     colours.iter().map(|colour| (colour.as_dvec3() * mean * scale).as_vec3()).collect()
-}
-
-/// `count` points, every given one equally often (to within one).
-fn spread(points: &Points, count: usize) -> Points {
-    let rows = points.positions.len();
-    let row = |i: usize| (i as u64 * rows as u64 / count as u64) as usize;
-    let colours = if points.colours.is_empty() { 0 } else { count };
-    Points {
-        positions: (0..count).map(|i| points.positions[row(i)]).collect(),
-        colours: (0..colours).map(|i| points.colours[row(i)]).collect(),
-    }
 }
