@@ -182,7 +182,8 @@ fn the_shadow_of_glass_is_dark_and_the_sky_shines_through() {
     let ring = (0..65).filter(|&x| (0.75..1.0).contains(&seen_at(x, 32).x.abs()));
     for x in ring {
         assert!(lit.at(x, 32).x > 0.0);
-        assert!(dark.at(x, 32).x < 1e-3 * lit.at(x, 32).x, "column {x}");
+        // The ball reflects a few percent of the lit floor into its own shadow.
+        assert!(dark.at(x, 32).x < 0.03 * lit.at(x, 32).x, "column {x}");
     }
     let sky = render(&scene(object(), Vec::new(), 1.0), 64);
     // A clear ball takes nothing from an even sky, so the receiver beside it still shows its albedo.

@@ -52,8 +52,11 @@ fn write(
     write_frame(path, format, &frame, &view(ViewTransform::Agx), PngDepth::Eight)
 }
 
-/// Layer by layer: its name, and its channels with their samples.
-fn read_exr(path: &Path) -> Vec<(String, Vec<(String, Vec<f16>)>)> {
+/// Names and samples.
+type Channels = Vec<(String, Vec<f16>)>;
+
+/// Layer by layer: its name and its channels.
+fn read_exr(path: &Path) -> Vec<(String, Channels)> {
     let image = read_all_flat_layers_from_file(path).unwrap();
     let layer = |layer: exr::image::Layer<exr::image::AnyChannels<FlatSamples>>| {
         let name = layer.attributes.layer_name.unwrap().to_string();

@@ -5,7 +5,8 @@
 //! surface over glass or a mirror to a light is left out, because the caustic photons bring that very light. The sky emits no
 //! photons, so its light does come through glass.
 //!
-//! Pixels that are still noisy after the first samples get more, up to sixteen times as many.
+//! Pixels that are noisy after the first samples, and their neighbours, get more until they are good: a few samples can
+//! miss what is rare and bright, but hardly in a whole neighbourhood.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
@@ -25,25 +26,31 @@ const BOUNCES: u32 = 3;
 const MAX_SURFACES: usize = 32;
 /// Below this throughput a path goes on only by chance.
 const FAINT: f32 = 0.1;
-/// Largest number of samples of a noisy pixel, in units of the setting.
-const MOST: u32 = 16;
+/// Least and largest number of samples of a noisy pixel, in units of the setting.
+const NOISY: [u32; 2] = [8, 64];
 /// The standard error at which a pixel is good, as a share of its brightness and half that of the picture.
-const TOLERANCE: f32 = 0.02;
+const TOLERANCE: f32 = 0.016;
+/// How much brighter than the mean of the picture a light may appear in glass or a mirror. Lamps are thousands of times
+/// brighter, and a pixel that caught one reflection of a small lamp by chance would sparkle; this is white all the same.
+const GLINT: f32 = 50.0;
 
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
 pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
     let (width, height) = (settings.width as usize, settings.height as usize);
-    let paths = Paths { scene, media: scene.media_at(scene.camera().position), width, height };
+    let media = scene.media_at(scene.camera().position);
+    let mut paths = Paths { scene, media, width, height, glint: 0.0 };
+    let brightness = paths.brightness(seed);
+    paths.glint = GLINT * brightness;
     let base = settings.background_samples;
     progress.begin("background", 2 * height as u64);
     let mut pixels: Vec<Pixel> = (0..width * height)
         .map(|i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64)))
         .collect();
-    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(&Pixel) -> bool + Sync)| {
+    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(usize, &Pixel) -> bool + Sync)| {
         pixels.par_chunks_mut(width).enumerate().try_for_each(|(y, row)| -> Result<()> {
             for (x, pixel) in row.iter_mut().enumerate() {
                 progress.check()?;
-                while wanted(pixel) {
+                while wanted(y * width + x, pixel) {
                     (0..base).for_each(|_| paths.sample(x, y, pixel));
                 }
             }
@@ -51,13 +58,24 @@ pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress:
             Ok(())
         })
     };
-    trace(&mut pixels, &|pixel| pixel.count == 0)?;
-    let brightness = pixels.iter().map(|p| f64::from(p.luminance())).sum::<f64>() / pixels.len() as f64;
-    let floor = 0.5 * brightness as f32;
-    trace(&mut pixels, &|pixel| {
-        pixel.count < MOST * base && pixel.error() > TOLERANCE * (pixel.luminance() + floor)
+    trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
+    let floor = 0.5 * brightness;
+    let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
+    let near_noise = near(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
+    trace(&mut pixels, &|i, pixel| {
+        near_noise[i] && (pixel.count < NOISY[0] * base || (pixel.count < NOISY[1] * base && noisy(pixel)))
     })?;
     Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
+}
+
+/// Which pixels are marked or have a marked pixel among their eight neighbours.
+fn near(marked: &[bool], width: usize) -> Vec<bool> {
+    let height = marked.len() / width;
+    let around = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
+    (0..marked.len())
+        .into_par_iter()
+        .map(|i| around(i / width, height).any(|y| around(i % width, width).any(|x| marked[y * width + x])))
+        .collect()
 }
 
 /// Sums of the samples of a pixel.
@@ -109,9 +127,24 @@ struct Paths<'a> {
     media: Media,
     width: usize,
     height: usize,
+    /// Largest luminance of a light seen in glass or a mirror.
+    glint: f32,
 }
 
 impl Paths<'_> {
+    /// Mean luminance of the picture, without lights in glass and mirrors, from a few thousand paths.
+    fn brightness(&self, seed: u64) -> f32 {
+        const PATHS: usize = 4096;
+        let pixels = self.width * self.height;
+        let lights = (0..PATHS).map(|i| {
+            let place = i * pixels / PATHS;
+            let mut pixel = Pixel::new(Stream::new(seed, Purpose::Background, 1, i as u64));
+            self.sample(place % self.width, place / self.width, &mut pixel);
+            f64::from(pixel.luminance())
+        });
+        (lights.sum::<f64>() / PATHS as f64) as f32
+    }
+
     /// One more path through a pixel.
     fn sample(&self, x: usize, y: usize, pixel: &mut Pixel) {
         let index = pixel.count;
@@ -129,11 +162,13 @@ impl Paths<'_> {
         let mut beam = Beam::new(Vec3::ONE, self.media);
         let mut radiance = Vec3::ZERO;
         let mut bounces = 0;
-        for _ in 0..MAX_SURFACES {
+        for surface in 0..MAX_SURFACES {
             let hit = scene.intersect(&ray);
             if bounces == 0 {
                 // Lights stand in nobody's way: what lies behind them is added, too.
-                radiance += beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
+                let seen = beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
+                let most = if surface == 0 { f32::INFINITY } else { self.glint };
+                radiance += seen * (most / luminance(seen).max(f32::MIN_POSITIVE)).min(1.0);
             }
             let Some(hit) = hit else {
                 return radiance + beam.weight * scene.environment().radiance(ray.direction);

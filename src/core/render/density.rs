@@ -26,7 +26,7 @@ const STRIP: usize = 8;
 /// r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1), i = 1, 2, ...
 pub fn radius_of_pass(first: f32, pass: usize) -> f32 {
     let shrink: f64 = (1..=pass).map(|i| (i as f64 + ALPHA) / (i as f64 + 1.0)).product();
-    (first as f64 * shrink.sqrt()) as f32
+    (f64::from(first) * shrink.sqrt()) as f32
 }
 
 /// A first radius, in plane units, for `photons` per pass spread over `area` (plane units squared): about fifty photons

@@ -27,8 +27,7 @@ pub struct RenderSettings {
     pub max_texels: u32,
     /// Camera samples per pixel towards the receiver, 1 to 4096. Default 16.
     pub camera_samples: u32,
-    /// Light paths per pixel of the background, 1 to 65536; where glass or a mirror is seen, four times as many.
-    /// Default 64.
+    /// First light paths per pixel of the background, 1 to 65536; noisy pixels take up to 64 times as many. Default 16.
     pub background_samples: u32,
     /// How the PNG pictures show the light.
     pub view: ViewSettings,
@@ -44,7 +43,7 @@ impl Default for RenderSettings {
             radius: None,
             max_texels: 2048,
             camera_samples: 16,
-            background_samples: 64,
+            background_samples: 16,
             view: ViewSettings::default(),
         }
     }

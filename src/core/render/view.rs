@@ -62,8 +62,9 @@ pub struct View {
 impl View {
     /// Screen values in 0..=1 (encoded, not linear) of a linear colour; what is negative or not a number is black.
     pub fn encode(&self, linear: Vec3) -> Vec3 {
-        // f32::max drops NaN.
-        let c = Vec3::from(linear.to_array().map(|v| (v * self.gain).max(0.0).min(f32::MAX)));
+        let exposed = linear * self.gain;
+        // Written so that NaN is black, too.
+        let c = Vec3::from(exposed.to_array().map(|v| if v > 0.0 { v.min(f32::MAX) } else { 0.0 }));
         match self.transform {
             ViewTransform::Agx => self.agx.encode(c),
             ViewTransform::Standard => Vec3::from(c.to_array().map(srgb_from_linear)),
