@@ -110,7 +110,7 @@ impl Fitter {
     /// Fits to the velocity wanted at each position, both in plane units.
     ///
     /// # Errors
-    /// `Value` when the columns differ in length or hold a number that is not finite, `Numeric` when the solver fails,
+    /// `Value` when the columns differ in length, `Numeric` for a number that is not finite or a failing solver,
     /// `Cancelled`.
     pub fn fit(
         &mut self,
