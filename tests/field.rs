@@ -28,7 +28,7 @@ fn points() -> impl Iterator<Item = Vec2> {
 fn differences(field: &Field, p: Vec2) -> [[f64; 2]; 2] {
     let h = 1e-6;
     let p = p.clamp(Vec2::splat(1e-4), grid().extent - 1e-4);
-    let (x, y) = (p.x as f64, p.y as f64);
+    let (x, y) = (f64::from(p.x), f64::from(p.y));
     let slope = |a: [f64; 2], b: [f64; 2]| {
         let (a, b) = (field.velocity_f64(a), field.velocity_f64(b));
         [(b[0] - a[0]) / (2.0 * h), (b[1] - a[1]) / (2.0 * h)]
@@ -68,7 +68,7 @@ fn the_gradient_is_that_of_the_velocity() {
 fn single_and_double_precision_agree() {
     let field = random_field(1.0, 1.0);
     for p in points() {
-        let exact = field.velocity_f64([p.x as f64, p.y as f64]);
+        let exact = field.velocity_f64([f64::from(p.x), f64::from(p.y)]);
         // Velocities near 20, rounding 6e-8 in coefficients, weights and place.
         assert!(field.velocity(p).distance(Vec2::new(exact[0] as f32, exact[1] as f32)) < 1e-4);
     }

@@ -218,8 +218,9 @@ impl Element {
 
     #[inline(always)]
     fn add(&mut self, &[x, y, vx, vy]: &Point, scale: [f64; 2], coupled: bool) {
-        let (bx, by) = (values(x as f64), values(y as f64));
-        let (dx, dy) = (slopes(x as f64).map(|d| d * scale[0]), slopes(y as f64).map(|d| d * scale[1]));
+        let (bx, by) = (values(f64::from(x)), values(f64::from(y)));
+        let (dx, dy) =
+            (slopes(f64::from(x)).map(|d| d * scale[0]), slopes(f64::from(y)).map(|d| d * scale[1]));
         let (by2, dy2) = (outer(by, by), outer(dy, dy));
         for (sum, (i, k)) in self.direct.iter_mut().zip(PAIRS) {
             let (b, d) = (bx[i] * bx[k], dx[i] * dx[k]);
@@ -235,7 +236,7 @@ impl Element {
                 }
             }
         }
-        let (vx, vy) = (vx as f64, vy as f64);
+        let (vx, vy) = (f64::from(vx), f64::from(vy));
         for row in 0..4 {
             for i in 0..4 {
                 let (gx, gy) = (dx[i] * by[row], bx[i] * dy[row]);

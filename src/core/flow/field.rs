@@ -24,12 +24,12 @@ impl Grid {
 
     /// Width and height of a cell in plane units.
     pub fn cell_size(&self) -> [f64; 2] {
-        [self.extent.x as f64 / self.cells[0] as f64, self.extent.y as f64 / self.cells[1] as f64]
+        [f64::from(self.extent.x) / self.cells[0] as f64, f64::from(self.extent.y) / self.cells[1] as f64]
     }
 
     /// The rectangle's area |D|.
     pub fn area(&self) -> f64 {
-        self.extent.x as f64 * self.extent.y as f64
+        f64::from(self.extent.x) * f64::from(self.extent.y)
     }
 }
 
@@ -153,7 +153,7 @@ impl Field {
             let c = self.nodes_at(column, row + k);
             for i in 0..4 {
                 let (gx, gy) = (dx[i] * by[k] / size[0], bx[i] * dy[k] / size[1]);
-                let (psi, phi) = (c[2 * i] as f64, c[2 * i + 1] as f64);
+                let (psi, phi) = (f64::from(c[2 * i]), f64::from(c[2 * i + 1]));
                 u[0] += gx * phi - gy * psi;
                 u[1] += gx * psi + gy * phi;
             }

@@ -10,7 +10,7 @@ use glam::Vec2;
 use super::assembly::{Assembly, Rows};
 use super::bending::bending;
 use super::field::{Field, Grid};
-use crate::math::cg::{ConjugateGradients, Solved};
+use crate::math::cg::{ConjugateGradients, LinearSystem, Solved};
 use crate::math::multigrid::Multigrid;
 use crate::math::null_space::NullSpace;
 use crate::math::operator::{Operator, Weights};
@@ -110,7 +110,7 @@ impl Fitter {
     /// Fits to the velocity wanted at each position, both in plane units.
     ///
     /// # Errors
-    /// `Value` when the columns differ in length or hold a number that is not finite, `Numeric` when the solver fails,
+    /// `Value` when the columns differ in length, `Numeric` for a number that is not finite or a failing solver,
     /// `Cancelled`.
     pub fn fit(
         &mut self,
@@ -139,15 +139,13 @@ impl Fitter {
             progress.check()?;
             system.set_right(&self.settings, &self.assembly.right, &mut self.right);
             let limits = (self.settings.tolerance, self.settings.max_iterations);
-            let solved = self.solver.solve(
-                &self.operator,
-                &mut self.multigrid,
-                &system.null_vectors,
-                &self.right,
-                &mut system.solution,
-                limits,
-                progress,
-            )?;
+            let linear = LinearSystem {
+                operator: &self.operator,
+                preconditioner: &mut self.multigrid,
+                null: &system.null_vectors,
+                right: &self.right,
+            };
+            let solved = self.solver.solve(linear, &mut system.solution, limits, progress)?;
             system.finish(solved)?;
             report.iterations = report.iterations.max(solved.iterations);
             report.residual = report.residual.max(solved.residual);
@@ -237,8 +235,8 @@ impl System {
 pub fn energy(field: &Field, settings: &FitSettings, positions: &[Vec2], velocities: &[Vec2]) -> f64 {
     let misfit: f64 = (positions.iter().zip(velocities))
         .map(|(&p, &v)| {
-            let [ux, uy] = field.velocity_f64([p.x as f64, p.y as f64]);
-            (ux - v.x as f64).powi(2) + (uy - v.y as f64).powi(2)
+            let [ux, uy] = field.velocity_f64([f64::from(p.x), f64::from(p.y)]);
+            (ux - f64::from(v.x)).powi(2) + (uy - f64::from(v.y)).powi(2)
         })
         .sum();
     let (psi, phi) = field.potentials();
@@ -250,7 +248,7 @@ pub fn energy(field: &Field, settings: &FitSettings, positions: &[Vec2], velocit
         }
         let mut vector = GridVector::<f64>::zero(layout, 1);
         for (i, &value) in coefficients.iter().enumerate() {
-            vector.set(0, i % layout.nodes[0], i / layout.nodes[0], value as f64);
+            vector.set(0, i % layout.nodes[0], i / layout.nodes[0], f64::from(value));
         }
         // The potentials carry their weight w in u, so w times the bending of psi is 1/w times that of w psi.
         bends.quadratic_form(&vector, 0) / weight

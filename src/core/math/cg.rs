@@ -14,6 +14,18 @@ pub struct Solved {
     pub residual: f64,
 }
 
+/// A x = b.
+pub struct LinearSystem<'a> {
+    /// A.
+    pub operator: &'a Operator<f64>,
+    /// An approximate inverse of A.
+    pub preconditioner: &'a mut Multigrid,
+    /// An orthonormal basis of what A maps to zero; b has no share in it.
+    pub null: &'a [GridVector<f64>],
+    /// b.
+    pub right: &'a GridVector<f64>,
+}
+
 /// Storage of conjugate gradients for vectors of one shape.
 pub struct ConjugateGradients {
     residual: GridVector<f64>,
@@ -42,16 +54,17 @@ impl ConjugateGradients {
 
     /// Improves `x` until |b - A x| <= `tolerance` |b| or `max_iterations` are made. The preconditioner works in single
     /// precision, so it is not quite the same linear map each time: beta is the flexible one (Notay 2000).
+    ///
+    /// # Errors
+    /// `Cancelled`.
     pub fn solve(
         &mut self,
-        operator: &Operator<f64>,
-        preconditioner: &mut Multigrid,
-        null: &[GridVector<f64>],
-        right: &GridVector<f64>,
+        system: LinearSystem,
         x: &mut GridVector<f64>,
         (tolerance, max_iterations): (f64, usize),
         progress: &Progress,
     ) -> Result<Solved> {
+        let LinearSystem { operator, preconditioner, null, right } = system;
         let scale = right.dot(right).sqrt();
         if scale == 0.0 {
             x.clear();

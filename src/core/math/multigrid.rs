@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::cholesky::Cholesky;
 use super::null_space::NullSpace;
 use super::operator::{Operator, Parts, Weights};
+use super::real::Real;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
 
@@ -37,9 +38,13 @@ struct Level {
 
 struct Coarsest {
     layout: Layout,
-    factor: Cholesky,
     null: Vec<GridVector<f64>>,
-    right: GridVector<f64>,
+    /// One over the square root of the diagonal: a spline of which only a corner lies on the grid counts like any other.
+    scale: Vec<f64>,
+    /// Of the scaled matrix.
+    factor: Cholesky,
+    /// The null space of the scaled matrix, orthonormal.
+    scaled_null: Vec<Vec<f64>>,
     numbers: Vec<f64>,
 }
 
@@ -168,14 +173,13 @@ impl Level {
 
 impl Coarsest {
     fn new(layout: Layout, null: Vec<GridVector<f64>>) -> Self {
-        let components = null[0].components;
-        let size = components * layout.nodes[0] * layout.nodes[1];
-        let right = GridVector::zero(layout, components);
-        Self { layout, factor: Cholesky::new(0, Vec::new()), null, right, numbers: vec![0.0; size] }
+        let size = null[0].components * layout.nodes[0] * layout.nodes[1];
+        let (factor, zeros) = (Cholesky::new(0, Vec::new()), vec![0.0; size]);
+        Self { layout, null, scale: zeros.clone(), factor, scaled_null: Vec::new(), numbers: zeros }
     }
 
     fn set(&mut self, parts: &Parts, weights: Weights) {
-        let ([nx, ny], components, size) = (self.layout.nodes, self.right.components, self.numbers.len());
+        let ([nx, ny], components, size) = (self.layout.nodes, self.null[0].components, self.numbers.len());
         let mut operator = Operator::<f64>::zero(self.layout, components);
         operator.set(parts, weights);
         let mut matrix = vec![0.0; size * size];
@@ -191,39 +195,58 @@ impl Coarsest {
                 }
             }
         }
-        fill_null_space(&mut matrix, size, &self.null);
+        for (i, scale) in self.scale.iter_mut().enumerate() {
+            let diagonal = matrix[i * size + i];
+            *scale = if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 };
+        }
+        self.scaled_null = scaled(&self.null, &self.scale);
+        for (row, (i, scale)) in matrix.chunks_exact_mut(size).zip(self.scale.iter().enumerate()) {
+            for (k, value) in row.iter_mut().enumerate() {
+                // The null space gets eigenvalues of 1; nothing else changes.
+                let null: f64 = self.scaled_null.iter().map(|vector| vector[i] * vector[k]).sum();
+                *value = *value * scale * self.scale[k] + null;
+            }
+        }
         self.factor = Cholesky::new(size, matrix);
     }
 
     /// What rounding left of the null space in `right` is taken out: it would come back much larger.
     fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
-        self.right.convert(1.0, right);
-        self.right.remove(&self.null);
-        let [nx, ny] = self.layout.nodes;
         for (i, value) in self.numbers.iter_mut().enumerate() {
-            *value = number(&self.right, i);
+            *value = self.scale[i] * f64::from(number(right, i));
+        }
+        for vector in &self.scaled_null {
+            remove(&mut self.numbers, vector);
         }
         self.factor.solve(&mut self.numbers);
+        let [nx, ny] = self.layout.nodes;
         for (i, &value) in self.numbers.iter().enumerate() {
-            solution.set(i / (nx * ny), i % nx, i / nx % ny, value as f32);
+            solution.set(i / (nx * ny), i % nx, i / nx % ny, (self.scale[i] * value) as f32);
         }
     }
 }
 
-/// Makes a singular matrix definite without touching what it does outside of its null space.
-fn fill_null_space(matrix: &mut [f64], size: usize, null: &[GridVector<f64>]) {
-    let mean = (0..size).map(|i| matrix[i * size + i]).sum::<f64>() / size as f64;
-    for vector in null {
-        for i in 0..size {
-            for k in 0..size {
-                matrix[i * size + k] += mean * number(vector, i) * number(vector, k);
-            }
-        }
+/// The vectors over `scale`, orthonormal.
+fn scaled(vectors: &[GridVector<f64>], scale: &[f64]) -> Vec<Vec<f64>> {
+    let mut out: Vec<Vec<f64>> = Vec::new();
+    for vector in vectors {
+        let mut scaled: Vec<f64> = scale.iter().enumerate().map(|(i, s)| number(vector, i) / s).collect();
+        out.iter().for_each(|other| remove(&mut scaled, other));
+        let norm = scaled.iter().map(|a| a * a).sum::<f64>().sqrt();
+        scaled.iter_mut().for_each(|a| *a /= norm);
+        out.push(scaled);
     }
+    out
+}
+
+/// Takes the share in `unit`, of length 1, out of `vector`.
+fn remove(vector: &mut [f64], unit: &[f64]) {
+    let share: f64 = vector.iter().zip(unit).map(|(a, b)| a * b).sum();
+    vector.iter_mut().zip(unit).for_each(|(a, b)| *a -= share * b);
 }
 
 /// The `i`-th unknown: components one after the other, each row by row.
-fn number(vector: &GridVector<f64>, i: usize) -> f64 {
+fn number<T: Real>(vector: &GridVector<T>, i: usize) -> T {
     let [nx, ny] = vector.layout.nodes;
     vector.at(i / (nx * ny), i % nx, i / nx % ny)
 }

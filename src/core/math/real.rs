@@ -30,7 +30,7 @@ impl Real for f32 {
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {
-        self as f64
+        f64::from(self)
     }
     #[inline(always)]
     fn magnitude(self) -> Self {
