@@ -20,10 +20,6 @@ fn trace(scene: &Scene, count: usize) -> (Photons, TraceReport) {
     tracer.trace(0, count, &Progress::new()).unwrap()
 }
 
-fn random() -> Stream {
-    Stream::new(3, Purpose::Trace, 0, 0)
-}
-
 #[test]
 fn fresnel_agrees_with_published_values() {
     // Hecht, Optics, 4.6: glass of index 1.5 in air.
@@ -47,9 +43,9 @@ fn fresnel_is_the_same_from_both_sides() {
         let cos_i = (degrees as f32).to_radians().cos();
         let (there, cos_t) = fresnel(cos_i, 1.7);
         let (back, cos_back) = fresnel(cos_t, 1.0 / 1.7);
-        // Cosines near 0 come back with the rounding of 1 - cos^2.
-        assert!((there - back).abs() < 2e-5, "{degrees}: {there} {back}");
-        assert!((cos_back - cos_i).abs() < 2e-5);
+        // Cosines near 0 come back with the rounding of 1 - cos^2, 1e-7 / 0.017 at 89 degrees.
+        assert!((there - back).abs() < 1e-4, "{degrees}: {there} {back}");
+        assert!((cos_back - cos_i).abs() < 1e-4);
     }
 }
 
@@ -94,25 +90,23 @@ fn sphere_by_quadrature(radii: &[f64]) -> Vec<f64> {
         let direction = glam::dvec2(theta.sin(), -theta.cos());
         let along = (centre - light).dot(direction);
         let off = (centre - light).perp_dot(direction).abs();
-        let point = light + direction * (along - (radius * radius - off * off).max(0.0).sqrt());
-        // In the plane of the ray a sphere meets it always at the same two angles.
-        let incidence = (off / radius).min(1.0).asin();
-        let refracted = (incidence.sin() / index).asin();
-        let s = (incidence.cos() - index * refracted.cos()) / (incidence.cos() + index * refracted.cos());
-        let p = (index * incidence.cos() - refracted.cos()) / (index * incidence.cos() + refracted.cos());
+        let mut point = light + direction * (along - (radius * radius - off * off).max(0.0).sqrt());
+        // In a sphere a ray meets the wall always at the same two angles.
+        let outside = (1.0 - (off / radius).powi(2)).max(0.0).sqrt();
+        let inside = (1.0 - (off / radius / index).powi(2)).sqrt();
+        let s = (outside - index * inside) / (outside + index * inside);
+        let p = (index * outside - inside) / (index * outside + inside);
         let mirrored = 0.5 * (s * s + p * p);
         let normal = (point - centre) / radius;
-        land(point, direction - 2.0 * direction.dot(normal) * normal, weight * mirrored);
+        land(point, direction + 2.0 * outside * normal, weight * mirrored);
         weight *= 1.0 - mirrored;
-        let side = direction.perp_dot(normal).signum();
-        // Each chord advances the point by pi - 2 x refracted; the way out makes the angle of incidence with the normal.
-        let mut angle = normal.to_angle();
-        for _ in 0..40 {
-            angle += side * (PI - 2.0 * refracted);
-            let normal = glam::DVec2::from_angle(angle);
-            let out = glam::DVec2::from_angle(angle + side * incidence);
-            land(centre + normal * radius, out, weight * (1.0 - mirrored));
+        let mut way = (direction + outside * normal) / index - inside * normal;
+        for _ in 0..20 {
+            point -= way * (2.0 * way.dot(point - centre));
+            let normal = (point - centre) / radius;
+            land(point, (way - inside * normal) * index + outside * normal, weight * (1.0 - mirrored));
             weight *= mirrored;
+            way -= 2.0 * inside * normal;
         }
     }
     flux
@@ -153,8 +147,8 @@ fn lossless_glass_loses_nothing() {
     // f32 photons summed in f64.
     assert!((out / ledger.emitted - 1.0).abs().max_element() < 1e-6, "{ledger:?}");
     assert_eq!(ledger.absorbed, glam::DVec3::ZERO);
-    // In a sphere no ray is caught: every one that comes in can go out.
-    assert!(ledger.capped.x < 1e-5 * ledger.emitted.x);
+    // In a true sphere every ray that comes in goes out again; facets catch a few for longer than paths are followed.
+    assert!(ledger.capped.x < 1e-4 * ledger.emitted.x, "{ledger:?}");
 }
 
 /// A slab of 10 mm over the receiver in parallel light from above, 1 W/m^2, of which `count` photons land.
@@ -226,13 +220,14 @@ fn blue_bends_more_than_red() {
     let spread = flint.index(Some(486.13)) - flint.index(Some(656.27));
     assert!((spread - 0.62 / 36.0).abs() < 1e-5, "Abbe's definition: {spread}");
 
-    // A prism of 30 degrees on a beam from above throws a rainbow aside.
-    let outline = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5 * 30.0_f32.to_radians().tan()]];
-    let corner = |[x, y]: [f32; 2], z| Vec3::new(x - 0.25, y + 1.0, z);
+    // A small prism of 30 degrees, flat side down 1 m above the plane, throws a beam from above aside as a rainbow.
+    let width = 0.02_f32;
+    let outline = [[0.0, 0.0], [width, 0.0], [width, width * 30.0_f32.to_radians().tan()]];
+    let corner = |[x, y]: [f32; 2], z| Vec3::new(x - width / 2.0, y + 1.0, z);
     let vertices: Vec<_> = [0.2, -0.2].iter().flat_map(|z| outline.map(|p| corner(p, *z))).collect();
     let faces = [[0, 1, 2], [3, 5, 4], [0, 4, 1], [0, 3, 4], [1, 5, 2], [1, 4, 5], [2, 3, 0], [2, 5, 3]];
     let mut stage = Stage::new();
-    stage.mesh("prism", obj(&vertices, None, &faces), Some(Material::Glass(flint)));
+    stage.mesh("prism", obj(&vertices, None, &faces), Some(Material::Glass(flint.clone())));
     stage
         .desc
         .lights
@@ -240,16 +235,27 @@ fn blue_bends_more_than_red() {
     stage.desc.receiver.size = [4.0, 4.0];
     let (photons, _) = trace(&stage.load(), 100_000);
     let total = photons.total_flux();
-    let mean: Vec<f64> = (0..3)
-        .map(|c| {
-            let moments = photons.positions.iter().zip(&photons.flux);
-            moments.map(|(p, f)| f64::from(p.x * 4.0 - 2.0) * f64::from(f[c])).sum::<f64>() / total[c]
-        })
-        .collect();
-    // The beam turns by asin(n sin 30) - 30 degrees towards the thick side, +x; 1 m below that is its tangent.
-    assert!(mean[2] > mean[1] + 0.01 && mean[1] > mean[0] + 0.01, "{mean:?}");
-    let yellow = (1.62 * 0.5_f64).asin() - PI / 6.0;
-    assert!((mean[1] - yellow.tan()).abs() < 0.05, "{mean:?} {}", yellow.tan());
+    // In through the slope, out through the flat side, by Snell twice; then 1 m down.
+    let throw = |nm: f32| {
+        let n = f64::from(flint.index(Some(nm)));
+        (n * (PI / 6.0 - (0.5 / n).asin()).sin()).asin().tan()
+    };
+    let steps = 3000;
+    for channel in 0..3 {
+        let moments = photons.positions.iter().zip(&photons.flux).map(|(p, f)| (p.x * 4.0 - 2.0, f[channel]));
+        // The direct way only: reflections inside go elsewhere.
+        let direct = moments.filter(|(x, _)| (0.3..0.45).contains(x));
+        let (sum, weight) =
+            direct.fold((0.0, 0.0), |(s, w), (x, f)| (s + f64::from(x * f), w + f64::from(f)));
+        let exact = (0..steps)
+            .map(|k| VISIBLE_NM[0] + (VISIBLE_NM[1] - VISIBLE_NM[0]) * (k as f32 + 0.5) / steps as f32)
+            .map(|nm| f64::from(rgb_of_wavelength(nm)[channel]) * throw(nm))
+            .sum::<f64>()
+            / f64::from(steps);
+        // The beam is 0.02 wide and starts within 0.004 of the axis; bands lie 0.005 and 0.010 apart.
+        assert!((sum / weight - exact).abs() < 2e-3, "{channel}: {} against {exact}", sum / weight);
+    }
+    assert!(throw(450.0) > throw(550.0) + 5e-3 && throw(550.0) > throw(650.0) + 3e-3);
     // White: nothing of the sum is coloured; 1e-2 is three errors of 100 000 photons in three bands.
     assert!((total / total.x - 1.0).abs().max_element() < 2e-2, "{total}");
 }
@@ -268,7 +274,7 @@ fn the_rainbow_sums_to_white() {
 /// Follows the refracted way of a ray through a scene: the direction in each medium, until it leaves all meshes.
 fn refracted_way(scene: &Scene, mut ray: Ray) -> Vec<(Vec3, Media)> {
     let mut beam = Beam::new(Vec3::ONE, scene.media_at(ray.origin));
-    let mut rng = random();
+    let mut rng = Stream::new(3, Purpose::Trace, 0, 0);
     let mut way = vec![(ray.direction, beam.media)];
     while let Some(hit) = scene.intersect(&ray).filter(|hit| matches!(hit.surface, SurfaceId::Mesh(_))) {
         let mut next = beam.clone();

@@ -16,8 +16,11 @@ use crate::{Progress, Result};
 
 /// Rate of candidates in cells from which nothing was seen to land.
 const RARE: f64 = 1.0 / 16.0;
-/// Paths per cell of the quadtree while learning.
-const PROBES: u64 = 4;
+/// Paths per level of the quadtree while learning, shared among its open cells, but so many per cell.
+const LEVEL_PROBES: u64 = 16_384;
+const CELL_PROBES: std::ops::RangeInclusive<u64> = 4..=64;
+/// Where the first level saw nothing land, it looks again with this many times the paths.
+const SECOND_LOOK: u64 = 16;
 /// First level of the quadtree: 32 x 32 cells.
 const FIRST_LEVEL: u32 = 5;
 /// Meshes aimed at one by one; more of them are aimed at together.
@@ -103,7 +106,7 @@ impl Plan {
                 _ if domain.power() <= 0.0 => (),
                 Aim::Nowhere | Aim::Bounds => {
                     leaves.push(Leaf { domain: index, level: 0, at: [0, 0], active: true });
-                    probe(scene, domain, index, (FIRST_LEVEL, &all_cells(FIRST_LEVEL)), seed, ledger);
+                    probe(scene, domain, index, (FIRST_LEVEL, &all_cells(FIRST_LEVEL)), 1, seed, ledger);
                 }
                 Aim::Learned => {
                     let last_level = if domains.len() <= 4 {
@@ -206,7 +209,12 @@ fn learn(
     let mut open = all_cells(FIRST_LEVEL);
     for level in FIRST_LEVEL..=last_level {
         progress.check()?;
-        let landed = probe(scene, domain, index, (level, &open), seed, ledger);
+        let probes =
+            (LEVEL_PROBES / open.len().max(1) as u64).clamp(*CELL_PROBES.start(), *CELL_PROBES.end());
+        let mut landed = probe(scene, domain, index, (level, &open), probes, seed, ledger);
+        if level == FIRST_LEVEL && !landed.contains(&true) && ledger.met_specular() {
+            landed = probe(scene, domain, index, (level, &open), probes * SECOND_LOOK, seed, ledger);
+        }
         let side = 1_usize << level;
         let mut map = vec![false; side * side];
         for ([x, y], landed) in open.iter().zip(&landed) {
@@ -234,17 +242,19 @@ fn near_active(map: &[bool], side: usize, at: [u32; 2]) -> bool {
 }
 
 /// Sends a few paths from each cell: whether any lands.
+#[expect(clippy::too_many_arguments, reason = "two calls; a struct would only rename them")]
 fn probe(
     scene: &Scene,
     domain: &Domain,
     index: u32,
     (level, cells): (u32, &[[u32; 2]]),
+    probes: u64,
     seed: u64,
     ledger: &mut Ledger,
 ) -> Vec<bool> {
     let size = 0.5_f32.powi(level as i32);
     let results: Vec<(Vec<bool>, Ledger)> = cells
-        .par_chunks(256)
+        .par_chunks(128)
         .map(|chunk| {
             let mut ledger = Ledger::default();
             let landed = chunk.iter().map(|[x, y]| {
@@ -253,7 +263,7 @@ fn probe(
                     | (u64::from(*y) << 20)
                     | u64::from(*x);
                 let mut rng = Stream::new(seed, Purpose::Trace, LEARNING, cell);
-                (0..PROBES).fold(false, |landed, _| {
+                (0..probes).fold(false, |landed, _| {
                     let u = [(*x as f32 + rng.f32()) * size, (*y as f32 + rng.f32()) * size];
                     let start = domain.sample(scene, u, &mut rng);
                     landed

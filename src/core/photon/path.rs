@@ -10,6 +10,9 @@ use crate::scene::{Media, Ray, Scene, SurfaceId};
 
 /// Surfaces a path may meet. Light caught in a block of glass by total reflection never comes out; it ends here.
 const MAX_SURFACES: usize = 256;
+/// From then on surfaces act by their true normals. Smooth normals on coarse facets can catch light that came in, in a round
+/// of total reflections which a smooth body, by reversibility, does not have; true normals let it out.
+const SMOOTH_SURFACES: usize = 32;
 
 /// A caustic photon on the receiver.
 pub(super) struct Landing {
@@ -45,6 +48,11 @@ impl Ledger {
         [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
     }
 
+    /// Whether any light met something specular.
+    pub(super) fn met_specular(&self) -> bool {
+        (self.emitted - self.direct).max_element() > 1e-12 * self.emitted.max_element()
+    }
+
     /// Adds another one.
     pub(super) fn add(&mut self, mut other: Self) {
         for (column, more) in self.columns().into_iter().zip(other.columns()) {
@@ -71,12 +79,15 @@ pub(super) fn follow(
     let mut beam = Beam::new(flux, media);
     let mut last_specular = None;
     ledger.emitted += flux.as_dvec3();
-    for _ in 0..MAX_SURFACES {
-        let Some(hit) = scene.intersect(&ray) else {
+    for surface in 0..MAX_SURFACES {
+        let Some(mut hit) = scene.intersect(&ray) else {
             let end = if last_specular.is_some() { &mut ledger.escaped } else { &mut ledger.direct };
             *end += beam.weight.as_dvec3();
             return None;
         };
+        if surface >= SMOOTH_SURFACES {
+            hit.shading_normal = hit.geometric_normal;
+        }
         let arriving = beam.weight;
         beam.travel(scene.meshes(), hit.t);
         let next = match hit.surface {

@@ -1,13 +1,10 @@
 //! Rays against all triangles of the scene: an eight-wide compressed hierarchy (Ylitie et al. 2017, crate obvhs).
 
-use std::time::Duration;
-
 use glam::{Vec3, Vec3A};
-use obvhs::BvhBuildParams;
 use obvhs::cwbvh::CwBvh;
-use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray as BvhRay, RayHit};
 
+use super::hierarchy;
 use super::{Hit, Primitive, Ray, SurfaceId};
 
 /// One triangle with what a hit needs to know of it.
@@ -80,15 +77,7 @@ impl Accel {
         if triangles.is_empty() {
             return Self { bvh: None, shapes: Vec::new(), normals: Vec::new(), meshes: Vec::new() };
         }
-        let plain: Vec<_> = triangles
-            .iter()
-            .map(|t| obvhs::triangle::Triangle {
-                v0: t.corners[0].into(),
-                v1: t.corners[1].into(),
-                v2: t.corners[2].into(),
-            })
-            .collect();
-        let bvh = build_cwbvh_from_tris(&plain, BvhBuildParams::medium_build(), &mut Duration::default());
+        let bvh = hierarchy::build(triangles);
         let order = || bvh.primitive_indices.iter().map(|i| &triangles[*i as usize]);
         Self {
             shapes: order().map(|t| Shape::new(t.corners)).collect(),

@@ -12,6 +12,7 @@ pub mod receiver;
 
 mod accel;
 mod check;
+mod hierarchy;
 mod media;
 mod resolve;
 mod surface;

@@ -10,8 +10,8 @@ use crate::scene::accel::Triangle;
 
 /// Cosine of the angle between faces from which on an edge is sharp: 50 degrees.
 const CREASE: f32 = 0.642_787_6;
-/// A corner looks at each face around its vertex; where more than this meet, it takes the average of all instead, which
-/// keeps the work linear.
+/// A corner looks at each face around its vertex; where more than this meet, all share one average, which keeps the work
+/// linear.
 const MANY: usize = 64;
 
 /// Triangles with their normals, and how many of the file's normals were turned to the side of their face.
@@ -53,6 +53,8 @@ struct Averages<'a> {
     /// Corners (3 x face + corner) sorted by vertex; those of vertex v from `start[v]` to `start[v + 1]`.
     corners: Vec<u32>,
     start: Vec<u32>,
+    /// The average of all faces, at vertices where many meet; sorted by vertex.
+    shared: Vec<(u32, Vec3)>,
 }
 
 impl<'a> Averages<'a> {
@@ -69,26 +71,45 @@ impl<'a> Averages<'a> {
             sorted[next[v] as usize] = corner as u32;
             next[v] += 1;
         }
-        Self {
+        let mut averages = Self {
             faces,
             welded,
             flat: corners.par_iter().map(|c| cross(*c).normalize()).collect(),
             angles: corners.par_iter().map(angles).collect(),
             corners: sorted,
             start,
-        }
+            shared: Vec::new(),
+        };
+        averages.shared = (0..welded.len())
+            .filter(|v| averages.around(*v).len() > MANY)
+            .map(|v| (v as u32, averages.sum(averages.around(v), |_| true)))
+            .collect();
+        averages
+    }
+
+    /// The corners at a vertex.
+    fn around(&self, vertex: usize) -> &[u32] {
+        &self.corners[self.start[vertex] as usize..self.start[vertex + 1] as usize]
+    }
+
+    /// Sum of the normals of those faces that are wanted, by the angle of their corner.
+    fn sum(&self, corners: &[u32], wanted: impl Fn(Vec3) -> bool) -> Vec3 {
+        corners
+            .iter()
+            .map(|c| (self.flat[*c as usize / 3], self.angles[*c as usize / 3][*c as usize % 3]))
+            .filter(|(normal, _)| wanted(*normal))
+            .map(|(normal, angle)| normal * angle)
+            .sum()
     }
 
     fn at(&self, face: usize, corner: usize, flat: Vec3) -> Vec3 {
         let vertex = self.welded[self.faces[face].vertices[corner] as usize] as usize;
-        let around = &self.corners[self.start[vertex] as usize..self.start[vertex + 1] as usize];
-        let all = around.len() > MANY;
-        let sum: Vec3 = around
-            .iter()
-            .map(|c| (*c as usize / 3, *c as usize % 3))
-            .filter(|(other, _)| all || self.flat[*other].dot(flat) >= CREASE)
-            .map(|(other, corner)| self.flat[other] * self.angles[other][corner])
-            .sum();
+        let around = self.around(vertex);
+        let shared = self.shared.binary_search_by_key(&(vertex as u32), |(v, _)| *v);
+        let sum = match shared {
+            Ok(at) => self.shared[at].1,
+            Err(_) => self.sum(around, |normal| normal.dot(flat) >= CREASE),
+        };
         let normal = sum.normalize_or(flat);
         if normal.dot(flat) >= CREASE { normal } else { flat }
     }
