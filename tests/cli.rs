@@ -68,23 +68,42 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
     let out = folder.path().join("out");
     let printed = run(&["render", text(&project), "--out", text(&out), "--frames", "1-9x4"]);
     let expected = [
-        "contact_sheet.png", "frame.0001.exr", "frame.0001.png", "frame.0005.exr", "frame.0005.png",
-        "frame.0009.exr", "frame.0009.png", "summary.json",
+        "contact_sheet.png",
+        "frame.0001.exr",
+        "frame.0001.png",
+        "frame.0005.exr",
+        "frame.0005.png",
+        "frame.0009.exr",
+        "frame.0009.png",
+        "summary.json",
     ];
     assert_eq!(frames_of(&out), expected);
     assert!(printed.contains("Progress: ") && printed.contains("Saved: '"), "{printed}");
 
     let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
     for name in [
-        "endpoint_error", "transport_cost_ratio", "crossing_index", "fit_residual", "solver_residual",
-        "solver_iterations", "unknowns", "divergence_rms", "curl_rms", "flux_ratio", "peak_speed_ratio", "dispersion",
-        "stages", "left_out",
+        "endpoint_error",
+        "transport_cost_ratio",
+        "crossing_index",
+        "fit_residual",
+        "solver_residual",
+        "solver_iterations",
+        "unknowns",
+        "divergence_rms",
+        "curl_rms",
+        "flux_ratio",
+        "peak_speed_ratio",
+        "dispersion",
+        "stages",
+        "left_out",
     ] {
         assert!(!summary[name].is_null(), "no {name} in {summary}");
     }
     assert!(summary["endpoint_error"].as_f64().unwrap() < 1e-6);
     assert!((summary["flux_ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6);
-    assert!(summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0));
+    assert!(
+        summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0)
+    );
 }
 
 #[test]
@@ -97,7 +116,10 @@ fn the_same_seed_gives_the_same_bytes_for_any_threads_and_any_choice_of_frames()
     };
     let full = render("two", &["--threads", "2"]);
     assert!(full == render("one", &["--threads", "1"]), "threads change the bytes");
-    assert!(full == render("alone", &["--frames", "4"]), "a frame alone differs from the same frame of a run");
+    assert!(
+        full == render("alone", &["--frames", "4"]),
+        "a frame alone differs from the same frame of a run"
+    );
     assert!(full != render("seed", &["--seed", "2"]), "the seed changes nothing");
 }
 
@@ -142,9 +164,14 @@ fn exit_codes_tell_causes_apart() {
     let (folder, project) = letters();
     let out = folder.path().join("out");
     let render = |project: &Path, extra: &[&str]| {
-        [&["render", text(project), "--out", text(&out)], extra].concat().iter().map(|s| s.to_string()).collect::<Vec<_>>()
+        [&["render", text(project), "--out", text(&out)], extra]
+            .concat()
+            .iter()
+            .map(|s| s.to_string())
+            .collect::<Vec<_>>()
     };
-    let code = |code: i32, args: Vec<String>| fail(code, &args.iter().map(String::as_str).collect::<Vec<_>>());
+    let code =
+        |code: i32, args: Vec<String>| fail(code, &args.iter().map(String::as_str).collect::<Vec<_>>());
     code(2, vec!["render".into()]);
     assert!(code(2, render(&project, &["--frames", "9-1"])).contains("--frames"));
     assert!(code(2, render(&project, &["--size", "big"])).contains("--size"));
@@ -173,6 +200,17 @@ fn an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
 fn one_photon_runs() {
     let (folder, project) = letters();
     let out = folder.path().join("out");
-    run(&["render", text(&project), "--out", text(&out), "--photons", "1", "--frames", "5", "--format", "png"]);
+    run(&[
+        "render",
+        text(&project),
+        "--out",
+        text(&out),
+        "--photons",
+        "1",
+        "--frames",
+        "5",
+        "--format",
+        "png",
+    ]);
     assert!(out.join("frame.0005.png").exists());
 }

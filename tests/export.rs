@@ -210,7 +210,7 @@ fn a_failed_write_keeps_the_file_that_was_there() {
     let path = folder.path().join("a.txt");
     fs::write(&path, "before").unwrap();
     let full = || std::io::Error::other("disk full");
-    let error = lightloom_core::export::atomic::write(&path, |file| {
+    let error = lightloom_core::files::write_atomic(&path, |file| {
         std::io::Write::write_all(file, b"half")?;
         Err(full())
     });

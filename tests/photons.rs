@@ -176,7 +176,7 @@ fn emitted(light: &LightDesc, target: Option<Ball>, keep: impl Fn(&Ray) -> bool)
             emission.sample(u, &mut rng).is_some_and(|ray| keep(&ray))
         })
         .count();
-    f64::from(emission.flux.x) * kept as f64 / (n * n) as f64
+    f64::from(emission.flux.x) * kept as f64 / f64::from(n * n)
 }
 
 #[test]

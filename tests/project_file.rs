@@ -115,11 +115,18 @@ fn a_value_that_is_not_finite_is_never_written() {
 
 #[test]
 fn counts_that_are_negative_fractional_or_huge_are_refused_with_their_range() {
-    for (pointer, name) in [("/render/photons", "render.photons"), ("/render/passes", "render.passes"), ("/flow/steps", "flow.steps")] {
+    for (pointer, name) in [
+        ("/render/photons", "render.photons"),
+        ("/render/passes", "render.passes"),
+        ("/flow/steps", "flow.steps"),
+    ] {
         for value in [json!(-1), json!(1.5), json!(5e9), json!(5_000_000_000_u64), json!(0)] {
             let message = complaint(pointer, value.clone());
             assert!(message.contains(name), "{value}: {message}");
-            assert!(message.contains(" to ") || message.contains(" at least "), "no range for {value}: {message}");
+            assert!(
+                message.contains(" to ") || message.contains(" at least "),
+                "no range for {value}: {message}"
+            );
         }
     }
 }
@@ -200,8 +207,16 @@ fn asset_paths_stay_in_the_projects_folder() {
     let fence = AssetFolder::new(&folder.join("shot.json"), false).unwrap();
     assert!(fence.resolve("c.png", "keys[0]").is_ok());
     let long = "a/".repeat(2500);
-    let refused =
-        ["", "../../../etc/passwd", "../../outside.png", "/etc/passwd", "\\\\server\\c.png", "C:\\c.png", "c\0.png", &long];
+    let refused = [
+        "",
+        "../../../etc/passwd",
+        "../../outside.png",
+        "/etc/passwd",
+        "\\\\server\\c.png",
+        "C:\\c.png",
+        "c\0.png",
+        &long,
+    ];
     for path in refused {
         let message = fence.resolve(path, "keys[0].shows.image.file").unwrap_err().to_string();
         assert!(message.starts_with("keys[0].shows.image.file: "), "{path:?}: {message}");

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
 const ORDER: [&str; 14] = [
-    "error", "progress", "files", "math", "scene", "photon", "target", "matching", "flow", "render", "export",
-    "project", "pipeline", "lib",
+    "error", "progress", "files", "math", "scene", "photon", "target", "matching", "flow", "render",
+    "export", "project", "pipeline", "lib",
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.

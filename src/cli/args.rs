@@ -111,7 +111,8 @@ impl ProjectArgs {
         project.render.photons = self.photons.unwrap_or(project.render.photons);
         project.seed = self.seed.unwrap_or(project.seed);
         if !self.format.is_empty() {
-            project.output.formats = self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
+            project.output.formats =
+                self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
         }
         let quality = match self.quality {
             QualityName::Preview => Quality::Preview,
@@ -128,15 +129,18 @@ impl ProjectArgs {
         if !(1..=1024).contains(&threads) {
             return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
         }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|e| {
-            Error::value("--threads", format!("the system does not start them: {e}"))
-        })
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .map_err(|e| Error::value("--threads", format!("the system does not start them: {e}")))
     }
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32)> {
-    let numbers = text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
-    numbers.ok_or_else(|| Error::value("--size", format!("'{text}' is no picture size; write it like 1280x720")))
+    let numbers =
+        text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
+    numbers
+        .ok_or_else(|| Error::value("--size", format!("'{text}' is no picture size; write it like 1280x720")))
 }
 
 fn parse_format(name: &str) -> Result<FrameFormat> {

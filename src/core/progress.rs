@@ -97,7 +97,8 @@ impl Progress {
         };
         // The expectation carries until enough of the stage is done to judge by its own pace.
         let elapsed = road.stage.map_or(0.0, |(_, since)| since.elapsed().as_secs_f64());
-        let stage_left = if fraction > 0.05 { elapsed / fraction * (1.0 - fraction) } else { now * (1.0 - fraction) };
+        let stage_left =
+            if fraction > 0.05 { elapsed / fraction * (1.0 - fraction) } else { now * (1.0 - fraction) };
         Snapshot {
             stage: road.stage.map(|(name, _)| name),
             fraction,

@@ -34,6 +34,8 @@ pub struct FlowReport {
     pub mean_straight: f64,
     /// 99.9 % fastest photon over the mean straight speed.
     pub peak_speed_ratio: f64,
+    /// The same of straight lines at constant speed: no flow that arrives can have a lower one.
+    pub straight_peak_ratio: f64,
     /// Neighbour-velocity variance over the mean square velocity, averaged over the run.
     pub dispersion: f64,
     /// The same where it is largest.
@@ -64,6 +66,7 @@ impl FlowReport {
             curl_rms: a.curl_rms.max(b.curl_rms),
             mean_straight: a.mean_straight.max(b.mean_straight),
             peak_speed_ratio: a.peak_speed_ratio.max(b.peak_speed_ratio),
+            straight_peak_ratio: a.straight_peak_ratio.max(b.straight_peak_ratio),
             dispersion: a.dispersion.max(b.dispersion),
             dispersion_max: a.dispersion_max.max(b.dispersion_max),
             crossing_index: [0, 1, 2].map(|i| a.crossing_index[i].max(b.crossing_index[i])),
@@ -160,6 +163,8 @@ impl<'a> Observer<'a> {
         report.fit_residual /= fits;
         [report.divergence_rms, report.curl_rms] = self.squares.map(|sum| (sum / fits).sqrt());
         report.peak_speed_ratio = metric::peak_speed_ratio(&self.fastest, report.mean_straight as f32);
+        let ways: Vec<f32> = self.source.iter().zip(self.target).map(|(a, b)| a.distance(*b)).collect();
+        report.straight_peak_ratio = metric::peak_speed_ratio(&ways, report.mean_straight as f32);
         report.dispersion = self.dispersion_sum / self.dispersions.max(1) as f64;
         let motion = self.by_field + self.by_guidance;
         report.field_share = if motion > 0.0 { self.by_field / motion } else { 0.0 };

@@ -242,7 +242,6 @@ fn near_active(map: &[bool], side: usize, at: [u32; 2]) -> bool {
 }
 
 /// Sends a few paths from each cell: whether any lands.
-#[expect(clippy::too_many_arguments, reason = "two calls; a struct would only rename them")]
 fn probe(
     scene: &Scene,
     domain: &Domain,

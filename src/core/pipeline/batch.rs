@@ -44,10 +44,22 @@ impl<'a> Batch<'a> {
 
     /// Pairs the photons with the points of the next key: row k of the result is where photon k shall go.
     /// `map` is absent where rows are paired as given.
-    pub(super) fn pair(&self, next: KeyPhotons, map: Option<&TransportMap>, progress: &Progress) -> Result<KeyPhotons> {
+    pub(super) fn pair(
+        &self,
+        next: KeyPhotons,
+        map: Option<&TransportMap>,
+        progress: &Progress,
+    ) -> Result<KeyPhotons> {
         match (self.method, map) {
             (Method::Transport, Some(map)) => {
-                let matching = Matching::new(&self.at.positions, &next.positions, map, self.supplies.seed(), self.pass, progress)?;
+                let matching = Matching::new(
+                    &self.at.positions,
+                    &next.positions,
+                    map,
+                    self.supplies.seed(),
+                    self.pass,
+                    progress,
+                )?;
                 Ok(next.permuted(&matching.target_of))
             }
             _ => Ok(next),

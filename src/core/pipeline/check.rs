@@ -59,7 +59,11 @@ impl CheckReport {
         for (stage, seconds) in stages {
             let _ = writeln!(text, "  will {stage}: about {seconds:.1} seconds");
         }
-        let _ = writeln!(text, "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory", self.seconds);
+        let _ = writeln!(
+            text,
+            "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory",
+            self.seconds
+        );
         for LeftOut { what, why } in left_out {
             let _ = writeln!(text, "  left out: {what} ({why})");
         }

@@ -31,7 +31,9 @@ pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
-use crate::render::{Image, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for};
+use crate::render::{
+    Image, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
+};
 use crate::scene::{Scene, SceneDesc};
 use crate::{Error, Progress, Result};
 use batch::Batch;
@@ -114,7 +116,8 @@ impl Pipeline {
         let (passes, account) = meter.measure("render", || {
             render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress)
         })?;
-        let finisher = Finisher { project, render: &render, visible: &visible, background: &background, out, saved };
+        let finisher =
+            Finisher { project, render: &render, visible: &visible, background: &background, out, saved };
         let bad_values = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
         let done = Done { command: "render", passes, motion: &motion, account, bad_values };
         Ok(Summary::new(project, prepared, done, &meter))
@@ -135,14 +138,19 @@ impl Pipeline {
         let project = &tracks::with_guides_alone(project);
         let prepared = self.prepare(project, &mut meter)?;
         if project.keys.len() < 2 {
-            return Err(Error::value("keys", "there is one key frame, so there is no flow to fit; add another"));
+            return Err(Error::value(
+                "keys",
+                "there is one key frame, so there is no flow to fit; add another",
+            ));
         }
         progress.set_road(prepared.plan.stages.clone());
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
         let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
-        let account = meter.measure("write", || tracks::write(batch, &motion, project, out, progress, saved))?;
-        let done = Done { command: "fit", passes: 0, motion: &motion, account, bad_values: BadValues::default() };
+        let account =
+            meter.measure("write", || tracks::write(batch, &motion, project, out, progress, saved))?;
+        let done =
+            Done { command: "fit", passes: 0, motion: &motion, account, bad_values: BadValues::default() };
         Ok(Summary::new(project, prepared, done, &meter))
     }
 
@@ -271,9 +279,9 @@ fn render_passes(
     progress.begin("render", (plan.passes * prepared.slots.moments.len()) as u64);
     let mut exposer = Exposer::new(render);
     for pass in 0..plan.passes {
-        let done = prepared.start(project, tracer, pass as u64, progress).and_then(|batch| {
-            exposer.run(batch, &motion.segments, &prepared.slots, pass, progress)
-        });
+        let done = prepared
+            .start(project, tracer, pass as u64, progress)
+            .and_then(|batch| exposer.run(batch, &motion.segments, &prepared.slots, pass, progress));
         match done {
             Err(Error::Cancelled) if pass > 0 => return Ok((pass, exposer.account)),
             other => other?,

@@ -81,7 +81,12 @@ impl<'a> Exposer<'a> {
     }
 
     /// Carries the photons through the moments of one segment.
-    fn carry(&mut self, leg: &Leg, moments: impl Iterator<Item = (usize, f64)>, progress: &Progress) -> Result<()> {
+    fn carry(
+        &mut self,
+        leg: &Leg,
+        moments: impl Iterator<Item = (usize, f64)>,
+        progress: &Progress,
+    ) -> Result<()> {
         let mut carrier = Carrier::new(&leg.segment.fields, &leg.from.positions, &leg.to.positions);
         self.positions.resize(leg.from.positions.len(), Vec2::ZERO);
         self.flux.resize(leg.from.flux.len(), Vec3::ZERO);

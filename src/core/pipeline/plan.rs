@@ -61,8 +61,14 @@ pub(super) fn plan(project: &Project, extent: Vec2, frames: usize, given_rows: O
     let fixed = project.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
     let photons = given_rows.unwrap_or(project.render.photons as usize);
     let passes = if fixed { 1 } else { project.render.passes as usize };
-    let mut plan =
-        Plan { photons, passes, frames, left_out: left_out(project, fixed), stages: Vec::new(), memory_mib: 0.0 };
+    let mut plan = Plan {
+        photons,
+        passes,
+        frames,
+        left_out: left_out(project, fixed),
+        stages: Vec::new(),
+        memory_mib: 0.0,
+    };
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
     plan
@@ -78,7 +84,11 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     let physical = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
     let still = project.keys.len() < 2;
     let given = project.matching == Method::Given;
-    leave(project.scene.is_none(), "background and camera", "the project has no scene; the plane is seen straight on");
+    leave(
+        project.scene.is_none(),
+        "background and camera",
+        "the project has no scene; the plane is seen straight on",
+    );
     leave(project.scene.is_none(), "photon tracing", "the project has no scene");
     leave(project.scene.is_some() && !physical, "photon tracing", "no key shows the physical caustic");
     leave(still, "matching, fit and advection", "there is one key frame, so nothing moves");
@@ -132,7 +142,8 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let moving = project.keys.len() > 1;
     // Two keys' positions and flux, the pairing, the carrier's copy.
     let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
-    let fields = if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
+    let fields =
+        if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
     let textures = 4.0 * 16.0 * TEXELS;
     60.0 + (photons + fields + pixels * 200.0 + textures) / f64::from(1 << 20)

@@ -120,7 +120,8 @@ impl Summary {
     pub(super) fn new(project: &Project, prepared: Prepared, done: Done, meter: &Meter) -> Self {
         let account = done.account;
         let flow = done.motion.numbers.clone();
-        let flow = flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
+        let flow =
+            flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
         let stages = meter.costs().to_vec();
         Self {
             command: done.command,
@@ -164,8 +165,12 @@ impl Summary {
         if let Some(FlowNumbers { flow, .. }) = &self.flow {
             let _ = writeln!(
                 text,
-                "  endpoint error {:.1e}, peak speed {:.2}, dispersion {:.4}, {:.1} solver iterations",
-                flow.endpoint_error, flow.peak_speed_ratio, flow.dispersion, flow.solver_iterations_mean
+                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}, {:.1} solver iterations",
+                flow.endpoint_error,
+                flow.peak_speed_ratio,
+                flow.straight_peak_ratio,
+                flow.dispersion,
+                flow.solver_iterations_mean
             );
         }
         for left in &self.left_out {

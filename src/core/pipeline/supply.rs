@@ -82,7 +82,9 @@ impl Supplies {
             let count = points.positions.len();
             match rows {
                 Some(first) if first != count => {
-                    let what = format!("has {count} points but the first key has {first}; \"given\" pairs row with row");
+                    let what = format!(
+                        "has {count} points but the first key has {first}; \"given\" pairs row with row"
+                    );
                     return Err(Error::value(format!("keys[{i}].shows.points.file"), what));
                 }
                 _ => rows = Some(count),
@@ -92,13 +94,22 @@ impl Supplies {
     }
 
     /// Traces the physical caustic of `pass` where a key shows it.
-    pub(super) fn light(&self, tracer: Option<&Tracer>, pass: u64, count: usize, progress: &Progress) -> Result<PassLight> {
+    pub(super) fn light(
+        &self,
+        tracer: Option<&Tracer>,
+        pass: u64,
+        count: usize,
+        progress: &Progress,
+    ) -> Result<PassLight> {
         let Some(tracer) = tracer.filter(|_| self.shows_physical()) else {
             return Ok(PassLight { physical: None, total: DVec3::splat(f64::from(self.watts) / 3.0) });
         };
         let (photons, _) = tracer.trace(pass, count, progress)?;
         let total = photons.total_flux();
-        Ok(PassLight { physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux }), total })
+        Ok(PassLight {
+            physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux }),
+            total,
+        })
     }
 
     /// Whether a key shows the physical caustic.

@@ -52,11 +52,15 @@ impl AssetFolder {
             return Err(wrong("holds a NUL character"));
         }
         if written.contains('\\') {
-            return Err(wrong("holds a backslash; write it relative to the project file, with forward slashes"));
+            return Err(wrong(
+                "holds a backslash; write it relative to the project file, with forward slashes",
+            ));
         }
         let absolute = Path::new(written).is_absolute() || written.as_bytes().get(1) == Some(&b':');
         if absolute && self.root.is_some() {
-            return Err(wrong("is an absolute path; write it relative to the project file, or pass --allow-external"));
+            return Err(wrong(
+                "is an absolute path; write it relative to the project file, or pass --allow-external",
+            ));
         }
         let path = self.folder.join(written);
         if let Some(root) = &self.root

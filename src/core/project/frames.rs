@@ -37,7 +37,8 @@ fn range(part: &str, place: &str) -> Result<(i32, i32, i64)> {
     };
     let (span, step) = match part.split_once(['x', ':']) {
         Some((span, step)) => {
-            let step: i64 = step.trim().parse().map_err(|_| wrong("has a step that is not a whole number"))?;
+            let step: i64 =
+                step.trim().parse().map_err(|_| wrong("has a step that is not a whole number"))?;
             (span.trim(), step)
         }
         None => (part, 1),
@@ -54,9 +55,11 @@ fn range(part: &str, place: &str) -> Result<(i32, i32, i64)> {
         None => (span, span),
     };
     let number = |s: &str| {
-        s.trim().parse::<i32>().ok().filter(|n| n.abs() <= 1_000_000).ok_or_else(|| {
-            wrong("is not a frame number between -1000000 and 1000000")
-        })
+        s.trim()
+            .parse::<i32>()
+            .ok()
+            .filter(|n| n.abs() <= 1_000_000)
+            .ok_or_else(|| wrong("is not a frame number between -1000000 and 1000000"))
     };
     let (first, last) = (number(first)?, number(last)?);
     if last < first {
@@ -89,7 +92,21 @@ mod tests {
 
     #[test]
     fn bad_lists_are_refused_with_their_place() {
-        for bad in ["", ",", "9-1", "1-1000000000", "1-100001", "a", "1-5x0", "1-5x-1", "1-", "-", "é", "1.5", "99999999999"] {
+        for bad in [
+            "",
+            ",",
+            "9-1",
+            "1-1000000000",
+            "1-100001",
+            "a",
+            "1-5x0",
+            "1-5x-1",
+            "1-",
+            "-",
+            "é",
+            "1.5",
+            "99999999999",
+        ] {
             let error = parse(bad, "--frames").expect_err(bad).to_string();
             assert!(error.starts_with("--frames: "), "{bad}: {error}");
         }

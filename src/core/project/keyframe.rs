@@ -85,7 +85,10 @@ pub fn moment(keys: &[KeyFrame], frame: i32) -> Moment {
 /// At least one key, in rising order, none that needs a scene where there is none.
 pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
     if keys.is_empty() {
-        return Err(Error::value("keys", "there is no key frame; give at least one, such as {\"frame\": 1, \"shows\": …}"));
+        return Err(Error::value(
+            "keys",
+            "there is no key frame; give at least one, such as {\"frame\": 1, \"shows\": …}",
+        ));
     }
     for (i, key) in keys.iter().enumerate() {
         if key.frame.abs() > 1_000_000 {
@@ -97,7 +100,11 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
         if i > 0 && key.frame <= keys[i - 1].frame {
             return Err(Error::value(
                 format!("keys[{i}].frame"),
-                format!("frame {} does not come after the key before it (frame {}); give keys in rising order", key.frame, keys[i - 1].frame),
+                format!(
+                    "frame {} does not come after the key before it (frame {}); give keys in rising order",
+                    key.frame,
+                    keys[i - 1].frame
+                ),
             ));
         }
         if key.shows == Shows::PhysicalCaustic && !has_scene {
@@ -118,7 +125,10 @@ mod tests {
     use super::*;
 
     fn keys(frames: &[i32]) -> Vec<KeyFrame> {
-        frames.iter().map(|&frame| KeyFrame { frame, shows: Shows::PhysicalCaustic, ease: Ease::Linear }).collect()
+        frames
+            .iter()
+            .map(|&frame| KeyFrame { frame, shows: Shows::PhysicalCaustic, ease: Ease::Linear })
+            .collect()
     }
 
     #[test]

@@ -22,7 +22,9 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
         let place = place(&inner, &field);
         Error::format(path, place, what(&inner, &field))
     })?;
-    json.end().map_err(|e| Error::format(path, place(&e, "."), "more text stands after the project's closing brace"))?;
+    json.end().map_err(|e| {
+        Error::format(path, place(&e, "."), "more text stands after the project's closing brace")
+    })?;
     project.check().map_err(|error| in_file(error, path))?;
     Ok(project)
 }
@@ -37,7 +39,11 @@ fn text<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str> {
     })?;
     let text = text.trim_start_matches('\u{feff}');
     if text.trim().is_empty() {
-        return Err(Error::format(path, "", "is an empty project; `lightloom schema` shows what it may hold"));
+        return Err(Error::format(
+            path,
+            "",
+            "is an empty project; `lightloom schema` shows what it may hold",
+        ));
     }
     Ok(text)
 }

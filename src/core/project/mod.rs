@@ -131,7 +131,8 @@ impl Project {
     /// The first value that cannot be used, by its path in the project.
     pub fn check(&self) -> Result<()> {
         if self.lightloom != VERSION {
-            let what = format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
+            let what =
+                format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
             return Err(Error::value("lightloom", what));
         }
         if self.seed > 9_007_199_254_740_991 {
@@ -152,7 +153,8 @@ impl Project {
     fn check_given(&self) -> Result<()> {
         let all_points = self.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
         if self.matching == Method::Given && !all_points {
-            let what = "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
+            let what =
+                "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
             return Err(Error::value("matching", what));
         }
         Ok(())

@@ -50,7 +50,12 @@ impl OutputSettings {
         }
         if self.fps.iter().any(|n| !(1..=1_000_000).contains(n)) {
             let [n, d] = self.fps;
-            return wrong("fps", format!("{n}/{d} is no frame rate; give two whole numbers from 1 to 1000000, such as [24, 1]"));
+            return wrong(
+                "fps",
+                format!(
+                    "{n}/{d} is no frame rate; give two whole numbers from 1 to 1000000, such as [24, 1]"
+                ),
+            );
         }
         if self.formats.is_empty() {
             return wrong("formats", "the list is empty; name at least one of \"exr\", \"png\"".into());
