@@ -72,7 +72,6 @@ impl ProgressiveRender {
         flux: &[Vec3],
         work: &mut Workspace,
     ) -> Result<Outside> {
-        work.texture.clear();
         let outside = work.splatter.splat(positions, flux, &mut work.texture);
         work.smoother.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
         self.store.add(frame, &work.texture)?;

@@ -104,11 +104,6 @@ impl ReceiverTexture {
         self.texels.iter().map(|t| t.xyz().as_dvec3()).sum()
     }
 
-    /// Takes all light out.
-    pub fn clear(&mut self) {
-        self.texels.fill(Vec4::ZERO);
-    }
-
     /// Multiplies every texel.
     pub fn scale(&mut self, factor: f32) {
         self.texels.par_iter_mut().for_each(|t| *t *= factor);
