@@ -85,8 +85,8 @@ fn sphere_by_quadrature(radii: &[f64]) -> Vec<f64> {
         }
     };
     for step in 0..steps {
-        let theta = widest * (step as f64 + 0.5) / steps as f64;
-        let mut weight = 0.5 * theta.sin() * widest / steps as f64;
+        let theta = widest * (f64::from(step) + 0.5) / f64::from(steps);
+        let mut weight = 0.5 * theta.sin() * widest / f64::from(steps);
         let direction = glam::dvec2(theta.sin(), -theta.cos());
         let along = (centre - light).dot(direction);
         let off = (centre - light).perp_dot(direction).abs();

@@ -13,6 +13,18 @@ pub fn blend(source: &[Vec3], target: &[Vec3], t: f32, out: &mut [Vec3]) {
     out.par_iter_mut().zip(ends).for_each(|(out, (&a, &b))| *out = a * (1.0 - t) + b * t);
 }
 
+/// `total` watts over `count` photons: evenly (phi_b of Sec. 3), or by relative colours that keep the sum over all
+/// photons and channels. Colours that let none of the light through leave it as it is.
+pub fn share_out(total: DVec3, colours: &[Vec3], count: usize) -> Vec<Vec3> {
+    let mean = total / count.max(1) as f64;
+    let unscaled: f64 = colours.iter().map(|colour| (colour.as_dvec3() * mean).element_sum()).sum();
+    let scale = total.element_sum() / unscaled;
+    if colours.is_empty() || !scale.is_finite() || scale <= 0.0 {
+        return vec![mean.as_vec3(); count];
+    }
+    colours.iter().map(|colour| (colour.as_dvec3() * mean * scale).as_vec3()).collect()
+}
+
 /// Sum in f64, in the order of the rows.
 pub fn total(flux: &[Vec3]) -> DVec3 {
     flux.iter().map(|f| f.as_dvec3()).sum()

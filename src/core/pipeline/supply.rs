@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::flow::flux;
 use crate::matching::Method;
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project, Shows};
@@ -130,19 +131,7 @@ impl Supplies {
             Supply::Points(points) => points.resampled(count, self.seed, stream),
         };
         let rho = if key == 0 { 1.0 } else { self.rho };
-        let flux = share_out(light.total * f64::from(rho), &points.colours, count);
+        let flux = flux::share_out(light.total * f64::from(rho), &points.colours, count);
         KeyPhotons { positions: points.positions, flux }
     }
-}
-
-/// `total` watts over `count` photons: evenly (phi_b of Sec. 3), or by relative colours that keep the sum over all
-/// photons and channels. Colours that let none of the light through leave it as it is.
-fn share_out(total: DVec3, colours: &[Vec3], count: usize) -> Vec<Vec3> {
-    let mean = total / count.max(1) as f64;
-    let unscaled: f64 = colours.iter().map(|colour| (colour.as_dvec3() * mean).element_sum()).sum();
-    let scale = total.element_sum() / unscaled;
-    if colours.is_empty() || !scale.is_finite() || scale <= 0.0 {
-        return vec![mean.as_vec3(); count];
-    }
-    colours.iter().map(|colour| (colour.as_dvec3() * mean * scale).as_vec3()).collect()
 }
