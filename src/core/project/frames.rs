@@ -50,10 +50,8 @@ fn range(part: &str, place: &str) -> Result<(i32, i32, i64)> {
         return Err(wrong("has a step below 1"));
     }
     // A minus sign at the front belongs to the first number.
-    let (first, last) = match span[1..].find('-') {
-        Some(at) => (&span[..=at], &span[at + 2..]),
-        None => (span, span),
-    };
+    let dash = span.char_indices().skip(1).find(|(_, c)| *c == '-');
+    let (first, last) = dash.map_or((span, span), |(at, _)| (&span[..at], &span[at + 1..]));
     let number = |s: &str| {
         s.trim()
             .parse::<i32>()
