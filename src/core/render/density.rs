@@ -9,6 +9,8 @@
 //! extended box filtering*: a whole box plus a fraction of one texel on either side, with exactly the variance asked
 //! for. Running sums make the cost independent of the radius.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::texture::ReceiverTexture;
@@ -70,9 +72,9 @@ impl Smoother {
         let strips = &self.strips;
         let rows = texture.texels_mut().par_chunks_exact_mut(columns).enumerate();
         rows.for_each_init(Line::<LANES>::default, |line, (y, row)| {
-            let groups = strips.iter().flat_map(|strip| strip.cells[y].as_chunks::<LANES>().0);
+            let groups = strips.iter().flat_map(|strip| strip.cells()[y].as_chunks::<LANES>().0);
             line.filter(groups.copied().take(columns), &kernel);
-            row.copy_from_slice(bytemuck::cast_slice(&line.cells));
+            row.copy_from_slice(bytemuck::cast_slice(line.cells()));
         });
     }
 }
@@ -120,31 +122,45 @@ impl Box1 {
     }
 }
 
-/// A line of cells, and a buffer from which the next box reads.
+/// A line of cells with room for its reflection on either side, and a second one: boxes go from one to the other.
 #[derive(Debug, Default)]
 struct Line<const W: usize> {
-    cells: Vec<[f32; W]>,
-    from: Vec<[f32; W]>,
+    padded: Vec<[f32; W]>,
+    other: Vec<[f32; W]>,
+    inside: Range<usize>,
 }
 
 impl<const W: usize> Line<W> {
+    fn cells(&self) -> &[[f32; W]] {
+        &self.padded[self.inside.clone()]
+    }
+
     /// Takes a line and applies all boxes to it.
     fn filter(&mut self, line: impl Iterator<Item = [f32; W]>, kernel: &Box1) {
-        self.cells.clear();
-        self.cells.extend(line);
-        let count = self.cells.len();
         let reach = kernel.half + 1;
-        // Reflected with the edge cell repeated, as often as the kernel is longer than the line.
+        self.padded.clear();
+        self.padded.resize(reach, [0.0; W]);
+        self.padded.extend(line);
+        self.inside = reach..self.padded.len();
+        self.padded.resize(self.inside.end + reach, [0.0; W]);
+        self.other.resize(self.padded.len(), [0.0; W]);
+        for _ in 0..BOXES {
+            self.reflect(reach);
+            kernel.apply(&self.padded, &mut self.other[self.inside.clone()]);
+            std::mem::swap(&mut self.padded, &mut self.other);
+        }
+    }
+
+    /// Fills the room on either side; as often to and fro as it is longer than the line.
+    fn reflect(&mut self, reach: usize) {
+        let count = self.inside.len();
         let mirror = |i: isize| {
             let i = i.rem_euclid(2 * count as isize) as usize;
-            if i < count { i } else { 2 * count - 1 - i }
+            reach + if i < count { i } else { 2 * count - 1 - i }
         };
-        for _ in 0..BOXES {
-            self.from.clear();
-            self.from.extend((0..reach).map(|i| self.cells[mirror(i as isize - reach as isize)]));
-            self.from.extend_from_slice(&self.cells);
-            self.from.extend((0..reach).map(|i| self.cells[mirror((count + i) as isize)]));
-            kernel.apply(&self.from, &mut self.cells);
+        for i in 0..reach {
+            self.padded[i] = self.padded[mirror(i as isize - reach as isize)];
+            self.padded[reach + count + i] = self.padded[mirror((count + i) as isize)];
         }
     }
 }
