@@ -9,6 +9,9 @@
 //! extended box filtering*: a whole box plus a fraction of one texel on either side, with exactly the variance asked
 //! for. Running sums make the cost independent of the radius.
 
+use std::ops::Range;
+
+use glam::Vec4;
 use rayon::prelude::*;
 
 use super::texture::ReceiverTexture;
@@ -19,8 +22,12 @@ const ALPHA: f64 = 2.0 / 3.0;
 const BOXES: usize = 3;
 /// Numbers per texel.
 const LANES: usize = 4;
-/// Columns filtered together: two cache lines.
+/// Columns, or rows, filtered side by side: two cache lines, and enough vector registers' worth of running sums.
 const STRIP: usize = 8;
+
+/// The texels of one row of a strip of columns, or of one column of a block of rows.
+type Cell = [f32; LANES * STRIP];
+const EMPTY: Cell = [0.0; LANES * STRIP];
 
 /// The kernel radius of pass `pass` (from 0), from that of the first, both in plane units:
 /// r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1), i = 1, 2, ...
@@ -42,7 +49,7 @@ pub fn default_radius(photons: usize, area: f32) -> f32 {
 /// The filter with its buffers, kept from call to call.
 #[derive(Debug, Default)]
 pub struct Smoother {
-    strips: Vec<Line<{ LANES * STRIP }>>,
+    strips: Vec<Line>,
 }
 
 impl Smoother {
@@ -61,20 +68,35 @@ impl Smoother {
             let first = strip * STRIP;
             let width = STRIP.min(columns - first);
             let rows = texels.chunks_exact(LANES * columns).map(|row| {
-                let mut group = [0.0; LANES * STRIP];
-                group[..LANES * width].copy_from_slice(&row[LANES * first..LANES * (first + width)]);
-                group
+                let mut cell = EMPTY;
+                cell[..LANES * width].copy_from_slice(&row[LANES * first..LANES * (first + width)]);
+                cell
             });
             line.filter(rows, &kernel);
         });
         let strips = &self.strips;
-        let rows = texture.texels_mut().par_chunks_exact_mut(columns).enumerate();
-        rows.for_each_init(Line::<LANES>::default, |line, (y, row)| {
-            let groups = strips.iter().flat_map(|strip| strip.cells[y].as_chunks::<LANES>().0);
-            line.filter(groups.copied().take(columns), &kernel);
-            row.copy_from_slice(bytemuck::cast_slice(&line.cells));
+        let blocks = texture.texels_mut().par_chunks_mut(STRIP * columns).enumerate();
+        blocks.for_each_init(Line::default, |line, (block, texels)| {
+            let rows = texels.len() / columns;
+            line.filter((0..columns).map(|x| across(strips, x, block * STRIP, rows)), &kernel);
+            for (x, cell) in line.cells().iter().enumerate() {
+                for (y, texel) in cell.as_chunks::<LANES>().0.iter().enumerate().take(rows) {
+                    texels[y * columns + x] = Vec4::from_array(*texel);
+                }
+            }
         });
     }
+}
+
+/// The texels of column `x` in `rows` rows from `first` on.
+fn across(strips: &[Line], x: usize, first: usize, rows: usize) -> Cell {
+    let strip = &strips[x / STRIP].cells()[first..first + rows];
+    let lane = x % STRIP * LANES;
+    let mut cell = EMPTY;
+    for (to, from) in cell.chunks_exact_mut(LANES).zip(strip) {
+        to.copy_from_slice(&from[lane..lane + LANES]);
+    }
+    cell
 }
 
 /// A box of 2 `half` + 1 cells and `edge` of a cell more on either side.
@@ -99,19 +121,19 @@ impl Box1 {
     }
 
     /// One box over `from`, which reaches `half` + 1 cells further on either side than `to`.
-    fn apply<const W: usize>(&self, from: &[[f32; W]], to: &mut [[f32; W]]) {
+    fn apply(&self, from: &[Cell], to: &mut [Cell]) {
         let length = 2 * self.half + 1;
         let norm = 1.0 / (length as f64 + 2.0 * self.edge);
         let edge = self.edge * norm;
         // In f64: a running sum in f32 would leave a residue of bright texels behind.
-        let mut sum = [0.0_f64; W];
+        let mut sum = [0.0_f64; LANES * STRIP];
         for cell in &from[1..length] {
-            (0..W).for_each(|lane| sum[lane] += f64::from(cell[lane]));
+            (0..LANES * STRIP).for_each(|lane| sum[lane] += f64::from(cell[lane]));
         }
         let entering = from[length..].iter().zip(&from[length + 1..]);
         let leaving = from.iter().zip(&from[1..]);
         for ((out, (last, after)), (before, first)) in to.iter_mut().zip(entering).zip(leaving) {
-            for lane in 0..W {
+            for lane in 0..LANES * STRIP {
                 sum[lane] += f64::from(last[lane]);
                 out[lane] = (sum[lane] * norm + f64::from(before[lane] + after[lane]) * edge) as f32;
                 sum[lane] -= f64::from(first[lane]);
@@ -120,31 +142,45 @@ impl Box1 {
     }
 }
 
-/// A line of cells, and a buffer from which the next box reads.
+/// A line of cells with room for its reflection on either side, and a second one: boxes go from one to the other.
 #[derive(Debug, Default)]
-struct Line<const W: usize> {
-    cells: Vec<[f32; W]>,
-    from: Vec<[f32; W]>,
+struct Line {
+    padded: Vec<Cell>,
+    other: Vec<Cell>,
+    inside: Range<usize>,
 }
 
-impl<const W: usize> Line<W> {
+impl Line {
+    fn cells(&self) -> &[Cell] {
+        &self.padded[self.inside.clone()]
+    }
+
     /// Takes a line and applies all boxes to it.
-    fn filter(&mut self, line: impl Iterator<Item = [f32; W]>, kernel: &Box1) {
-        self.cells.clear();
-        self.cells.extend(line);
-        let count = self.cells.len();
+    fn filter(&mut self, line: impl Iterator<Item = Cell>, kernel: &Box1) {
         let reach = kernel.half + 1;
-        // Reflected with the edge cell repeated, as often as the kernel is longer than the line.
+        self.padded.clear();
+        self.padded.resize(reach, EMPTY);
+        self.padded.extend(line);
+        self.inside = reach..self.padded.len();
+        self.padded.resize(self.inside.end + reach, EMPTY);
+        self.other.resize(self.padded.len(), EMPTY);
+        for _ in 0..BOXES {
+            self.reflect(reach);
+            kernel.apply(&self.padded, &mut self.other[self.inside.clone()]);
+            std::mem::swap(&mut self.padded, &mut self.other);
+        }
+    }
+
+    /// Fills the room on either side; as often to and fro as it is longer than the line.
+    fn reflect(&mut self, reach: usize) {
+        let count = self.inside.len();
         let mirror = |i: isize| {
             let i = i.rem_euclid(2 * count as isize) as usize;
-            if i < count { i } else { 2 * count - 1 - i }
+            reach + if i < count { i } else { 2 * count - 1 - i }
         };
-        for _ in 0..BOXES {
-            self.from.clear();
-            self.from.extend((0..reach).map(|i| self.cells[mirror(i as isize - reach as isize)]));
-            self.from.extend_from_slice(&self.cells);
-            self.from.extend((0..reach).map(|i| self.cells[mirror((count + i) as isize)]));
-            kernel.apply(&self.from, &mut self.cells);
+        for i in 0..reach {
+            self.padded[i] = self.padded[mirror(i as isize - reach as isize)];
+            self.padded[reach + count + i] = self.padded[mirror((count + i) as isize)];
         }
     }
 }

@@ -4,7 +4,7 @@
 //! flows a little over the edge still lights what lies inside. A photon beyond the margin is counted, never moved
 //! onto the border.
 
-use glam::{DVec3, Vec2, Vec3, Vec4, Vec4Swizzles};
+use glam::{DVec3, Vec2, Vec4, Vec4Swizzles};
 use rayon::prelude::*;
 
 /// Where the texels lie on the plane; row 0 is at the bottom (smallest plane y).
@@ -107,11 +107,5 @@ impl ReceiverTexture {
     /// Multiplies every texel.
     pub fn scale(&mut self, factor: f32) {
         self.texels.par_iter_mut().for_each(|t| *t *= factor);
-    }
-
-    /// The value at a point of the plane, bilinear between texel centres; zero outside the texture.
-    pub fn sample(&self, point: Vec2) -> Vec3 {
-        let taps = self.layout.bilinear(point);
-        taps.map_or(Vec3::ZERO, |taps| taps.iter().map(|&(i, w)| self.texels[i].xyz() * w).sum())
     }
 }
