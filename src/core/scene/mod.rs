@@ -12,7 +12,6 @@ pub mod receiver;
 
 mod accel;
 mod check;
-mod hierarchy;
 mod media;
 mod resolve;
 mod surface;

@@ -1,0 +1,195 @@
+//! Rays against all triangles of the scene: a hierarchy of boxes, eight to a node, and leaves of eight triangles (Wald,
+//! Benthin, Boulos 2008), tested eight at once.
+
+mod build;
+mod wide;
+
+use arrayvec::ArrayVec;
+use glam::Vec3;
+use wide::{Boxes, Nearest, Triangles, WideRay};
+
+use super::{Hit, Primitive, Ray, SurfaceId};
+
+/// One triangle with what a hit needs to know of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    pub corners: [Vec3; 3],
+    /// Unit normals at the corners, on the side of the true normal.
+    pub normals: [Vec3; 3],
+    pub mesh: u16,
+}
+
+/// The hierarchy, and the triangles in the order of its leaves.
+pub(super) struct Accel {
+    /// The root first; empty without triangles.
+    nodes: Vec<Node>,
+    leaves: Vec<Triangles>,
+    triangles: Vec<Triangle>,
+}
+
+/// Eight boxes and what stands in them.
+struct Node {
+    boxes: Boxes,
+    children: [Child; 8],
+}
+
+/// A node, or a leaf with the highest bit set.
+#[derive(Clone, Copy)]
+struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    /// Its box is never met.
+    const EMPTY: Self = Self(u32::MAX);
+
+    fn node(index: u32) -> Self {
+        Self(index)
+    }
+
+    fn leaf(index: u32) -> Self {
+        Self(index | Self::LEAF)
+    }
+
+    fn as_node(self) -> Option<usize> {
+        (self.0 & Self::LEAF == 0).then_some(self.0 as usize)
+    }
+
+    fn as_leaf(self) -> usize {
+        (self.0 & !Self::LEAF) as usize
+    }
+
+    /// Moves it by the nodes and leaves that now stand before its own.
+    fn shift(&mut self, nodes: u32, leaves: u32) {
+        if self.0 != Self::EMPTY.0 {
+            self.0 += if self.as_node().is_some() { nodes } else { leaves };
+        }
+    }
+}
+
+/// What is still to be searched: each level leaves seven children behind at most.
+type Stack = ArrayVec<(f32, Child), { 7 * build::MAX_DEPTH + 8 }>;
+
+impl Accel {
+    /// Builds the hierarchy. Degenerate triangles must be gone.
+    pub(super) fn new(triangles: &[Triangle]) -> Self {
+        if triangles.is_empty() {
+            return Self { nodes: Vec::new(), leaves: Vec::new(), triangles: Vec::new() };
+        }
+        let (nodes, leaves, order) = build::build(triangles);
+        Self { nodes, leaves, triangles: order.iter().map(|i| triangles[*i as usize]).collect() }
+    }
+
+    /// The nearest triangle before `limit`, other than the one the ray leaves.
+    pub(super) fn intersect(&self, ray: &Ray, limit: f32) -> Option<Hit> {
+        let mut nearest = None;
+        self.search(ray, limit, |wide, leaf, limit| {
+            if let Some(found) = leaf.nearest(wide, *limit, ray.from.0) {
+                *limit = found.t;
+                nearest = Some(found);
+            }
+            true
+        });
+        nearest.map(|found| self.hit(&found))
+    }
+
+    fn hit(&self, Nearest { t, index, weights: [u, v] }: &Nearest) -> Hit {
+        let Triangle { corners: [a, b, c], normals: [n0, n1, n2], mesh } = self.triangles[*index as usize];
+        let (edge1, edge2) = (b - a, c - a);
+        let geometric = edge1.cross(edge2).normalize();
+        let shading = n0 * (1.0 - u - v) + n1 * *u + n2 * *v;
+        Hit {
+            t: *t,
+            point: a + edge1 * *u + edge2 * *v,
+            geometric_normal: geometric,
+            shading_normal: shading.try_normalize().unwrap_or(geometric),
+            surface: SurfaceId::Mesh(mesh),
+            primitive: Primitive(*index),
+        }
+    }
+
+    /// Whether any triangle, other than the one the ray leaves, lies before `distance`.
+    pub(super) fn occluded(&self, ray: &Ray, distance: f32) -> bool {
+        let mut occluded = false;
+        self.search(ray, distance, |wide, leaf, limit| {
+            occluded = leaf.intersect(wide, *limit, ray.from.0).0 != 0;
+            !occluded
+        });
+        occluded
+    }
+
+    /// Every triangle that the ray crosses: its mesh, and whether the ray leaves the solid there.
+    pub(super) fn each_crossing(&self, ray: &Ray, mut crossed: impl FnMut(u16, bool)) {
+        self.search(ray, f32::INFINITY, |wide, leaf, limit| {
+            let (mask, ..) = leaf.intersect(wide, *limit, ray.from.0);
+            for lane in (0..8).filter(|lane| mask >> lane & 1 != 0) {
+                let Triangle { corners: [a, b, c], mesh, .. } = self.triangles[(leaf.first + lane) as usize];
+                crossed(mesh, (b - a).cross(c - a).dot(ray.direction) > 0.0);
+            }
+            true
+        });
+    }
+
+    /// Visits the leaves that the ray meets before a limit, near ones first. A visit may lower the limit, and ends the
+    /// search by returning false.
+    #[inline(always)]
+    fn search(
+        &self,
+        ray: &Ray,
+        mut limit: f32,
+        mut visit: impl FnMut(&WideRay, &Triangles, &mut f32) -> bool,
+    ) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let wide = WideRay::new(ray);
+        let mut stack = Stack::new();
+        let mut current = Child::node(0);
+        loop {
+            if let Some(node) = current.as_node() {
+                if let Some(nearest) = self.nodes[node].enter(&wide, limit, &mut stack) {
+                    current = nearest;
+                    continue;
+                }
+            } else if !visit(&wide, &self.leaves[current.as_leaf()], &mut limit) {
+                return;
+            }
+            current = loop {
+                match stack.pop() {
+                    Some((t, child)) if t <= limit => break child,
+                    Some(_) => (),
+                    None => return,
+                }
+            };
+        }
+    }
+}
+
+impl Node {
+    /// The nearest child that the ray meets; the others go onto the stack, the next nearest on top.
+    #[inline(always)]
+    fn enter(&self, ray: &WideRay, limit: f32, stack: &mut Stack) -> Option<Child> {
+        let (mut mask, enter) = self.boxes.intersect(ray, limit);
+        if mask == 0 {
+            return None;
+        }
+        let first = mask.trailing_zeros() as usize;
+        mask &= mask - 1;
+        if mask == 0 {
+            return Some(self.children[first]);
+        }
+        let enter = enter.to_array();
+        let bottom = stack.len();
+        stack.push((enter[first], self.children[first]));
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let mut at = stack.len();
+            stack.push((enter[lane], self.children[lane]));
+            while at > bottom && stack[at - 1].0 < enter[lane] {
+                stack.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+        stack.pop().map(|(_, child)| child)
+    }
+}

@@ -1,0 +1,145 @@
+//! Eight boxes or eight triangles against one ray at once.
+
+use glam::Vec3;
+use wide::f32x8;
+
+use crate::scene::Ray;
+
+/// A ray as the search wants it.
+pub(super) struct WideRay {
+    origin: [f32x8; 3],
+    direction: [f32x8; 3],
+    inverse: [f32x8; 3],
+    /// Which axes the ray runs down.
+    negative: [bool; 3],
+}
+
+impl WideRay {
+    pub(super) fn new(ray: &Ray) -> Self {
+        // Along an axis the inverse is huge but finite: 0 times it is 0, not NaN.
+        let inverse = |d: f32| if d.abs() < 1e-18 { 1e18_f32.copysign(d) } else { 1.0 / d };
+        let direction = ray.direction.to_array();
+        Self {
+            origin: ray.origin.to_array().map(f32x8::splat),
+            direction: direction.map(f32x8::splat),
+            inverse: direction.map(|d| f32x8::splat(inverse(d))),
+            negative: direction.map(f32::is_sign_negative),
+        }
+    }
+}
+
+/// Eight boxes; an empty one is inside out and is never met.
+#[derive(Clone)]
+pub(super) struct Boxes {
+    /// Lower and upper sides by axis.
+    sides: [[f32x8; 3]; 2],
+}
+
+impl Boxes {
+    pub(super) fn new(boxes: [(Vec3, Vec3); 8]) -> Self {
+        let column = |pick: fn(&(Vec3, Vec3)) -> Vec3, axis: usize| {
+            f32x8::from(boxes.each_ref().map(|b| pick(b)[axis]))
+        };
+        Self { sides: [[0, 1, 2].map(|a| column(|b| b.0, a)), [0, 1, 2].map(|a| column(|b| b.1, a))] }
+    }
+
+    /// Bit mask of the boxes that the ray meets before `limit`, and where it enters each.
+    #[inline(always)]
+    pub(super) fn intersect(&self, ray: &WideRay, limit: f32) -> (u32, f32x8) {
+        let mut enter = f32x8::splat(0.0);
+        let mut leave = f32x8::splat(limit);
+        for axis in 0..3 {
+            let down = usize::from(ray.negative[axis]);
+            let at = |side: usize| (self.sides[side][axis] - ray.origin[axis]) * ray.inverse[axis];
+            enter = enter.fast_max(at(down));
+            leave = leave.fast_min(at(1 - down));
+        }
+        // Two roundings in each bound may swap a flat box's sides: three units in the last place make up for them
+        // (Ize 2013).
+        let leave = leave * f32x8::splat(1.0 + 4.0 * f32::EPSILON);
+        (enter.simd_le(leave).to_bitmask(), enter)
+    }
+}
+
+/// Up to eight triangles, by one corner and two edges; the rest of the lanes are without area.
+#[derive(Clone)]
+pub(super) struct Triangles {
+    corner: [f32x8; 3],
+    edge1: [f32x8; 3],
+    edge2: [f32x8; 3],
+    /// Index of the first; the others follow it.
+    pub first: u32,
+}
+
+/// The nearest of eight triangles.
+pub(super) struct Nearest {
+    pub t: f32,
+    pub index: u32,
+    /// Weights of the second and third corner.
+    pub weights: [f32; 2],
+}
+
+impl Triangles {
+    pub(super) fn new(triangles: &[[Vec3; 3]], first: u32) -> Self {
+        let column = |pick: &dyn Fn(&[Vec3; 3]) -> Vec3, axis: usize| {
+            let lane = |k: usize| triangles.get(k).map_or(0.0, |t| pick(t)[axis]);
+            f32x8::from([0, 1, 2, 3, 4, 5, 6, 7].map(lane))
+        };
+        let columns = |pick: &dyn Fn(&[Vec3; 3]) -> Vec3| [0, 1, 2].map(|axis| column(pick, axis));
+        Self {
+            corner: columns(&|t| t[0]),
+            edge1: columns(&|t| t[1] - t[0]),
+            edge2: columns(&|t| t[2] - t[0]),
+            first,
+        }
+    }
+
+    /// Bit mask of the triangles that the ray meets after 0 and before `limit`, the distances, and the weights of the
+    /// second and third corner (Moeller & Trumbore 1997). `skip` is met by none.
+    #[inline(always)]
+    pub(super) fn intersect(&self, ray: &WideRay, limit: f32, skip: u32) -> (u32, f32x8, [f32x8; 2]) {
+        let offset = [0, 1, 2].map(|axis| ray.origin[axis] - self.corner[axis]);
+        let p = cross(&ray.direction, &self.edge2);
+        let q = cross(&offset, &self.edge1);
+        let inverse = f32x8::splat(1.0) / dot(&self.edge1, &p);
+        let u = dot(&offset, &p) * inverse;
+        let v = dot(&ray.direction, &q) * inverse;
+        let t = dot(&self.edge2, &q) * inverse;
+        let zero = f32x8::splat(0.0);
+        // A lane without area has no finite values and compares false.
+        let inside = u.simd_ge(zero) & v.simd_ge(zero) & (u + v).simd_le(f32x8::splat(1.0));
+        let before = t.simd_gt(zero) & t.simd_le(f32x8::splat(limit));
+        let mask = (inside & before).to_bitmask();
+        let lane = skip.wrapping_sub(self.first);
+        (if lane < 8 { mask & !(1 << lane) } else { mask }, t, [u, v])
+    }
+
+    /// The nearest triangle met.
+    #[inline(always)]
+    pub(super) fn nearest(&self, ray: &WideRay, limit: f32, skip: u32) -> Option<Nearest> {
+        let (mut mask, t, [u, v]) = self.intersect(ray, limit, skip);
+        if mask == 0 {
+            return None;
+        }
+        let t = t.to_array();
+        let mut best = mask.trailing_zeros() as usize;
+        mask &= mask - 1;
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            best = if t[lane] < t[best] { lane } else { best };
+        }
+        let weights = [u.to_array()[best], v.to_array()[best]];
+        Some(Nearest { t: t[best], index: self.first + best as u32, weights })
+    }
+}
+
+#[inline(always)]
+fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
+    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| a[i].mul_sub(b[j], a[j] * b[i]))
+}
+
+#[inline(always)]
+fn dot(a: &[f32x8; 3], b: &[f32x8; 3]) -> f32x8 {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
