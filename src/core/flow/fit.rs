@@ -160,8 +160,16 @@ impl Fitter {
         self.systems.iter_mut().for_each(|system| system.solution.clear());
     }
 
-    /// The field of the solutions, potentials times their weights in u.
+    /// The field of the solutions, in single precision.
     fn field(&self) -> Field {
+        let single = |potential: Vec<f64>| potential.into_iter().map(|c| c as f32).collect::<Vec<_>>();
+        let (psi, phi) = self.potentials();
+        Field::from_potentials(self.settings.grid, &single(psi), &single(phi))
+    }
+
+    /// The coefficients of psi and phi of the last fit, times their weights in u = J grad psi + grad phi, each (N+3)
+    /// rows of M+3. A [`Field`] holds them rounded to single precision.
+    pub fn potentials(&self) -> (Vec<f64>, Vec<f64>) {
         let FitSettings { grid, gamma, blend, .. } = self.settings;
         let [nx, ny] = grid.nodes();
         let (psi_weight, phi_weight) = match blend {
@@ -169,10 +177,10 @@ impl Fitter {
             Blend::Separate => (1.0 - gamma, gamma),
         };
         let (mut psi, mut phi) = (vec![0.0; nx * ny], vec![0.0; nx * ny]);
-        let copy = |out: &mut [f32], weight: f64, solution: &GridVector<f64>, component: usize| {
+        let copy = |out: &mut [f64], weight: f64, solution: &GridVector<f64>, component: usize| {
             for (y, out) in out.chunks_exact_mut(nx).enumerate() {
                 for (out, value) in out.iter_mut().zip(&solution.padded(y + HALO, component)[HALO..]) {
-                    *out = (weight * value) as f32;
+                    *out = weight * value;
                 }
             }
         };
@@ -184,7 +192,7 @@ impl Fitter {
                 copy(&mut phi, phi_weight, &system.solution, system.solution.components - 1);
             }
         }
-        Field::from_potentials(grid, &psi, &phi)
+        (psi, phi)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::{Progress, Result};
 
 /// A pixel whose path met glass or a mirror takes this many times the samples: which way a path goes there is left to
 /// chance.
-const SPECULAR_FACTOR: u32 = 8;
+const SPECULAR_FACTOR: u32 = 16;
 /// Surfaces after which a path is given up.
 const MAX_SURFACES: usize = 32;
 /// A sum of weights in a pixel below which a texel is left out.
