@@ -4,7 +4,8 @@
 //! The rays from a light to one specular mesh are the unit square ([`Emission`]), area in proportion to flux. A quadtree over the
 //! square learns which cells send photons to the receiver. Cells that do, with their neighbours, get candidates in
 //! proportion to their flux, so their photons weigh the same. The others are not cut off, which would lose light: they get
-//! `RARE` of that, at `1 / RARE` the weight.
+//! a small share of the candidates, whose photons, if any, weigh more. Where the pilot run meets such a photon, its cell
+//! joins the others.
 
 use rayon::prelude::*;
 
@@ -14,8 +15,10 @@ use crate::scene::light::{Ball, Emission};
 use crate::scene::{Media, Ray, Scene};
 use crate::{Progress, Result};
 
-/// Rate of candidates in cells from which nothing was seen to land.
+/// Highest rate of candidates in cells from which nothing was seen to land, against the others.
 const RARE: f64 = 1.0 / 16.0;
+/// Highest share of all candidates that goes to such cells.
+const RARE_SHARE: f64 = 0.2;
 /// Paths per level of the quadtree while learning, shared among its open cells, but so many per cell.
 const LEVEL_PROBES: u64 = 16_384;
 const CELL_PROBES: std::ops::RangeInclusive<u64> = 4..=64;
@@ -23,6 +26,9 @@ const CELL_PROBES: std::ops::RangeInclusive<u64> = 4..=64;
 const SECOND_LOOK: u64 = 16;
 /// First level of the quadtree: 32 x 32 cells.
 const FIRST_LEVEL: u32 = 5;
+/// Last level, and how many cells may be open on one; fewer for scenes of many lights and targets.
+const LAST_LEVEL: u32 = 10;
+const MAX_OPEN: usize = 16_384;
 /// Meshes aimed at one by one; more of them are aimed at together.
 const MAX_TARGETS: usize = 16;
 /// Pass number of the learning paths; no render reaches it.
@@ -82,6 +88,7 @@ pub(super) struct Plan {
     pub cumulative: Vec<f64>,
     /// What the learning paths of each light met, for the message if nothing lands.
     pub ledgers: Vec<Ledger>,
+    leaves: Vec<Leaf>,
 }
 
 /// A quadtree leaf while learning: level, column, row, and whether photons from it land.
@@ -109,14 +116,8 @@ impl Plan {
                     probe(scene, domain, index, (FIRST_LEVEL, &all_cells(FIRST_LEVEL)), 1, seed, ledger);
                 }
                 Aim::Learned => {
-                    let last_level = if domains.len() <= 4 {
-                        7
-                    } else if domains.len() <= 16 {
-                        6
-                    } else {
-                        5
-                    };
-                    learn(scene, domain, index, last_level, seed, ledger, &mut leaves, progress)?;
+                    let enough = MAX_OPEN / domains.len().clamp(1, 8);
+                    learn(scene, domain, index, enough, seed, ledger, &mut leaves, progress)?;
                 }
             }
             progress.advance(1);
@@ -127,35 +128,59 @@ impl Plan {
     fn from_leaves(domains: Vec<Domain>, mut leaves: Vec<Leaf>, ledgers: Vec<Ledger>) -> Self {
         // Neighbours in the square are neighbours in the list: their rays visit the same memory.
         leaves.sort_by_key(|leaf| (leaf.domain, morton(leaf.at.map(|x| x << (16 - leaf.level)))));
-        let rate = |leaf: &Leaf| if leaf.active { 1.0 } else { RARE };
-        let area = |leaf: &Leaf| 0.25_f64.powi(leaf.level as i32);
-        let shares: Vec<f64> = leaves
-            .iter()
-            .map(|leaf| domains[leaf.domain as usize].power() * area(leaf) * rate(leaf))
-            .collect();
-        let total: f64 = shares.iter().sum();
-        let cells = leaves.iter().map(|leaf| {
-            let emission = &domains[leaf.domain as usize].emission;
+        let mut plan = Self { domains, cells: Vec::new(), cumulative: Vec::new(), ledgers, leaves };
+        plan.allot();
+        plan
+    }
+
+    /// Gives each leaf its share of the candidates.
+    fn allot(&mut self) {
+        let Self { domains, leaves, .. } = self;
+        let power = |leaf: &Leaf| domains[leaf.domain as usize].power();
+        let flux = |leaf: &Leaf| power(leaf) * 0.25_f64.powi(leaf.level as i32);
+        let sum = |active| leaves.iter().filter(|leaf| leaf.active == active).map(flux).sum::<f64>();
+        let (active, rest) = (sum(true), sum(false));
+        let rare = match (active > 0.0, rest > 0.0) {
+            (true, true) => RARE.min(RARE_SHARE / (1.0 - RARE_SHARE) * active / rest),
+            (true, false) | (false, _) => 1.0,
+        };
+        let rate = |leaf: &Leaf| if leaf.active { 1.0 } else { rare };
+        let total = active + rare * rest;
+        let cell = |leaf: &Leaf| {
             let size = 0.5_f32.powi(leaf.level as i32);
             Cell {
                 domain: leaf.domain,
                 corner: leaf.at.map(|x| x as f32 * size),
                 size,
                 // flux x area / share of the candidates
-                flux: emission.flux * (total / (domains[leaf.domain as usize].power() * rate(leaf))) as f32,
+                flux: domains[leaf.domain as usize].emission.flux
+                    * (total / (power(leaf) * rate(leaf))) as f32,
             }
-        });
-        let cells = cells.collect();
-        let mut sum = 0.0;
-        let mut cumulative: Vec<f64> = shares
+        };
+        self.cells = leaves.iter().map(cell).collect();
+        let mut below = 0.0;
+        self.cumulative = leaves
             .iter()
-            .map(|share| {
-                sum += share;
-                sum / total
+            .map(|leaf| {
+                below += flux(leaf) * rate(leaf) / total;
+                below
             })
             .collect();
-        cumulative.last_mut().into_iter().for_each(|last| *last = 1.0);
-        Self { domains, cells, cumulative, ledgers }
+        self.cumulative.last_mut().into_iter().for_each(|last| *last = 1.0);
+    }
+
+    /// Makes those of the given cells active that were not: whether any was.
+    pub(super) fn activate(&mut self, cells: &[u32]) -> bool {
+        let mut changed = false;
+        for cell in cells {
+            let leaf = &mut self.leaves[*cell as usize];
+            changed |= !leaf.active;
+            leaf.active = true;
+        }
+        if changed {
+            self.allot();
+        }
+        changed
     }
 }
 
@@ -194,20 +219,20 @@ fn all_cells(level: u32) -> Vec<[u32; 2]> {
     (0..side * side).map(|i| [i % side, i / side]).collect()
 }
 
-/// Refines the quadtree where photons land, level by level.
+/// Refines the quadtree where photons land, level by level, until it has `enough` cells.
 #[expect(clippy::too_many_arguments, reason = "one call; a struct would only rename them")]
 fn learn(
     scene: &Scene,
     domain: &Domain,
     index: u32,
-    last_level: u32,
+    enough: usize,
     seed: u64,
     ledger: &mut Ledger,
     leaves: &mut Vec<Leaf>,
     progress: &Progress,
 ) -> Result<()> {
     let mut open = all_cells(FIRST_LEVEL);
-    for level in FIRST_LEVEL..=last_level {
+    for level in FIRST_LEVEL..=LAST_LEVEL {
         progress.check()?;
         let probes =
             (LEVEL_PROBES / open.len().max(1) as u64).clamp(*CELL_PROBES.start(), *CELL_PROBES.end());
@@ -220,14 +245,18 @@ fn learn(
         for ([x, y], landed) in open.iter().zip(&landed) {
             map[*y as usize * side + *x as usize] = *landed;
         }
+        let activity: Vec<bool> = open.iter().map(|at| near_active(&map, side, *at)).collect();
+        let refine = level < LAST_LEVEL && 4 * activity.iter().filter(|active| **active).count() <= enough;
         let mut next = Vec::new();
-        for at in open {
-            let active = near_active(&map, side, at);
-            if active && level < last_level {
+        for (at, active) in open.into_iter().zip(activity) {
+            if active && refine {
                 next.extend([[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [2 * at[0] + x, 2 * at[1] + y]));
             } else {
                 leaves.push(Leaf { domain: index, level, at, active });
             }
+        }
+        if next.is_empty() {
+            break;
         }
         open = next;
     }

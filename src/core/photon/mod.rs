@@ -11,7 +11,7 @@ pub use aim::Aim;
 pub use path::Ledger;
 pub use trace::{TraceReport, Tracer};
 
-/// Caustic photons in columns of equal length.
+/// Caustic photons in columns of equal length. Their order is such that the first n are an even sample of all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Photons {
     /// Where they landed, plane units.
