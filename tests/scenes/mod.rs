@@ -207,10 +207,10 @@ fn wine_profile() -> Vec<[f64; 2]> {
     let bowl = |s: f64| {
         [0.004 + 0.036 * (std::f64::consts::PI * (0.08 + 0.62 * s)).sin().powf(0.8), 0.075 + 0.125 * s]
     };
-    outer.extend((0..=24).map(|i| bowl(i as f64 / 24.0)));
+    outer.extend((0..=24).map(|i| bowl(f64::from(i) / 24.0)));
     let wall = 0.0012;
     let inner = (1..=24).rev().map(|i| {
-        let [r, y] = bowl(i as f64 / 24.0);
+        let [r, y] = bowl(f64::from(i) / 24.0);
         [r - wall, if i == 24 { y } else { y + wall * 0.3 }]
     });
     let rim = outer[outer.len() - 1];

@@ -7,10 +7,9 @@
 //! a small share of the candidates, whose photons, if any, weigh more. Where the pilot run meets such a photon, its cell
 //! joins the others.
 
-use rayon::prelude::*;
-
-use super::path::{Ledger, follow};
-use crate::math::rng::{Purpose, Stream};
+use super::learn::{Leaf, Scout};
+use super::path::Ledger;
+use crate::math::rng::Stream;
 use crate::scene::light::{Ball, Emission};
 use crate::scene::{Media, Ray, Scene};
 use crate::{Progress, Result};
@@ -19,21 +18,10 @@ use crate::{Progress, Result};
 const RARE: f64 = 1.0 / 16.0;
 /// Highest share of all candidates that goes to such cells.
 const RARE_SHARE: f64 = 0.2;
-/// Paths per level of the quadtree while learning, shared among its open cells, but so many per cell.
-const LEVEL_PROBES: u64 = 16_384;
-const CELL_PROBES: std::ops::RangeInclusive<u64> = 4..=64;
-/// Where the first level saw nothing land, it looks again with this many times the paths.
-const SECOND_LOOK: u64 = 16;
-/// First level of the quadtree: 32 x 32 cells.
-const FIRST_LEVEL: u32 = 5;
-/// Last level, and how many cells may be open on one; fewer for scenes of many lights and targets.
-const LAST_LEVEL: u32 = 10;
+/// Cells that may be open on one level of the quadtree; fewer for scenes of many lights and targets.
 const MAX_OPEN: usize = 16_384;
 /// Meshes aimed at one by one; more of them are aimed at together.
 const MAX_TARGETS: usize = 16;
-/// Pass number of the learning paths; no render reaches it.
-const LEARNING: u64 = u64::MAX;
-
 /// How far emission is narrowed. All have the same expectation; only their cost differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
@@ -48,7 +36,7 @@ pub enum Aim {
 /// The rays from one light that meet the ball around one target and none of the balls before it.
 pub(super) struct Domain {
     pub light: u16,
-    emission: Emission,
+    pub emission: Emission,
     /// Targets whose rays belong to other domains.
     before: Vec<Ball>,
     /// Whether glass may lie around the place where photons start.
@@ -91,14 +79,6 @@ pub(super) struct Plan {
     leaves: Vec<Leaf>,
 }
 
-/// A quadtree leaf while learning: level, column, row, and whether photons from it land.
-struct Leaf {
-    domain: u32,
-    level: u32,
-    at: [u32; 2],
-    active: bool,
-}
-
 impl Plan {
     /// Learns where to shine. Deterministic in the seed.
     pub(super) fn new(scene: &Scene, aim: Aim, seed: u64, progress: &Progress) -> Result<Self> {
@@ -107,18 +87,17 @@ impl Plan {
         let mut leaves = Vec::new();
         progress.begin("aim", domains.len() as u64);
         for (index, domain) in domains.iter().enumerate() {
-            let index = index as u32;
+            if domain.power() <= 0.0 {
+                continue;
+            }
             let ledger = &mut ledgers[domain.light as usize];
+            let mut scout = Scout { scene, domain, index: index as u32, seed, progress, ledger };
             match aim {
-                _ if domain.power() <= 0.0 => (),
                 Aim::Nowhere | Aim::Bounds => {
-                    leaves.push(Leaf { domain: index, level: 0, at: [0, 0], active: true });
-                    probe(scene, domain, index, (FIRST_LEVEL, &all_cells(FIRST_LEVEL)), 1, seed, ledger);
+                    scout.look_once()?;
+                    leaves.push(Leaf { domain: index as u32, level: 0, at: [0, 0], active: true });
                 }
-                Aim::Learned => {
-                    let enough = MAX_OPEN / domains.len().clamp(1, 8);
-                    learn(scene, domain, index, enough, seed, ledger, &mut leaves, progress)?;
-                }
+                Aim::Learned => leaves.extend(scout.learn(MAX_OPEN / domains.len().clamp(1, 8))?),
             }
             progress.advance(1);
         }
@@ -212,106 +191,6 @@ fn domains(scene: &Scene, aim: Aim) -> Vec<Domain> {
         }
     }
     domains
-}
-
-fn all_cells(level: u32) -> Vec<[u32; 2]> {
-    let side = 1_u32 << level;
-    (0..side * side).map(|i| [i % side, i / side]).collect()
-}
-
-/// Refines the quadtree where photons land, level by level, until it has `enough` cells.
-#[expect(clippy::too_many_arguments, reason = "one call; a struct would only rename them")]
-fn learn(
-    scene: &Scene,
-    domain: &Domain,
-    index: u32,
-    enough: usize,
-    seed: u64,
-    ledger: &mut Ledger,
-    leaves: &mut Vec<Leaf>,
-    progress: &Progress,
-) -> Result<()> {
-    let mut open = all_cells(FIRST_LEVEL);
-    for level in FIRST_LEVEL..=LAST_LEVEL {
-        progress.check()?;
-        let probes =
-            (LEVEL_PROBES / open.len().max(1) as u64).clamp(*CELL_PROBES.start(), *CELL_PROBES.end());
-        let mut landed = probe(scene, domain, index, (level, &open), probes, seed, ledger);
-        if level == FIRST_LEVEL && !landed.contains(&true) && ledger.met_specular() {
-            landed = probe(scene, domain, index, (level, &open), probes * SECOND_LOOK, seed, ledger);
-        }
-        let side = 1_usize << level;
-        let mut map = vec![false; side * side];
-        for ([x, y], landed) in open.iter().zip(&landed) {
-            map[*y as usize * side + *x as usize] = *landed;
-        }
-        let activity: Vec<bool> = open.iter().map(|at| near_active(&map, side, *at)).collect();
-        let refine = level < LAST_LEVEL && 4 * activity.iter().filter(|active| **active).count() <= enough;
-        let mut next = Vec::new();
-        for (at, active) in open.into_iter().zip(activity) {
-            if active && refine {
-                next.extend([[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [2 * at[0] + x, 2 * at[1] + y]));
-            } else {
-                leaves.push(Leaf { domain: index, level, at, active });
-            }
-        }
-        if next.is_empty() {
-            break;
-        }
-        open = next;
-    }
-    Ok(())
-}
-
-/// Whether the cell or one of its eight neighbours is active.
-fn near_active(map: &[bool], side: usize, at: [u32; 2]) -> bool {
-    let [x, y] = at.map(|a| a as usize);
-    (y.saturating_sub(1)..=(y + 1).min(side - 1))
-        .any(|row| map[row * side + x.saturating_sub(1)..=row * side + (x + 1).min(side - 1)].contains(&true))
-}
-
-/// Sends a few paths from each cell: whether any lands.
-#[expect(clippy::too_many_arguments, reason = "two calls; a struct would only rename them")]
-fn probe(
-    scene: &Scene,
-    domain: &Domain,
-    index: u32,
-    (level, cells): (u32, &[[u32; 2]]),
-    probes: u64,
-    seed: u64,
-    ledger: &mut Ledger,
-) -> Vec<bool> {
-    let size = 0.5_f32.powi(level as i32);
-    let results: Vec<(Vec<bool>, Ledger)> = cells
-        .par_chunks(128)
-        .map(|chunk| {
-            let mut ledger = Ledger::default();
-            let landed = chunk.iter().map(|[x, y]| {
-                let cell = (u64::from(index) << 44)
-                    | (u64::from(level) << 40)
-                    | (u64::from(*y) << 20)
-                    | u64::from(*x);
-                let mut rng = Stream::new(seed, Purpose::Trace, LEARNING, cell);
-                (0..probes).fold(false, |landed, _| {
-                    let u = [(*x as f32 + rng.f32()) * size, (*y as f32 + rng.f32()) * size];
-                    let start = domain.sample(scene, u, &mut rng);
-                    landed
-                        | start
-                            .and_then(|(ray, media)| {
-                                follow(scene, ray, domain.emission.flux, media, &mut rng, &mut ledger)
-                            })
-                            .is_some()
-                })
-            });
-            (landed.collect(), ledger)
-        })
-        .collect();
-    let mut landed = Vec::with_capacity(cells.len());
-    for (part, more) in results {
-        landed.extend(part);
-        ledger.add(more);
-    }
-    landed
 }
 
 /// Interleaves the bits of column and row (Z order).

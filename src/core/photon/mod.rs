@@ -1,6 +1,7 @@
 //! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after something specular.
 
 mod aim;
+mod learn;
 mod path;
 mod trace;
 mod why;

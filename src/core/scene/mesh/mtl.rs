@@ -118,7 +118,7 @@ fn number(rest: &str) -> Option<f32> {
 
 /// One or three numbers; one stands for all channels.
 fn colour(rest: &str) -> Option<[f32; 3]> {
-    let mut words = rest.split_ascii_whitespace().map_while(|word| number(word));
+    let mut words = rest.split_ascii_whitespace().map_while(number);
     let red = words.next()?;
     let green = words.next().unwrap_or(red);
     Some([red, green, words.next().unwrap_or(red)])
