@@ -76,7 +76,7 @@ fn glass_sphere() -> Scene {
 fn sphere_by_quadrature(radii: &[f64]) -> Vec<f64> {
     let (light, centre, radius, index) = (glam::dvec2(0.0, 3.0), glam::dvec2(0.0, 0.7), 0.5, 1.5);
     let widest = (radius / (light.y - centre.y)).asin();
-    let steps = 400_000;
+    let steps = 400_000_u32;
     let mut flux = vec![0.0; radii.len()];
     let mut land = |point: glam::DVec2, direction: glam::DVec2, weight: f64| {
         if direction.y < 0.0 {
@@ -120,6 +120,7 @@ fn a_glass_sphere_focuses_as_calculated() {
     assert!((exact[0] - 0.010_698_7).abs() < 1e-7 && (exact[1] - 0.010_027_0).abs() < 1e-7, "{exact:?}");
     assert!((exact[2] / (PI * 1e-4) - 1.454).abs() < 1e-3, "{exact:?}");
 
+    // PHOTONS=10000000 asks for more.
     let count = std::env::var("PHOTONS").map_or(1_000_000, |count| count.parse().unwrap());
     let (photons, report) = trace(&glass_sphere(), count);
     let distance = |p: &glam::Vec2| f64::from(p.distance(vec2(0.5, 0.5))) * 8.0;

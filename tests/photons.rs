@@ -69,6 +69,26 @@ fn exactly_as_many_photons_land_as_asked_for() {
 }
 
 #[test]
+fn the_first_photons_are_an_even_sample_of_all() {
+    let scene = crowded();
+    let all = trace(&Tracer::new(&scene, 1, &Progress::new()).unwrap(), 0, 100_000);
+    let first = |n: usize| Photons {
+        positions: all.positions[..n].to_vec(),
+        flux: all.flux[..n].to_vec(),
+        light: all.light[..n].to_vec(),
+        mesh: all.mesh[..n].to_vec(),
+    };
+    let (part, whole) = (quarters(&scene, &first(10_000)), quarters(&scene, &all));
+    for (part, whole) in part.iter().zip(whole) {
+        let error = part.1.sqrt();
+        assert!((part.0 - whole.0 * 0.1).abs() < 4.0 * error, "{} of {} +- {error}", part.0, whole.0);
+    }
+    let share =
+        |photons: &Photons| photons.light.iter().filter(|l| **l == 1).count() as f64 / photons.len() as f64;
+    assert!((share(&first(10_000)) / share(&all) - 1.0).abs() < 0.1);
+}
+
+#[test]
 fn one_thread_or_many_give_the_same_bytes() {
     let scene = crowded();
     let run = |threads| {

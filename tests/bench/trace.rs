@@ -68,14 +68,14 @@ fn aim(bencher: Bencher) {
     bencher.bench_local(|| Tracer::new(&scene, 1, &Progress::new()).unwrap().landing_rate());
 }
 
-#[divan::bench(sample_count = 10)]
+#[divan::bench(sample_count = 5)]
 fn photons(bencher: Bencher) {
     let scene = wine_scene();
     let tracer = Tracer::new(&scene, 1, &Progress::new()).unwrap();
     let mut pass = 0;
-    bencher.counter(ItemsCount::new(200_000_usize)).bench_local(|| {
+    bencher.counter(ItemsCount::new(1_000_000_usize)).bench_local(|| {
         pass += 1;
-        tracer.trace(pass, 200_000, &Progress::new()).unwrap()
+        tracer.trace(pass, 1_000_000, &Progress::new()).unwrap()
     });
 }
 

@@ -1,6 +1,7 @@
 //! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after something specular.
 
 mod aim;
+mod learn;
 mod path;
 mod trace;
 mod why;
@@ -11,7 +12,7 @@ pub use aim::Aim;
 pub use path::Ledger;
 pub use trace::{TraceReport, Tracer};
 
-/// Caustic photons in columns of equal length.
+/// Caustic photons in columns of equal length. Their order is such that the first n are an even sample of all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Photons {
     /// Where they landed, plane units.

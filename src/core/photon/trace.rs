@@ -1,11 +1,10 @@
-//! Traces batches of light paths in parallel until exactly as many photons landed as were asked for.
+//! Traces light paths in parallel until exactly as many photons landed as were asked for.
 //!
-//! Candidates come in batches of fixed size, each spread evenly (stratified) over all cells of the [`Plan`]. How many batches a pass
-//! needs is fixed beforehand from the landing rate seen in [`Tracer::new`], with a margin, and whole batches are traced; so
-//! what each photon stands for, flux / candidates, is known before any is traced and the estimate has no bias. Of
-//! the few photons too many an even share is left out, at random offset, and the others take over its flux in
-//! proportion. Only if luck is worse than five standard deviations are batches added; the bias of that is far below the
-//! noise of a single photon.
+//! How many candidates a pass needs is fixed beforehand from the landing rate seen in [`Tracer::new`], with a margin, and all
+//! of them are traced, spread evenly (stratified) over the cells of the [`Plan`]; so what each photon stands for, flux /
+//! candidates, is known before any is traced and the estimate has no bias. Of the few photons too many an even share is
+//! left out, at random offset, and the others take over its flux in proportion. Only if luck is worse than five standard
+//! deviations are candidates added; the bias of that is far below the noise of a single photon.
 
 use std::time::Instant;
 
@@ -20,12 +19,16 @@ use crate::{Error, Progress, Result};
 
 /// Candidates per batch: the unit of parallel work.
 const BATCH: u64 = 8192;
-/// Batches of the pilot run that measures the landing rate.
-const PILOT: u64 = 4;
-/// Pass number of the pilot run; no render reaches it.
+/// Candidates of a pilot run, which measures the landing rate.
+const PILOT: u64 = 4 * BATCH;
+/// Pilot runs at most; each activates cells that were missed.
+const PILOTS: u64 = 4;
+/// Pass number of the pilot runs; no render reaches it.
 const PILOT_PASS: u64 = u64::MAX - 1;
 /// Index of the stream that chooses which photons are left out; no candidate reaches it.
 const THINNING: u64 = u64::MAX;
+/// Photons are handed out in this many rounds over all that landed, a power of 2.
+const ROUNDS: u64 = 256;
 
 /// What a pass cost and where its light went.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,8 @@ pub struct Tracer<'a> {
 #[derive(Default)]
 struct Batch {
     photons: Photons,
+    /// The cell each photon came from.
+    cells: Vec<u32>,
     ledger: Ledger,
 }
 
@@ -69,12 +74,17 @@ impl<'a> Tracer<'a> {
         if tracer.plan.cells.is_empty() {
             return Err(why::no_caustic(scene, &tracer.plan.ledgers));
         }
-        let pilot = tracer.batches(PILOT_PASS, 0..PILOT, progress)?;
-        let landed: usize = pilot.iter().map(|batch| batch.photons.len()).sum();
-        if landed == 0 {
+        for pilot in 0..PILOTS {
+            let batches = tracer.set(PILOT_PASS, pilot * PILOT, PILOT, progress)?;
+            let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
+            tracer.rate = cells.len() as f64 / PILOT as f64;
+            if !tracer.plan.activate(&cells) {
+                break;
+            }
+        }
+        if tracer.rate == 0.0 {
             return Err(why::no_caustic(scene, &tracer.plan.ledgers));
         }
-        tracer.rate = landed as f64 / (PILOT * BATCH) as f64;
         Ok(tracer)
     }
 
@@ -91,24 +101,24 @@ impl<'a> Tracer<'a> {
             return Err(Error::value("photons", "is 0: at least one photon is needed"));
         }
         let mut batches: Vec<Batch> = Vec::new();
-        let mut landed = 0;
-        let mut wanted = self.batches_for(count as f64);
+        let (mut landed, mut candidates) = (0, 0);
+        let expected = self.candidates_for(count as u64);
         while landed < count as u64 {
-            let done = batches.len() as u64;
-            if done > 100 * self.batches_for(count as f64) {
+            if candidates > 100 * expected {
                 let what =
                     format!("only {landed} of {count} photons landed, far fewer than the pilot run promised");
                 return Err(Error::Numeric { stage: "trace", what });
             }
-            batches.extend(self.batches(pass, done..done + wanted, progress)?);
+            let wanted = self.candidates_for(count as u64 - landed);
+            batches.extend(self.set(pass, candidates, wanted, progress)?);
+            candidates += wanted;
             landed = batches.iter().map(|batch| batch.photons.len() as u64).sum();
-            wanted = self.batches_for(count.saturating_sub(landed as usize) as f64);
         }
-        let candidates = batches.len() as u64 * BATCH;
         let mut ledger = Ledger::default();
         batches.iter().for_each(|batch| ledger.add(batch.ledger));
         let offset = (Stream::new(self.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
-        let photons = thin(&batches, count as u64, landed, offset, candidates);
+        let factor = landed as f64 / count as f64 / candidates as f64;
+        let photons = thin(batches, count as u64, landed, offset, factor as f32);
         let report = TraceReport {
             candidates,
             landed,
@@ -118,35 +128,41 @@ impl<'a> Tracer<'a> {
         Ok((photons, report))
     }
 
-    /// Batches that yield `count` photons unless luck is worse than five standard deviations.
-    fn batches_for(&self, count: f64) -> u64 {
+    /// Candidates that yield `count` photons unless luck is worse than five standard deviations; whole batches.
+    fn candidates_for(&self, count: u64) -> u64 {
+        let count = count as f64;
         let photons = count + 5.0 * (count * (1.0 - self.rate)).max(1.0).sqrt();
         // The pilot's own uncertainty: one part in the root of what it landed.
-        let pilot = (self.rate * (PILOT * BATCH) as f64).sqrt();
+        let pilot = (self.rate * PILOT as f64).sqrt();
         let rate = self.rate * (1.0 - 3.0 / pilot).max(0.25);
-        ((photons / rate / BATCH as f64).ceil() as u64).max(1)
+        ((photons / rate / BATCH as f64).ceil() as u64).max(1) * BATCH
     }
 
-    fn batches(&self, pass: u64, range: std::ops::Range<u64>, progress: &Progress) -> Result<Vec<Batch>> {
-        range
+    /// Traces `count` candidates, a multiple of `BATCH`, spread over all cells; `first` is the index of the first in its
+    /// pass.
+    fn set(&self, pass: u64, first: u64, count: u64, progress: &Progress) -> Result<Vec<Batch>> {
+        (0..count / BATCH)
             .into_par_iter()
             .map(|batch| {
                 progress.check()?;
-                let batch = self.batch(pass, batch);
+                let batch = self.batch(pass, first, batch * BATCH, count);
                 progress.advance(batch.photons.len() as u64);
                 Ok(batch)
             })
             .collect()
     }
 
-    /// Candidate i of the batch takes the i-th of `BATCH` equal shares of the cells.
-    fn batch(&self, pass: u64, batch: u64) -> Batch {
+    /// Candidate i of a set takes the i-th of `count` equal shares of the cells: neighbours in a batch meet the same
+    /// triangles, and find them in the cache.
+    fn batch(&self, pass: u64, first: u64, start: u64, count: u64) -> Batch {
         let mut result = Batch::default();
-        let mut at = 0;
-        for candidate in 0..BATCH {
-            let mut rng = Stream::new(self.seed, Purpose::Trace, pass, batch * BATCH + candidate);
-            let share = (candidate as f64 + rng.f64()) / BATCH as f64;
-            while self.plan.cumulative[at] <= share && at + 1 < self.plan.cells.len() {
+        let share = |candidate: u64, within: f64| (candidate as f64 + within) / count as f64;
+        let last = self.plan.cells.len() - 1;
+        let mut at = self.plan.cumulative.partition_point(|below| *below <= share(start, 0.0)).min(last);
+        for candidate in start..start + BATCH {
+            let mut rng = Stream::new(self.seed, Purpose::Trace, pass, first + candidate);
+            let share = share(candidate, rng.f64());
+            while self.plan.cumulative[at] <= share && at < last {
                 at += 1;
             }
             let cell = &self.plan.cells[at];
@@ -156,25 +172,35 @@ impl<'a> Tracer<'a> {
             let landing = follow(self.scene, ray, cell.flux, media, &mut rng, &mut result.ledger);
             if let Some(landing) = landing {
                 result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
+                result.cells.push(at as u32);
             }
         }
         result
     }
 }
 
-/// Keeps `count` of all `landed` photons at even distances from `offset` on, in order, and gives each its flux.
-fn thin(batches: &[Batch], count: u64, landed: u64, offset: u64, candidates: u64) -> Photons {
-    let factor = (landed as f64 / count as f64 / candidates as f64) as f32;
-    let mut photons = Photons::with_capacity(count as usize);
-    let mut kept = offset;
-    for batch in batches.iter().map(|batch| &batch.photons) {
-        for i in 0..batch.len() {
-            kept += count;
-            if kept >= landed {
-                kept -= landed;
-                photons.push(batch.positions[i], batch.flux[i] * factor, batch.light[i], batch.mesh[i]);
+/// Keeps `count` of all `landed` photons, at even distances from `offset` on, and multiplies their flux by `factor`. They come
+/// out in rounds, each a stride through all of them, so that the first n are an even sample too.
+fn thin(batches: Vec<Batch>, count: u64, landed: u64, offset: u64, factor: f32) -> Photons {
+    let mut kept = Photons::with_capacity(count as usize);
+    let mut sum = offset;
+    for Batch { photons, .. } in batches {
+        for i in 0..photons.len() {
+            sum += count;
+            if sum >= landed {
+                sum -= landed;
+                kept.push(photons.positions[i], photons.flux[i] * factor, photons.light[i], photons.mesh[i]);
             }
         }
     }
-    photons
+    let order = || {
+        let rounds = (0..ROUNDS).map(|round| round.reverse_bits() >> (u64::BITS - ROUNDS.trailing_zeros()));
+        rounds.flat_map(|start| (start as usize..kept.len()).step_by(ROUNDS as usize))
+    };
+    Photons {
+        positions: order().map(|i| kept.positions[i]).collect(),
+        flux: order().map(|i| kept.flux[i]).collect(),
+        light: order().map(|i| kept.light[i]).collect(),
+        mesh: order().map(|i| kept.mesh[i]).collect(),
+    }
 }

@@ -15,6 +15,7 @@ pub struct Media {
 
 impl Media {
     /// Goes into a shell of a mesh.
+    #[inline]
     pub fn enter(&mut self, mesh: u16) {
         if (self.count as usize) < DEPTH {
             self.inside[self.count as usize] = mesh;
@@ -23,6 +24,7 @@ impl Media {
     }
 
     /// Leaves a shell of a mesh; false if it was in none.
+    #[inline]
     pub fn leave(&mut self, mesh: u16) -> bool {
         let inside = &mut self.inside[..self.count as usize];
         let Some(at) = inside.iter().rposition(|m| *m == mesh) else { return false };
@@ -34,12 +36,19 @@ impl Media {
     }
 
     /// The mesh whose material fills the place: the highest priority, among equals the later in the list. None: air.
+    #[inline]
     pub fn filling(&self, meshes: &[Mesh]) -> Option<u16> {
-        let inside = &self.inside[..self.count as usize];
-        inside.iter().copied().max_by_key(|mesh| (meshes[*mesh as usize].priority, *mesh))
+        match self.inside[..self.count as usize] {
+            [] => None,
+            [only] => Some(only),
+            ref several => {
+                several.iter().copied().max_by_key(|mesh| (meshes[*mesh as usize].priority, *mesh))
+            }
+        }
     }
 
     /// The glass that fills the place; none: air.
+    #[inline]
     pub fn glass<'a>(&self, meshes: &'a [Mesh]) -> Option<&'a Glass> {
         match &meshes[self.filling(meshes)? as usize].material {
             Material::Glass(glass) => Some(glass),

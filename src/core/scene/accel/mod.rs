@@ -24,7 +24,13 @@ pub(super) struct Accel {
     /// The root first; empty without triangles.
     nodes: Vec<Node>,
     leaves: Vec<Triangles>,
-    triangles: Vec<Triangle>,
+    surfaces: Vec<Surface>,
+}
+
+/// What only a hit needs to know of a triangle.
+struct Surface {
+    normals: [Vec3; 3],
+    mesh: u16,
 }
 
 /// Eight boxes and what stands in them.
@@ -73,10 +79,14 @@ impl Accel {
     /// Builds the hierarchy. Degenerate triangles must be gone.
     pub(super) fn new(triangles: &[Triangle]) -> Self {
         if triangles.is_empty() {
-            return Self { nodes: Vec::new(), leaves: Vec::new(), triangles: Vec::new() };
+            return Self { nodes: Vec::new(), leaves: Vec::new(), surfaces: Vec::new() };
         }
         let (nodes, leaves, order) = build::build(triangles);
-        Self { nodes, leaves, triangles: order.iter().map(|i| triangles[*i as usize]).collect() }
+        let surface = |i: &u32| {
+            let Triangle { normals, mesh, .. } = triangles[*i as usize];
+            Surface { normals, mesh }
+        };
+        Self { nodes, leaves, surfaces: order.iter().map(surface).collect() }
     }
 
     /// The nearest triangle before `limit`, other than the one the ray leaves.
@@ -85,25 +95,27 @@ impl Accel {
         self.search(ray, limit, |wide, leaf, limit| {
             if let Some(found) = leaf.nearest(wide, *limit, ray.from.0) {
                 *limit = found.t;
-                nearest = Some(found);
+                nearest = Some((leaf, found));
             }
             true
         });
-        nearest.map(|found| self.hit(&found))
+        nearest.map(|(leaf, found)| self.hit(leaf, &found))
     }
 
-    fn hit(&self, Nearest { t, index, weights: [u, v] }: &Nearest) -> Hit {
-        let Triangle { corners: [a, b, c], normals: [n0, n1, n2], mesh } = self.triangles[*index as usize];
-        let (edge1, edge2) = (b - a, c - a);
+    fn hit(&self, leaf: &Triangles, found: &Nearest) -> Hit {
+        let index = leaf.first + found.lane;
+        let (corner, edge1, edge2) = leaf.lane(found.lane);
+        let Surface { normals: [n0, n1, n2], mesh } = &self.surfaces[index as usize];
+        let [u, v] = found.weights;
         let geometric = edge1.cross(edge2).normalize();
-        let shading = n0 * (1.0 - u - v) + n1 * *u + n2 * *v;
+        let shading = *n0 * (1.0 - u - v) + *n1 * u + *n2 * v;
         Hit {
-            t: *t,
-            point: a + edge1 * *u + edge2 * *v,
+            t: found.t,
+            point: corner + edge1 * u + edge2 * v,
             geometric_normal: geometric,
             shading_normal: shading.try_normalize().unwrap_or(geometric),
-            surface: SurfaceId::Mesh(mesh),
-            primitive: Primitive(*index),
+            surface: SurfaceId::Mesh(*mesh),
+            primitive: Primitive(index),
         }
     }
 
@@ -122,8 +134,9 @@ impl Accel {
         self.search(ray, f32::INFINITY, |wide, leaf, limit| {
             let (mask, ..) = leaf.intersect(wide, *limit, ray.from.0);
             for lane in (0..8).filter(|lane| mask >> lane & 1 != 0) {
-                let Triangle { corners: [a, b, c], mesh, .. } = self.triangles[(leaf.first + lane) as usize];
-                crossed(mesh, (b - a).cross(c - a).dot(ray.direction) > 0.0);
+                let (_, edge1, edge2) = leaf.lane(lane);
+                let mesh = self.surfaces[(leaf.first + lane) as usize].mesh;
+                crossed(mesh, edge1.cross(edge2).dot(ray.direction) > 0.0);
             }
             true
         });
@@ -132,11 +145,11 @@ impl Accel {
     /// Visits the leaves that the ray meets before a limit, near ones first. A visit may lower the limit, and ends the
     /// search by returning false.
     #[inline(always)]
-    fn search(
-        &self,
+    fn search<'a>(
+        &'a self,
         ray: &Ray,
         mut limit: f32,
-        mut visit: impl FnMut(&WideRay, &Triangles, &mut f32) -> bool,
+        mut visit: impl FnMut(&WideRay, &'a Triangles, &mut f32) -> bool,
     ) {
         if self.nodes.is_empty() {
             return;

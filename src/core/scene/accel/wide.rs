@@ -15,15 +15,17 @@ pub(super) struct WideRay {
 }
 
 impl WideRay {
+    #[inline(always)]
     pub(super) fn new(ray: &Ray) -> Self {
         // Along an axis the inverse is huge but finite: 0 times it is 0, not NaN.
         let inverse = |d: f32| if d.abs() < 1e-18 { 1e18_f32.copysign(d) } else { 1.0 / d };
-        let direction = ray.direction.to_array();
+        let splat = |v: Vec3| [f32x8::splat(v.x), f32x8::splat(v.y), f32x8::splat(v.z)];
+        let Vec3 { x, y, z } = ray.direction;
         Self {
-            origin: ray.origin.to_array().map(f32x8::splat),
-            direction: direction.map(f32x8::splat),
-            inverse: direction.map(|d| f32x8::splat(inverse(d))),
-            negative: direction.map(f32::is_sign_negative),
+            origin: splat(ray.origin),
+            direction: splat(ray.direction),
+            inverse: splat(Vec3::new(inverse(x), inverse(y), inverse(z))),
+            negative: [x.is_sign_negative(), y.is_sign_negative(), z.is_sign_negative()],
         }
     }
 }
@@ -74,7 +76,7 @@ pub(super) struct Triangles {
 /// The nearest of eight triangles.
 pub(super) struct Nearest {
     pub t: f32,
-    pub index: u32,
+    pub lane: u32,
     /// Weights of the second and third corner.
     pub weights: [f32; 2],
 }
@@ -98,7 +100,8 @@ impl Triangles {
     /// second and third corner (Moeller & Trumbore 1997). `skip` is met by none.
     #[inline(always)]
     pub(super) fn intersect(&self, ray: &WideRay, limit: f32, skip: u32) -> (u32, f32x8, [f32x8; 2]) {
-        let offset = [0, 1, 2].map(|axis| ray.origin[axis] - self.corner[axis]);
+        let offset =
+            [ray.origin[0] - self.corner[0], ray.origin[1] - self.corner[1], ray.origin[2] - self.corner[2]];
         let p = cross(&ray.direction, &self.edge2);
         let q = cross(&offset, &self.edge1);
         let inverse = f32x8::splat(1.0) / dot(&self.edge1, &p);
@@ -130,13 +133,23 @@ impl Triangles {
             best = if t[lane] < t[best] { lane } else { best };
         }
         let weights = [u.to_array()[best], v.to_array()[best]];
-        Some(Nearest { t: t[best], index: self.first + best as u32, weights })
+        Some(Nearest { t: t[best], lane: best as u32, weights })
+    }
+
+    /// First corner and the two edges from it of one triangle.
+    #[inline(always)]
+    pub(super) fn lane(&self, lane: u32) -> (Vec3, Vec3, Vec3) {
+        let vector = |columns: &[f32x8; 3]| {
+            let component = |axis: usize| columns[axis].as_array()[lane as usize];
+            Vec3::new(component(0), component(1), component(2))
+        };
+        (vector(&self.corner), vector(&self.edge1), vector(&self.edge2))
     }
 }
 
 #[inline(always)]
 fn cross(a: &[f32x8; 3], b: &[f32x8; 3]) -> [f32x8; 3] {
-    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| a[i].mul_sub(b[j], a[j] * b[i]))
+    [a[1].mul_sub(b[2], a[2] * b[1]), a[2].mul_sub(b[0], a[0] * b[2]), a[0].mul_sub(b[1], a[1] * b[0])]
 }
 
 #[inline(always)]
