@@ -37,23 +37,23 @@ mod pace {
     /// Caustic photons landed per second.
     pub(super) const TRACE: f64 = 1.0e6;
     /// Points matched per second, the continuous map included.
-    pub(super) const MATCH: f64 = 0.5e6;
+    pub(super) const MATCH: f64 = 0.25e6;
     /// Points sent through a known map and made a bijection, per second.
     pub(super) const REMATCH: f64 = 1.2e6;
     /// Unknowns solved per second in one step of the fit.
     pub(super) const FIT: f64 = 1.0e6;
     /// Photons carried over one step, per second.
-    pub(super) const ADVECT: f64 = 12.0e6;
+    pub(super) const ADVECT: f64 = 10.0e6;
     /// Photons counted into the texture per second.
     pub(super) const SPLAT: f64 = 40.0e6;
     /// Texels filtered and stored per second.
-    pub(super) const FILTER: f64 = 40.0e6;
+    pub(super) const FILTER: f64 = 26.0e6;
     /// Camera samples towards the receiver per second.
-    pub(super) const LOOKS: f64 = 4.0e6;
+    pub(super) const LOOKS: f64 = 2.0e6;
     /// Light paths of the background per second.
-    pub(super) const PATHS: f64 = 1.0e6;
+    pub(super) const PATHS: f64 = 0.3e6;
     /// Pixels gathered, encoded and written per second.
-    pub(super) const WRITE: f64 = 6.0e6;
+    pub(super) const WRITE: f64 = 4.7e6;
 }
 
 /// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given.
@@ -99,8 +99,12 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     left
 }
 
-/// The texels of the receiver texture; its real size follows from the camera.
-const TEXELS: f64 = 1024.0 * 1024.0;
+/// About the texels of the receiver texture; its real size follows from the camera.
+fn texels(project: &Project, extent: Vec2) -> f64 {
+    let render = &project.render;
+    let side = f64::from(render.max_texels).min(1.5 * f64::from(render.width.max(render.height)));
+    side * side * f64::from(extent.x * extent.y)
+}
 
 fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
     let render = &project.render;
@@ -125,7 +129,7 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     let per_pass = trace
         + segments * photons / pace::REMATCH
         + steps * photons / pace::ADVECT
-        + plan.frames as f64 * (photons / pace::SPLAT + TEXELS / pace::FILTER);
+        + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
@@ -145,8 +149,9 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let fields =
         if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
-    let textures = 4.0 * 16.0 * TEXELS;
-    60.0 + (photons + fields + pixels * 200.0 + textures) / f64::from(1 << 20)
+    // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
+    let textures = 6.0 * 16.0 * texels(project, extent);
+    60.0 + (photons + fields + pixels * 600.0 + textures) / f64::from(1 << 20)
 }
 
 impl Plan {
