@@ -176,7 +176,7 @@ fn exit_codes_tell_causes_apart() {
     assert!(code(2, render(&project, &["--frames", "9-1"])).contains("--frames"));
     assert!(code(2, render(&project, &["--size", "big"])).contains("--size"));
     assert!(code(2, render(&project, &["--format", "bmp"])).contains("--format"));
-    assert!(code(3, render(&project, &["--photons", "0"])).contains("photons"));
+    assert!(code(2, render(&project, &["--photons", "0"])).contains("--photons"));
     assert!(code(3, render(&folder.path().join("none.json"), &[])).contains("none.json"));
     fs::remove_file(folder.path().join("letter_s.png")).unwrap();
     assert!(code(3, render(&project, &[])).contains("letter_s.png"));
@@ -194,6 +194,85 @@ fn an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
     let message = fail(5, &["render", text(&project), "--out", text(&below)]);
     assert!(message.contains("taken"), "{message}");
     assert_eq!(fs::read(&file).unwrap(), b"mine");
+}
+
+#[test]
+fn a_run_never_overwrites_what_it_is_made_from() {
+    let (folder, project) = letters();
+    let own = folder.path().join("summary.json");
+    fs::rename(&project, &own).unwrap();
+    let before = fs::read(&own).unwrap();
+    for command in ["render", "fit"] {
+        let message = fail(2, &[command, text(&own), "--out", text(folder.path())]);
+        assert!(message.contains("summary.json"), "{message}");
+    }
+    assert_eq!(fs::read(&own).unwrap(), before);
+
+    fs::rename(folder.path().join("letter_c.png"), folder.path().join("frame.0001.png")).unwrap();
+    let renamed = String::from_utf8(before).unwrap().replace("letter_c.png", "frame.0001.png");
+    fs::write(&project, renamed).unwrap();
+    let message = fail(2, &["render", text(&project), "--out", text(folder.path())]);
+    assert!(message.contains("frame.0001.png"), "{message}");
+}
+
+#[test]
+fn with_json_the_output_is_json_and_nothing_else() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let printed = run(&["fit", text(&project), "--out", text(&out), "--json", "--photons", "500"]);
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(summary["photons"], 500);
+}
+
+#[test]
+fn what_is_asked_for_by_name_outweighs_the_quality() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let extra = ["--quality", "preview", "--passes", "3", "--frames", "5", "--format", "png", "--json"];
+    let printed = run(&[&["render", text(&project), "--out", text(&out)], &extra[..]].concat());
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&summary["passes"], &summary["frames"]), (&json!(3), &json!(1)));
+}
+
+#[test]
+fn work_that_does_not_fit_into_memory_is_refused_beforehand() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let huge = ["--size", "16384x16384", "--photons", "100000000"];
+    let message = fail(6, &[&["render", text(&project), "--out", text(&out)], &huge[..]].concat());
+    assert!(message.contains("GiB"), "{message}");
+}
+
+#[test]
+fn rows_of_two_point_files_are_paired_as_given() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.csv"), "x,y\n0.2,0.2\n0.8,0.2\n0.5,0.8\n").unwrap();
+    fs::write(folder.path().join("b.csv"), "x,y\n0.8,0.3\n0.2,0.3\n0.5,0.1\n").unwrap();
+    let key = |frame: i32, file: &str| json!({ "frame": frame, "shows": { "points": { "file": file } } });
+    let project = |matching: &str| {
+        let path = folder.path().join(format!("{matching}.json"));
+        let keys = [key(1, "a.csv"), key(5, "b.csv")];
+        let flow = json!({ "grid": 16, "steps": 4 });
+        let text = json!({ "lightloom": 1, "keys": keys, "matching": matching, "flow": flow }).to_string();
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let ends = |matching: &str| {
+        let out = folder.path().join(matching);
+        run(&["fit", text(&project(matching)), "--out", text(&out), "--photons", "3"]);
+        let tracks = npyz::NpyFile::new(fs::File::open(out.join("tracks.npy")).unwrap()).unwrap();
+        assert_eq!(tracks.shape(), [5, 3, 2]);
+        let tracks = tracks.into_vec::<f32>().unwrap();
+        tracks[24..].to_vec()
+    };
+    assert_eq!(ends("given"), [0.8, 0.3, 0.2, 0.3, 0.5, 0.1]);
+    // The optimal pairing crosses nothing: left stays left.
+    assert_ne!(ends("transport"), ends("given"));
+
+    fs::write(folder.path().join("b.csv"), "0.8,0.3\n0.2,0.3\n").unwrap();
+    let out = folder.path().join("out");
+    let message = fail(3, &["fit", text(&project("given")), "--out", text(&out)]);
+    assert!(message.contains("keys[1].shows.points.file") && message.contains('3'), "{message}");
 }
 
 #[test]

@@ -113,6 +113,8 @@ fn passes_differ_and_the_same_pass_repeats() {
     let (_folder, path) = saved(GrayImage::from_pixel(3, 3, Luma([200])));
     let sampler = load(&path, &filling()).unwrap();
     assert_eq!(sampler.sample(1, 3, 1000), sampler.sample(1, 3, 1000));
+    // A power of two once gave every pass the same points.
+    assert_ne!(sampler.sample(1, 0, 65_536), sampler.sample(1, 1, 65_536));
     assert_ne!(sampler.sample(1, 3, 1000), sampler.sample(1, 4, 1000));
     assert_ne!(sampler.sample(1, 3, 1000), sampler.sample(2, 3, 1000));
     for n in [0, 1, 17] {

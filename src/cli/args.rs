@@ -99,7 +99,12 @@ enum QualityName {
 impl ProjectArgs {
     /// The project as this run shall do it.
     pub(super) fn load(&self) -> Result<Project> {
-        let mut project = Project::load(&self.path)?;
+        let quality = match self.quality {
+            QualityName::Preview => Quality::Preview,
+            QualityName::Final => Quality::Final,
+        };
+        // What is asked for by name outweighs the quality.
+        let mut project = quality.apply(&Project::load(&self.path)?);
         if let Some(frames) = &self.frames {
             frames::parse(frames, "--frames")?;
             project.output.frames = Some(frames.clone());
@@ -114,12 +119,11 @@ impl ProjectArgs {
             project.output.formats =
                 self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
         }
-        let quality = match self.quality {
-            QualityName::Preview => Quality::Preview,
-            QualityName::Final => Quality::Final,
-        };
-        let project = quality.apply(&project);
-        project.check()?;
+        // The file was in order, so what is wrong now was typed.
+        project.check().map_err(|error| match error {
+            Error::Value { place, what } => Error::value(format!("--{}", place.replace("render.", "")), what),
+            other => other,
+        })?;
         Ok(project)
     }
 

@@ -5,12 +5,14 @@ use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::AssetFolder;
 
 use super::args::CheckArgs;
+use super::progress::Lines;
 
 pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     args.project.set_threads()?;
     let project = args.project.load()?;
     let assets = AssetFolder::new(&args.project.path, args.project.allow_external)?;
     let report = Pipeline::new(assets).check(&project)?;
-    print!("{}", if args.project.json { report.to_json() } else { report.to_text() });
+    let shown = if args.project.json { report.to_json() } else { report.to_text() };
+    Lines::Out.say(shown.trim_end());
     Ok(0)
 }

@@ -4,7 +4,10 @@ use std::io::Write as _;
 use std::path::Path;
 
 use lightloom_core::pipeline::Summary;
+use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
+
+use super::progress::Lines;
 
 /// Ctrl-C asks the work to stop; a second one leaves at once.
 pub(super) fn stop_on_interrupt(progress: &Progress) {
@@ -20,18 +23,40 @@ pub(super) fn stop_on_interrupt(progress: &Progress) {
     }
 }
 
-/// Makes the output folder, and tries whether files can be made in it before hours of work go there.
-pub(super) fn prepare_folder(dir: &Path) -> Result<()> {
+/// Makes the output folder, and tries whether files can be made in it before hours of work go there. No file of the
+/// project may take the place of one that it is made from.
+pub(super) fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<()> {
+    if dir.is_file() {
+        return Err(Error::value("--out", format!("'{}' is a file; name a folder", dir.display())));
+    }
     std::fs::create_dir_all(dir).map_err(Error::io("create the folder", dir))?;
     tempfile::Builder::new().tempfile_in(dir).map_err(Error::io("write into the folder", dir))?;
+    let folder = dir.canonicalize().map_err(Error::io("find the folder", dir))?;
+    let base = project_path.parent().unwrap_or(Path::new(""));
+    let inputs = project.files().into_iter().map(|file| base.join(file)).chain([project_path.to_owned()]);
+    for input in
+        inputs.filter_map(|path| path.canonicalize().ok()).filter(|path| path.parent() == Some(&folder))
+    {
+        let name = input.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if OUTPUTS.contains(&name.as_str()) || project.output.writes(&name) {
+            let what = format!(
+                "'{name}' there is what the project is made from, and would be overwritten; name another folder"
+            );
+            return Err(Error::value("--out", what));
+        }
+    }
     Ok(())
 }
+
+/// What stands in an output folder beside the frames.
+const OUTPUTS: [&str; 5] = ["summary.json", "contact_sheet.png", "tracks.npy", "flux.npy", "fields.npz"];
 
 /// Writes summary.json, and prints it as JSON or as a few lines.
 pub(super) fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
     let path = dir.join("summary.json");
     lightloom_core::files::write_atomic(&path, |file| file.write_all(text.as_bytes()))?;
-    print!("{}", if json { text } else { summary.to_text() });
+    let shown = if json { text } else { summary.to_text() };
+    Lines::Out.say(shown.trim_end());
     Ok(())
 }

@@ -44,7 +44,7 @@ pub fn main() -> ExitCode {
 }
 
 fn schema() -> Result<u8, Error> {
-    println!("{:#}", Project::json_schema());
+    progress::Lines::Out.say(&format!("{:#}", Project::json_schema()));
     Ok(0)
 }
 

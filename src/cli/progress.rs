@@ -1,6 +1,6 @@
 //! Shows how far it is: a bar on a terminal, otherwise one plain line per percent for logs and render farms.
 
-use std::io::IsTerminal as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::thread::{self, JoinHandle};
@@ -12,29 +12,54 @@ use lightloom_core::Progress;
 /// Farms call a job stuck when its log is silent for a minute.
 const HEARTBEAT: Duration = Duration::from_secs(20);
 
+/// Where plain lines go.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lines {
+    /// The standard output.
+    Out,
+    /// The standard error, where the output is kept for JSON.
+    Err,
+}
+
+impl Lines {
+    /// Where the lines go beside a summary that is JSON or not.
+    pub(super) fn beside(json: bool) -> Self {
+        if json { Self::Err } else { Self::Out }
+    }
+
+    /// Prints a line. Nobody may be listening any more, which is no reason to stop the work.
+    pub(super) fn say(self, line: &str) {
+        let _ = match self {
+            Self::Out => writeln!(std::io::stdout(), "{line}"),
+            Self::Err => writeln!(std::io::stderr(), "{line}"),
+        };
+    }
+}
+
 /// Shows a [`Progress`] until dropped.
 pub(super) struct Display {
     stop: Arc<AtomicBool>,
     bar: ProgressBar,
+    lines: Lines,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Display {
-    /// Begins to show `progress` on the standard error (bar) or output (plain lines).
-    pub(super) fn start(progress: &Progress) -> Self {
+    /// Begins to show `progress`: as a bar where the standard error is a terminal, otherwise as plain lines.
+    pub(super) fn start(progress: &Progress, lines: Lines) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let on_terminal = std::io::stderr().is_terminal();
         let bar = if on_terminal { terminal_bar() } else { ProgressBar::hidden() };
         let thread = thread::spawn({
             let (stop, bar, progress) = (stop.clone(), bar.clone(), progress.clone());
-            move || watch(&stop, &progress, on_terminal.then_some(&bar))
+            move || watch(&stop, &progress, on_terminal.then_some(&bar), lines)
         });
-        Self { stop, bar, thread: Some(thread) }
+        Self { stop, bar, lines, thread: Some(thread) }
     }
 
     /// Prints a line that stays, without tearing the bar.
     pub(super) fn line(&self, text: &str) {
-        self.bar.suspend(|| println!("{text}"));
+        self.bar.suspend(|| self.lines.say(text));
     }
 }
 
@@ -55,7 +80,7 @@ fn terminal_bar() -> ProgressBar {
     ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-fn watch(stop: &AtomicBool, progress: &Progress, bar: Option<&ProgressBar>) {
+fn watch(stop: &AtomicBool, progress: &Progress, bar: Option<&ProgressBar>, lines: Lines) {
     let mut last = (u64::MAX, Instant::now());
     while !stop.load(Relaxed) {
         let seen = progress.snapshot();
@@ -66,7 +91,7 @@ fn watch(stop: &AtomicBool, progress: &Progress, bar: Option<&ProgressBar>) {
         } else {
             let percent = (seen.overall * 100.0) as u64;
             if percent != last.0 || last.1.elapsed() > HEARTBEAT {
-                println!("Progress: {percent}%");
+                lines.say(&format!("Progress: {percent}%"));
                 last = (percent, Instant::now());
             }
         }

@@ -26,6 +26,8 @@ struct Work {
 struct Road {
     expected: Vec<(&'static str, f64)>,
     stage: Option<(&'static str, Instant)>,
+    /// Index of the stage at work in `expected`.
+    at: Option<usize>,
 }
 
 /// What the watcher sees.
@@ -49,7 +51,7 @@ impl Progress {
 
     /// Declares the stages ahead, in order, with the seconds each is expected to take.
     pub fn set_road(&self, stages: Vec<(&'static str, f64)>) {
-        self.road().expected = stages;
+        *self.road() = Road { expected: stages, stage: None, at: None };
     }
 
     /// Work inside a stage that counts for itself: cancelled with the whole, but not shown.
@@ -57,11 +59,15 @@ impl Progress {
         Self { cancelled: self.cancelled.clone(), work: Arc::default() }
     }
 
-    /// Begins a stage of `total` units of work.
+    /// Begins a stage of `total` units of work: the next of that name on the road.
     pub fn begin(&self, stage: &'static str, total: u64) {
         self.work.done.store(0, Relaxed);
         self.work.total.store(total.max(1), Relaxed);
-        self.road().stage = Some((stage, Instant::now()));
+        let mut road = self.road();
+        road.stage = Some((stage, Instant::now()));
+        let from = road.at.map_or(0, |at| at + 1);
+        let next = road.expected.iter().skip(from).position(|(name, _)| *name == stage);
+        road.at = next.map(|i| from + i).or(road.at);
     }
 
     /// Counts `units` of the stage as done.
@@ -89,9 +95,8 @@ impl Progress {
         let total = self.work.total.load(Relaxed).max(1) as f64;
         let fraction = (self.work.done.load(Relaxed) as f64 / total).min(1.0);
         let road = self.road();
-        let at = road.stage.and_then(|(name, _)| road.expected.iter().position(|(stage, _)| *stage == name));
         let sum = |stages: &[(&str, f64)]| stages.iter().map(|(_, seconds)| seconds).sum::<f64>();
-        let (before, now, after) = match at {
+        let (before, now, after) = match road.at {
             Some(i) => (sum(&road.expected[..i]), road.expected[i].1, sum(&road.expected[i + 1..])),
             None => (0.0, 0.0, sum(&road.expected)),
         };
@@ -125,6 +130,21 @@ mod tests {
         let seen = progress.snapshot();
         assert_eq!((seen.stage, seen.fraction), (Some("render"), 0.5));
         assert!((seen.overall - 2.5 / 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_whole_never_goes_back_over_stages_that_come_twice() {
+        let progress = Progress::new();
+        progress.set_road(vec![("match", 1.0), ("fit", 1.0), ("match", 1.0), ("fit", 1.0), ("write", 1.0)]);
+        let mut last = 0.0;
+        for stage in ["match", "fit", "match", "fit", "unheard of", "write"] {
+            progress.begin(stage, 2);
+            progress.advance(1);
+            let overall = progress.snapshot().overall;
+            assert!(overall >= last, "{stage}: {overall} after {last}");
+            last = overall;
+        }
+        assert!((last - 0.9).abs() < 1e-12);
     }
 
     #[test]

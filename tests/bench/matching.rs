@@ -78,5 +78,5 @@ fn map_and_bijection(bencher: Bencher, n: usize) {
 fn bound_of_20_000(bencher: Bencher) {
     let (source, target) = sets(20_000);
     let map = transport_map(&source, &target, Vec2::ONE, &Progress::new()).unwrap();
-    bencher.bench_local(|| dual_bound(&map, &source, &target));
+    bencher.bench_local(|| dual_bound(&map, &source, &target, &Progress::new()));
 }

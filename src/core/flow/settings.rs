@@ -133,17 +133,18 @@ impl FlowSettings {
             return Err(Error::value(place, what));
         }
         let per_node = FIT_BYTES_PER_NODE + FIELD_BYTES_PER_NODE * u64::from(self.steps);
-        let needed = (u64::from(x) + 3) * (u64::from(y) + 3) * per_node;
-        if needed <= MAX_BYTES {
+        // Two sides of 32 bits and the bytes of a node go beyond 64 bits.
+        let needed = (u128::from(x) + 3) * (u128::from(y) + 3) * u128::from(per_node);
+        if needed <= u128::from(MAX_BYTES) {
             return Ok(());
         }
-        let gib = |bytes: u64| bytes as f64 / (1u64 << 30) as f64;
+        let gib = |bytes: u128| bytes as f64 / (1u64 << 30) as f64;
         let largest = ((MAX_BYTES / per_node) as f64).sqrt() as u64 - 3;
         let what = format!(
             "{x} x {y} cells over {} steps need about {:.1} GiB, the limit is {:.0} GiB; the largest square grid is {largest} x {largest}",
             self.steps,
             gib(needed),
-            gib(MAX_BYTES)
+            gib(MAX_BYTES.into())
         );
         Err(Error::Limit { place: place.to_owned(), what })
     }

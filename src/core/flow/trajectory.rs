@@ -134,16 +134,6 @@ impl<'a> Carrier<'a> {
         Ok(())
     }
 
-    /// Velocities at time `t` in plane units per unit of t; as [`Self::positions_at`].
-    ///
-    /// # Errors
-    /// As [`Self::advance_to`].
-    pub fn velocities_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
-        let t = self.enter(t, out.len(), progress)?;
-        self.swarm.velocities(t, out);
-        Ok(())
-    }
-
     fn enter(&mut self, t: f64, places: usize, progress: &Progress) -> Result<f64> {
         assert_eq!(places, self.targets.len(), "one place for each photon");
         let t = t.clamp(0.0, 1.0);

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::transport_map::TransportMap;
 use crate::math::hilbert;
+use crate::{Progress, Result};
 
 /// Most points in a leaf of the tree.
 const LEAF: usize = 8;
@@ -18,9 +19,12 @@ const CHUNK: usize = 4096;
 /// Kantorovich duality: for any numbers psi(b), the mean of psi over the targets plus the mean over the sources a of
 /// min_b (|a - b|^2 - psi(b)) is at most every bijection's mean cost. The map's potential supplies psi, and the minimum
 /// runs over all points.
-pub fn dual_bound(map: &TransportMap, source: &[Vec2], target: &[Vec2]) -> f64 {
+///
+/// # Errors
+/// `Cancelled`.
+pub fn dual_bound(map: &TransportMap, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<f64> {
     if source.is_empty() || target.is_empty() {
-        return 0.0;
+        return Ok(0.0);
     }
     let potentials: Vec<f64> =
         target.par_iter().with_min_len(4096).map(|&point| map.target_potential(point)).collect();
@@ -29,9 +33,12 @@ pub fn dual_bound(map: &TransportMap, source: &[Vec2], target: &[Vec2]) -> f64 {
     // Followers on the curve look into the same branches.
     let parts: Vec<f64> = hilbert::order(source, Vec2::ZERO)
         .par_chunks(CHUNK)
-        .map(|rows| rows.iter().map(|&row| tree.least(source[row as usize].as_dvec2())).sum())
-        .collect();
-    mean_potential + parts.iter().sum::<f64>() / source.len() as f64
+        .map(|rows| {
+            progress.check()?;
+            Ok(rows.iter().map(|&row| tree.least(source[row as usize].as_dvec2())).sum())
+        })
+        .collect::<Result<_>>()?;
+    Ok(mean_potential + parts.iter().sum::<f64>() / source.len() as f64)
 }
 
 /// A target point b with h = |b|^2 - psi(b): then |a - b|^2 - psi(b) = |a|^2 - 2 a.b + h.

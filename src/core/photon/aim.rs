@@ -85,7 +85,7 @@ impl Plan {
         let domains = domains(scene, aim);
         let mut ledgers = vec![Ledger::default(); scene.lights().len()];
         let mut leaves = Vec::new();
-        progress.begin("aim", domains.len() as u64);
+        progress.begin("trace", domains.len() as u64);
         for (index, domain) in domains.iter().enumerate() {
             if domain.power() <= 0.0 {
                 continue;

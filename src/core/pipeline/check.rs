@@ -51,7 +51,7 @@ impl CheckReport {
 
     /// As lines for people.
     pub fn to_text(&self) -> String {
-        let Plan { photons, passes, frames, left_out, stages, memory_mib } = &self.plan;
+        let Plan { photons, passes, frames, left_out, stages, memory_mib, scratch_mib } = &self.plan;
         let mut text = format!("{}: {frames} frames, {passes} passes of {photons} photons\n", self.project);
         for key in &self.keys {
             let _ = writeln!(text, "  {key}");
@@ -61,7 +61,7 @@ impl CheckReport {
         }
         let _ = writeln!(
             text,
-            "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory",
+            "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory, {scratch_mib:.0} MiB of scratch file",
             self.seconds
         );
         for LeftOut { what, why } in left_out {

@@ -106,6 +106,7 @@ impl Pipeline {
     ) -> Result<Summary> {
         let mut meter = Meter::default();
         let prepared = self.prepare(project, &mut meter)?;
+        prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
         let (visible, background) = self.look(project, &prepared, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
@@ -143,7 +144,9 @@ impl Pipeline {
                 "there is one key frame, so there is no flow to fit; add another",
             ));
         }
-        progress.set_road(prepared.plan.stages.clone());
+        let road = prepared.plan.stages.iter().copied();
+        progress
+            .set_road(road.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect());
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
         let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
@@ -185,7 +188,13 @@ impl Pipeline {
             let supplies = Supplies::load(project, extent, &assets)?;
             notes.extend(supplies.notes());
             let slots = Slots::new(&project.keys, &frames);
-            let plan = plan::plan(project, extent, frames.len(), supplies.given_rows(project.matching)?);
+            let plan = plan::plan(
+                project,
+                extent,
+                frames.len(),
+                supplies.given_rows(project.matching)?,
+                supplies.is_fixed(project.render.photons as usize),
+            );
             Ok(Prepared { scene, extent, supplies, slots, plan, notes })
         })
     }

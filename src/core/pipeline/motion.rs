@@ -102,7 +102,7 @@ fn match_next(batch: &Batch, method: Method, extent: Vec2, progress: &Progress) 
     }
     let from = &batch.at.positions;
     let map = transport_map(from, &points.positions, extent, &progress.inner())?;
-    let bound = dual_bound(&map, from, &points.positions);
+    let bound = dual_bound(&map, from, &points.positions, progress)?;
     let next = batch.pair(points, Some(&map), &progress.inner())?;
     let cost = mean_square_distance(from, &next.positions);
     // Nothing to move costs nothing, which is the optimum.

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::matching::Method;
 use crate::project::{Project, Shows};
+use crate::{Error, Result};
 
 /// A part of the road that this project does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -30,6 +31,8 @@ pub struct Plan {
     pub stages: Vec<(&'static str, f64)>,
     /// Expected peak memory in MiB.
     pub memory_mib: f64,
+    /// Expected size of the scratch file that holds all frames while they are rendered, in MiB.
+    pub scratch_mib: f64,
 }
 
 /// Measured on two cores of a server of 2024; only the progress bar and `check` live on them.
@@ -56,9 +59,15 @@ mod pace {
     pub(super) const WRITE: f64 = 4.7e6;
 }
 
-/// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given.
-pub(super) fn plan(project: &Project, extent: Vec2, frames: usize, given_rows: Option<usize>) -> Plan {
-    let fixed = project.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
+/// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given;
+/// `fixed` tells that every pass has the same points.
+pub(super) fn plan(
+    project: &Project,
+    extent: Vec2,
+    frames: usize,
+    given_rows: Option<usize>,
+    fixed: bool,
+) -> Plan {
     let photons = given_rows.unwrap_or(project.render.photons as usize);
     let passes = if fixed { 1 } else { project.render.passes as usize };
     let mut plan = Plan {
@@ -68,9 +77,11 @@ pub(super) fn plan(project: &Project, extent: Vec2, frames: usize, given_rows: O
         left_out: left_out(project, fixed),
         stages: Vec::new(),
         memory_mib: 0.0,
+        scratch_mib: 0.0,
     };
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
+    plan.scratch_mib = 12.0 * texels(project, extent) * frames as f64 / MIB;
     plan
 }
 
@@ -95,7 +106,11 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     leave(!still && given, "transport map", "the rows of the point files are paired as given");
     leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
     leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
-    leave(fixed && project.render.passes > 1, "passes after the first", "every key is a file of points");
+    leave(
+        fixed && project.render.passes > 1,
+        "passes after the first",
+        "every key is a file of points, and one pass shows them all",
+    );
     left
 }
 
@@ -122,9 +137,9 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     if traced {
         stages.push(("trace", trace));
     }
-    if segments > 0.0 {
-        stages.push(("match", segments * photons / pace::MATCH));
-        stages.push(("fit", steps * (0.01 + unknowns(project, extent) / pace::FIT)));
+    for _ in 1..project.keys.len() {
+        stages.push(("match", photons / pace::MATCH));
+        stages.push(("fit", f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT)));
     }
     let per_pass = trace
         + segments * photons / pace::REMATCH
@@ -151,12 +166,33 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
     // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
     let textures = 6.0 * 16.0 * texels(project, extent);
-    60.0 + (photons + fields + pixels * 600.0 + textures) / f64::from(1 << 20)
+    60.0 + (photons + fields + pixels * 600.0 + textures) / MIB
 }
 
+const MIB: f64 = 1_048_576.0;
+
 impl Plan {
+    /// Refuses work that would not fit into the memory that is free now, where the system tells how much that is.
+    pub(super) fn require_memory(&self) -> Result<()> {
+        let Some(free) = free_mib().filter(|free| self.memory_mib > *free) else { return Ok(()) };
+        let what = format!(
+            "needs about {:.1} GiB of memory, {:.1} GiB are free; ask for fewer photons, a smaller picture or fewer texels",
+            self.memory_mib / 1024.0,
+            free / 1024.0
+        );
+        Err(Error::Limit { place: "render".into(), what })
+    }
+
     /// Seconds of all stages.
     pub fn seconds(&self) -> f64 {
         self.stages.iter().map(|(_, seconds)| seconds).sum()
     }
+}
+
+/// Memory that a program may take without driving others out, in MiB: proc_meminfo(5).
+fn free_mib() -> Option<f64> {
+    let memory = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = memory.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
 }

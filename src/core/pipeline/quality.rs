@@ -25,9 +25,10 @@ impl Quality {
             flow.steps = flow.steps.min(30);
             flow.guides = flow.guides.min(20_000);
             let render = &mut project.render;
-            let shrink = (480.0 / f64::from(render.width.max(1))).min(1.0);
-            render.width = (f64::from(render.width) * shrink).round() as u32;
-            render.height = (f64::from(render.height) * shrink).round().max(1.0) as u32;
+            let shrink = (480.0 / f64::from(render.width.max(render.height).max(1))).min(1.0);
+            let side =
+                |pixels: u32| (f64::from(pixels) * shrink).round().max(f64::from(pixels.min(16))) as u32;
+            (render.width, render.height) = (side(render.width), side(render.height));
             render.photons = render.photons.min(50_000);
             render.passes = 1;
             render.background_samples = render.background_samples.min(16);

@@ -14,11 +14,12 @@ pub(super) struct Slots {
 impl Slots {
     pub(super) fn new(keys: &[KeyFrame], frames: &[i32]) -> Self {
         let mut moments: Vec<Moment> = frames.iter().map(|&frame| moment(keys, frame)).collect();
-        moments.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.time.total_cmp(&b.time)));
+        let order = |a: &Moment, b: &Moment| a.segment.cmp(&b.segment).then(a.time.total_cmp(&b.time));
+        moments.sort_by(order);
         moments.dedup();
         let slot = |frame: i32| {
             let wanted = moment(keys, frame);
-            moments.iter().position(|m| *m == wanted).unwrap_or(0)
+            moments.binary_search_by(|m| order(m, &wanted)).unwrap_or(0)
         };
         let frames = frames.iter().map(|&frame| (frame, slot(frame))).collect();
         Self { moments, frames }

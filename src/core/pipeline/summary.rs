@@ -76,6 +76,8 @@ pub struct Summary {
     pub photons: usize,
     /// Passes that were finished.
     pub passes: usize,
+    /// Passes that were planned; more than were finished in a run that was stopped.
+    pub passes_planned: usize,
     /// Frames that were written.
     pub frames: usize,
     /// The flow; absent where nothing moves.
@@ -130,7 +132,8 @@ impl Summary {
             seed: project.seed,
             photons: prepared.plan.photons,
             passes: done.passes,
-            frames: prepared.plan.frames,
+            passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
+            frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             flow,
             energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
             bad_values: done.bad_values,
@@ -141,7 +144,7 @@ impl Summary {
         }
     }
 
-    /// Whether a frame holds values that had to be replaced.
+    /// Whether a frame holds values that were not finite and had to be replaced.
     pub fn has_bad_frames(&self) -> bool {
         self.bad_values.nonfinite_replaced > 0
     }
@@ -171,6 +174,13 @@ impl Summary {
                 flow.straight_peak_ratio,
                 flow.dispersion,
                 flow.solver_iterations_mean
+            );
+        }
+        let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;
+        if !frames.is_empty() {
+            let _ = writeln!(
+                text,
+                "  replaced: {nonfinite_replaced} values that were not finite, {half_clamped} too large for half floats, in frames {frames:?}"
             );
         }
         for left in &self.left_out {

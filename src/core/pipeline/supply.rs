@@ -75,6 +75,11 @@ impl Supplies {
         self.seed
     }
 
+    /// Whether `count` photons show all there is, so that another pass would bring nothing new.
+    pub(super) fn is_fixed(&self, count: usize) -> bool {
+        self.keys.iter().all(|key| matches!(key, Supply::Points(points) if points.positions.len() <= count))
+    }
+
     /// The rows of the point files where rows are paired as given: all files must have the same number.
     pub(super) fn given_rows(&self, method: Method) -> Result<Option<usize>> {
         let mut rows = None;
@@ -123,14 +128,18 @@ impl Supplies {
     /// Pictures and points share the flux of the pass evenly (Sec. 3, "Flux Blending"), times rho except at the first
     /// key, times their own relative colours.
     pub(super) fn key(&self, key: usize, light: &PassLight, pass: u64, count: usize) -> KeyPhotons {
-        // Keys draw from streams of their own, so that two keys with one picture are not the same points.
-        let stream = (pass << 16) + key as u64;
-        let points = match &self.keys[key] {
-            Supply::Physical => return light.physical.clone().unwrap_or_default(),
-            Supply::Picture(picture) => picture.sample(self.seed, stream, count),
-            Supply::Points(points) => points.resampled(count, self.seed, stream),
-        };
+        // Keys draw from seeds of their own, so that two keys with one picture are not the same points.
+        let seed = self.seed ^ ((key as u64) << 40);
         let rho = if key == 0 { 1.0 } else { self.rho };
+        let points = match &self.keys[key] {
+            Supply::Physical => {
+                let mut photons = light.physical.clone().unwrap_or_default();
+                photons.flux.iter_mut().for_each(|flux| *flux *= rho);
+                return photons;
+            }
+            Supply::Picture(picture) => picture.sample(seed, pass, count),
+            Supply::Points(points) => points.resampled(count, seed, pass),
+        };
         let flux = flux::share_out(light.total * f64::from(rho), &points.colours, count);
         KeyPhotons { positions: points.positions, flux }
     }

@@ -68,7 +68,12 @@ impl AssetFolder {
         {
             return Err(outside(&shown, place, root));
         }
-        let real = path.canonicalize().map_err(Error::io("read", &path))?;
+        let real = path.canonicalize().map_err(|e| {
+            wrong(&format!(
+                "cannot be read at '{}': {e}; is it there, and spelled like this?",
+                path.display()
+            ))
+        })?;
         match &self.root {
             Some(root) if !real.starts_with(root) => Err(outside(&shown, place, root)),
             _ => Ok(real),

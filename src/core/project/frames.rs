@@ -56,7 +56,7 @@ fn range(part: &str, place: &str) -> Result<(i32, i32, i64)> {
         s.trim()
             .parse::<i32>()
             .ok()
-            .filter(|n| n.abs() <= 1_000_000)
+            .filter(|n| (-1_000_000..=1_000_000).contains(n))
             .ok_or_else(|| wrong("is not a frame number between -1000000 and 1000000"))
     };
     let (first, last) = (number(first)?, number(last)?);

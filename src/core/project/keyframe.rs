@@ -91,7 +91,7 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
         ));
     }
     for (i, key) in keys.iter().enumerate() {
-        if key.frame.abs() > 1_000_000 {
+        if !(-1_000_000..=1_000_000).contains(&key.frame) {
             return Err(Error::value(
                 format!("keys[{i}].frame"),
                 format!("{} is out of range; frames go from -1000000 to 1000000", key.frame),
@@ -113,8 +113,10 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
                 "a physical caustic needs a scene and this project has none; add \"scene\", or show an image or points",
             ));
         }
-        if let Shows::Image(image) = &key.shows {
-            image.check(&format!("keys[{i}].shows.image"))?;
+        match &key.shows {
+            Shows::PhysicalCaustic => {}
+            Shows::Image(image) => image.check(&format!("keys[{i}].shows.image"))?,
+            Shows::Points(points) => points.check(&format!("keys[{i}].shows.points"))?,
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Project, describe};
+use super::{Project, VERSION, describe};
 use crate::{Error, Result};
 
 /// Larger files are no projects: photons and pictures stand in files of their own.
@@ -17,6 +17,12 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     let mut json = serde_json::Deserializer::from_str(text);
     let read: Result<Project, _> = serde_path_to_error::deserialize(&mut json);
     let project = read.map_err(|error| {
+        if let Some(newer) = newer_version(text) {
+            let what = format!(
+                "the file is of version {newer}, this program reads up to {VERSION}; use a newer Lightloom"
+            );
+            return Error::format(path, "lightloom", what);
+        }
         let field = error.path().to_string();
         let inner = error.into_inner();
         let place = place(&inner, &field);
@@ -27,6 +33,12 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     })?;
     project.check().map_err(|error| in_file(error, path))?;
     Ok(project)
+}
+
+/// The version of a file that a later program wrote.
+fn newer_version(text: &str) -> Option<u64> {
+    let file: serde_json::Value = serde_json::from_str(text).ok()?;
+    file.get("lightloom")?.as_u64().filter(|version| *version > VERSION.into())
 }
 
 /// The bytes as UTF-8 text without byte order mark.
@@ -69,6 +81,9 @@ fn what(error: &serde_json::Error, field: &str) -> String {
 fn in_file(error: Error, path: &Path) -> Error {
     match error {
         Error::Value { place, what } => Error::Format { path: path.to_owned(), place, what },
+        Error::Limit { place, what } => {
+            Error::Limit { place: format!("'{}', {place}", path.display()), what }
+        }
         other => other,
     }
 }

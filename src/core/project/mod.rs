@@ -72,11 +72,12 @@ pub struct Project {
     pub output: OutputSettings,
 }
 
-/// The plane of a project without scene: points are given in plane units, the longer side being 1.
+/// The light of a project that shows no physical caustic, and the plane of one without scene: points are given in plane
+/// units, the longer side being 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlaneSettings {
-    /// Width over height, 0.01 to 100, default 1.
+    /// Width over height, 0.01 to 100, default 1. A scene has its receiver instead.
     pub aspect: f32,
     /// Power of all the light on it in watts, 1e-9 to 1e9, default 1. A plane unit counts as one metre.
     pub watts: f32,
@@ -158,6 +159,17 @@ impl Project {
             return Err(Error::value("matching", what));
         }
         Ok(())
+    }
+
+    /// The files that the project names, as written.
+    pub fn files(&self) -> Vec<&str> {
+        let meshes = self.scene.iter().flat_map(|scene| scene.meshes.iter().map(|mesh| mesh.file.as_str()));
+        let shown = self.keys.iter().filter_map(|key| match &key.shows {
+            Shows::PhysicalCaustic => None,
+            Shows::Image(image) => Some(image.file.as_str()),
+            Shows::Points(points) => Some(points.file.as_str()),
+        });
+        meshes.chain(shown).collect()
     }
 
     /// The frames asked for: the list in `output.frames`, or all from the first key to the last.

@@ -41,6 +41,17 @@ impl OutputSettings {
         if self.png_bits == 16 { PngDepth::Sixteen } else { PngDepth::Eight }
     }
 
+    /// Whether a frame of these settings may have the file name `name`.
+    pub fn writes(&self, name: &str) -> bool {
+        let frame_of = |format: &FrameFormat| {
+            let (before, after) = self.name.split_once(['#', '%'])?;
+            let after = after.trim_start_matches(['#', '0', '4', 'd']);
+            let stem = name.strip_suffix(format.extension())?.strip_suffix('.')?;
+            stem.strip_prefix(before)?.strip_suffix(after)?.parse::<i64>().ok()
+        };
+        self.formats.iter().any(|format| frame_of(format).is_some())
+    }
+
     /// Refuses values that cannot be used, naming them below `place`.
     pub(super) fn check(&self, place: &str) -> Result<()> {
         let wrong = |field: &str, what: String| Err(Error::value(format!("{place}.{field}"), what));

@@ -52,7 +52,8 @@ impl FrameStore {
             self.write(&mut inner.file, frame, pass.texels()).map_err(fail)?;
         } else {
             let mut sum = ReceiverTexture::new(self.layout);
-            self.read(&mut inner.file, frame, sum.texels_mut()).map_err(Error::io("read", &self.folder))?;
+            self.read(&mut inner.file, frame, sum.texels_mut())
+                .map_err(Error::io("read the scratch file in", &self.folder))?;
             sum.texels_mut().iter_mut().zip(pass.texels()).for_each(|(sum, texel)| *sum += texel);
             self.write(&mut inner.file, frame, sum.texels()).map_err(fail)?;
         }
