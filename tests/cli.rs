@@ -154,6 +154,14 @@ fn check_says_what_is_left_out_and_what_it_would_cost() {
 }
 
 #[test]
+fn check_notes_a_stretched_grid() {
+    let (_folder, project) = letters();
+    let text_of = fs::read_to_string(&project).unwrap();
+    fs::write(&project, text_of.replace("\"grid\":32", "\"grid\":[4096,8]")).unwrap();
+    assert!(run(&["check", text(&project)]).contains("stretched 512 : 1"));
+}
+
+#[test]
 fn schema_is_json_and_knows_the_fields() {
     let schema: Value = serde_json::from_str(&run(&["schema"])).unwrap();
     assert!(schema["properties"]["keys"].is_object());

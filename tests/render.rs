@@ -156,27 +156,32 @@ fn the_error_falls_with_the_passes_as_n_to_the_minus_one_third_or_faster() {
     let render = ProgressiveRender::new(layout, 0.03, 1, folder.path()).unwrap();
     let mut work = Workspace::new(layout);
     let flux = vec![Vec3::splat(1.0 / photons as f32); photons]; // One watt.
+    // Root mean square error after more passes: where the light is smooth, and with the edge. Away from the border of
+    // the plane, where light ends, and from the texels beside the edge, which no kernel resolves.
     let mut rms_after = |passes: std::ops::Range<usize>| {
         for pass in passes {
             render.add(0, pass, &slope_with_edge(photons, pass as u64), &flux, &mut work).unwrap();
         }
         let (mean, _) = render.mean(0).unwrap();
-        // Away from the border of the plane, where light ends, and in the texels beside the edge, which no kernel resolves.
-        let mut errors = Vec::new();
-        for (i, texel) in mean.texels().iter().enumerate() {
-            let p = layout.plane_from_texel(i % layout.columns, i / layout.columns);
-            if p.x > 0.1 && p.x < 0.9 && p.y > 0.1 && p.y < 0.9 && (p.x - 0.5).abs() > layout.texel {
-                let total = 0.25 + 0.75;
-                let expected = density(p) / total * layout.texel * layout.texel;
-                errors.push(f64::from((texel.x / expected - 1.0).powi(2)));
+        let rms = |strip: f32| {
+            let mut errors = Vec::new();
+            for (i, texel) in mean.texels().iter().enumerate() {
+                let p = layout.plane_from_texel(i % layout.columns, i / layout.columns);
+                if p.x > 0.1 && p.x < 0.9 && p.y > 0.1 && p.y < 0.9 && (p.x - 0.5).abs() > strip {
+                    let expected = density(p) * layout.texel * layout.texel;
+                    errors.push(f64::from((texel.x / expected - 1.0).powi(2)));
+                }
             }
-        }
-        (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
+            (errors.iter().sum::<f64>() / errors.len() as f64).sqrt()
+        };
+        [rms(0.04), rms(layout.texel)]
     };
     let (few, many) = (rms_after(0..4), rms_after(4..64));
-    let order = (few / many).log2() / 16.0_f64.log2();
-    // Noise falls as N^(-1/3); at the edge the bias as N^(-1/12) only, over a strip that narrows, N^(-1/6) together.
-    assert!(order > 0.30, "rms {few} after 4 passes, {many} after 64: order {order}");
+    let [smooth, edge] = [0, 1].map(|i| (few[i] / many[i]).log2() / 16.0_f64.log2());
+    // Knaus & Zwicker 2011: noise and bias fall so that the rms goes as N^(-1/3). Measured 0.37 for both: the seeds are
+    // fixed, so only another kernel or another radius can bring it below.
+    assert!(smooth > 1.0 / 3.0, "rms {few:?} after 4 passes, {many:?} after 64: order {smooth}");
+    assert!(edge > 1.0 / 3.0, "rms {few:?} after 4 passes, {many:?} after 64: order {edge}");
 }
 
 #[test]

@@ -28,6 +28,7 @@ pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
+use crate::flow::GridSize;
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
@@ -187,6 +188,7 @@ impl Pipeline {
             let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
             let supplies = Supplies::load(project, extent, &assets)?;
             notes.extend(supplies.notes());
+            notes.extend(stretch_note(project.flow.grid, extent));
             let slots = Slots::new(&project.keys, &frames);
             let plan = plan::plan(
                 project,
@@ -260,6 +262,18 @@ impl Prepared {
     ) -> Result<Batch<'a>> {
         Batch::start(&self.supplies, tracer, project.matching, pass, self.plan.photons, &progress.inner())
     }
+}
+
+/// A grid of long cells smooths more along them than across.
+fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
+    let [columns, rows] = grid.cells(extent).map(|n| n as f32);
+    let [width, height] = [extent.x / columns, extent.y / rows];
+    let stretch = width.max(height) / width.min(height);
+    (stretch > 2.0).then(|| {
+        format!(
+            "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
+        )
+    })
 }
 
 /// Learns where the lights must aim, where a key shows the physical caustic.
