@@ -3,14 +3,39 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use lightloom_core::pipeline::Summary;
-use lightloom_core::project::Project;
+use lightloom_core::pipeline::{Pipeline, Summary};
+use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress, Result};
 
-use super::progress::Lines;
+use super::args::ProjectArgs;
+use super::progress::{Display, Lines};
+
+/// Told of each file that is complete.
+type Saved<'a> = &'a (dyn Fn(&Path) + Sync);
+
+/// Loads the project, shows how far `work` is, then writes and prints its summary.
+pub(super) fn run(
+    args: &ProjectArgs,
+    out: &Path,
+    work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<Summary>,
+) -> Result<Summary> {
+    args.set_threads()?;
+    let project = args.load()?;
+    let assets = AssetFolder::new(&args.path, args.allow_external)?;
+    prepare_folder(out, &args.path, &project)?;
+    let progress = Progress::new();
+    stop_on_interrupt(&progress);
+
+    let display = Display::start(&progress, Lines::beside(args.json));
+    let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
+    let summary = work(&mut Pipeline::new(assets), &project, &progress, &saved)?;
+    drop(display);
+    conclude(&summary, out, args.json)?;
+    Ok(summary)
+}
 
 /// Ctrl-C asks the work to stop; a second one leaves at once.
-pub(super) fn stop_on_interrupt(progress: &Progress) {
+fn stop_on_interrupt(progress: &Progress) {
     let progress = progress.clone();
     let set = ctrlc::set_handler(move || {
         if progress.is_cancelled() {
@@ -25,7 +50,7 @@ pub(super) fn stop_on_interrupt(progress: &Progress) {
 
 /// Makes the output folder, and tries whether files can be made in it before hours of work go there. No file of the
 /// project may take the place of one that it is made from.
-pub(super) fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<()> {
+fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<()> {
     if dir.is_file() {
         return Err(Error::value("--out", format!("'{}' is a file; name a folder", dir.display())));
     }
@@ -52,7 +77,7 @@ pub(super) fn prepare_folder(dir: &Path, project_path: &Path, project: &Project)
 const OUTPUTS: [&str; 5] = ["summary.json", "contact_sheet.png", "tracks.npy", "flux.npy", "fields.npz"];
 
 /// Writes summary.json, and prints it as JSON or as a few lines.
-pub(super) fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {
+fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
     let path = dir.join("summary.json");
     lightloom_core::files::write_atomic(&path, |file| file.write_all(text.as_bytes()))?;
