@@ -64,12 +64,7 @@ impl Matching {
 
     /// Mean squared distance between source points and their targets, plane units squared.
     pub fn cost(&self, source: &[Vec2], target: &[Vec2]) -> f64 {
-        let sum: f64 = source
-            .iter()
-            .zip(&self.target_of)
-            .map(|(a, &row)| a.as_dvec2().distance_squared(target[row as usize].as_dvec2()))
-            .sum();
-        sum / source.len() as f64
+        mean_square_distance(source, self.target_of.iter().map(|&row| target[row as usize]))
     }
 
     /// Whether every target is taken exactly once.
@@ -79,6 +74,12 @@ impl Matching {
             .iter()
             .all(|&row| taken.get_mut(row as usize).is_some_and(|taken| !std::mem::replace(taken, true)))
     }
+}
+
+/// Mean squared distance of points that are paired row by row, in plane units squared; 0 without points.
+pub fn mean_square_distance(source: &[Vec2], targets: impl Iterator<Item = Vec2>) -> f64 {
+    let sum: f64 = source.iter().zip(targets).map(|(a, b)| a.as_dvec2().distance_squared(b.as_dvec2())).sum();
+    sum / source.len().max(1) as f64
 }
 
 fn halved(

@@ -19,7 +19,7 @@ mod settings;
 mod swap;
 mod transport_map;
 
-pub use bijection::Matching;
+pub use bijection::{Matching, mean_square_distance};
 pub use dual::dual_bound;
 pub use settings::Method;
 pub use transport_map::{TransportMap, transport_map};

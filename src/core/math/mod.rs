@@ -3,6 +3,7 @@
 pub mod bspline;
 pub mod cg;
 pub mod cholesky;
+pub mod colour;
 pub mod distribution;
 pub mod hilbert;
 pub mod kronecker;

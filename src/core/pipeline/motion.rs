@@ -7,7 +7,7 @@ use super::meter::Meter;
 use super::summary::FlowNumbers;
 use super::supply::KeyPhotons;
 use crate::flow::{Fields, FlowSettings, fit_segment};
-use crate::matching::{Method, TransportMap, dual_bound, transport_map};
+use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
 use crate::project::{KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
 use crate::{Progress, Result};
@@ -104,13 +104,8 @@ fn match_next(batch: &Batch, method: Method, extent: Vec2, progress: &Progress) 
     let map = transport_map(from, &points.positions, extent, &progress.inner())?;
     let bound = dual_bound(&map, from, &points.positions, progress)?;
     let next = batch.pair(points, Some(&map), &progress.inner())?;
-    let cost = mean_square_distance(from, &next.positions);
+    let cost = mean_square_distance(from, next.positions.iter().copied());
     // Nothing to move costs nothing, which is the optimum.
     let cost_ratio = if bound > 0.0 { cost / bound } else { 1.0 };
     Ok(Paired { map: Some(map), next, cost_ratio: Some(cost_ratio) })
-}
-
-fn mean_square_distance(a: &[Vec2], b: &[Vec2]) -> f64 {
-    let sum: f64 = a.iter().zip(b).map(|(a, b)| a.as_dvec2().distance_squared(b.as_dvec2())).sum();
-    sum / a.len().max(1) as f64
 }

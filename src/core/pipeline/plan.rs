@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::matching::Method;
 use crate::project::{Project, Shows};
+use crate::render::frames::FrameStore;
 use crate::{Error, Result};
 
 /// A part of the road that this project does not need.
@@ -81,7 +82,7 @@ pub(super) fn plan(
     };
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
-    plan.scratch_mib = 12.0 * texels(project, extent) * frames as f64 / MIB;
+    plan.scratch_mib = FrameStore::bytes(texels(project, extent) as usize, frames) as f64 / MIB;
     plan
 }
 

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
+use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::material::fresnel::toward;
 use crate::scene::material::{Beam, Material};
@@ -114,11 +115,6 @@ impl Pixel {
         let variance = (self.square / n - self.luminance().powi(2)).max(0.0);
         (variance / (n - 1.0)).sqrt()
     }
-}
-
-/// Luminance of linear Rec.709.
-fn luminance(c: Vec3) -> f32 {
-    c.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// The path tracer.

@@ -35,8 +35,8 @@ impl FrameStore {
     }
 
     /// The room it takes once every frame has light: 12 bytes per texel and frame.
-    pub fn bytes(layout: &TextureLayout, frames: usize) -> u64 {
-        frame_bytes(layout) * frames as u64
+    pub fn bytes(texels: usize, frames: usize) -> u64 {
+        frame_bytes(texels) * frames as u64
     }
 
     /// Adds the light of one more pass to a frame. Frames may come in any order and from any thread; the passes of one
@@ -80,7 +80,7 @@ impl FrameStore {
     }
 
     fn write(&self, file: &mut File, frame: usize, texels: &[Vec4]) -> io::Result<()> {
-        file.seek(SeekFrom::Start(frame_bytes(&self.layout) * frame as u64))?;
+        file.seek(SeekFrom::Start(frame_bytes(self.layout.len()) * frame as u64))?;
         let mut packed = Vec::with_capacity(PACK);
         for texels in texels.chunks(PACK) {
             packed.clear();
@@ -91,7 +91,7 @@ impl FrameStore {
     }
 
     fn read(&self, file: &mut File, frame: usize, texels: &mut [Vec4]) -> io::Result<()> {
-        file.seek(SeekFrom::Start(frame_bytes(&self.layout) * frame as u64))?;
+        file.seek(SeekFrom::Start(frame_bytes(self.layout.len()) * frame as u64))?;
         let mut packed = vec![[0.0_f32; 3]; PACK];
         for texels in texels.chunks_mut(PACK) {
             let packed = &mut packed[..texels.len()];
@@ -108,6 +108,6 @@ impl FrameStore {
 /// Texels per call of the operating system.
 const PACK: usize = 1 << 16;
 
-fn frame_bytes(layout: &TextureLayout) -> u64 {
-    (layout.len() * size_of::<[f32; 3]>()) as u64
+fn frame_bytes(texels: usize) -> u64 {
+    (texels * size_of::<[f32; 3]>()) as u64
 }

@@ -128,11 +128,6 @@ impl Visible {
         &self.layout
     }
 
-    /// Memory that it holds, in bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(self.taps.as_slice()) + size_of_val(self.starts.as_slice())
-    }
-
     fn from_rows(width: usize, height: usize, layout: &TextureLayout, rows: Vec<Row>) -> Self {
         let mut starts = Vec::with_capacity(width * height + 1);
         let mut taps = Vec::with_capacity(rows.iter().map(|row| row.taps.len()).sum());

@@ -6,8 +6,9 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::decode::{Picture, linear_from_srgb};
-use super::points::{LUMINANCE, Points};
+use super::points::Points;
 use super::settings::{Channel, ImageTarget};
+use crate::math::colour::luminance;
 use crate::math::distribution::Distribution2;
 use crate::math::rng::{Purpose, Stream};
 use crate::math::sobol;
@@ -184,7 +185,7 @@ fn attraction(colour: Vec3, alpha: f32, invert: bool, channel: Channel) -> (f32,
     let colour =
         if invert && channel == Channel::Brightness { (alpha - colour).max(Vec3::ZERO) } else { colour };
     match channel {
-        Channel::Brightness => (colour.dot(LUMINANCE), colour),
+        Channel::Brightness => (luminance(colour), colour),
         Channel::Alpha if invert => (1.0 - alpha, colour),
         Channel::Alpha => (alpha, colour),
     }

@@ -5,12 +5,11 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 
 use crate::files::read_regular_file;
+use crate::math::colour::luminance;
 use crate::math::hilbert;
 use crate::math::rng::{Purpose, Stream};
 use crate::{Error, Result};
 
-/// Luminance of linear Rec. 709.
-pub(super) const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 /// Largest file.
 const MAX_BYTES: u64 = 64 << 20;
 /// Most points.
@@ -47,7 +46,7 @@ impl Points {
 
     /// Scales the colours; colours without any light are dropped.
     pub(super) fn with_mean_luminance_one(mut self) -> Self {
-        let sum: f64 = self.colours.iter().map(|colour| f64::from(colour.dot(LUMINANCE))).sum();
+        let sum: f64 = self.colours.iter().map(|colour| f64::from(luminance(*colour))).sum();
         if sum > 0.0 {
             let scale = (self.colours.len() as f64 / sum) as f32;
             self.colours.iter_mut().for_each(|colour| *colour *= scale);
