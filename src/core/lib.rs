@@ -37,6 +37,8 @@ pub mod photon;
 
 pub mod target;
 
+pub mod constraint;
+
 pub mod matching;
 
 pub mod flow;
