@@ -7,7 +7,7 @@ use glam::{DVec2, Vec2, Vec3};
 use lightloom_core::flow::field::{Field, Grid};
 use lightloom_core::flow::flux;
 use lightloom_core::flow::{
-    Carrier, Fade, Fields, FlowReport, FlowSettings, GridSize, fit_segment, metric, spatial_order,
+    Carrier, Course, Fade, Fields, FlowReport, FlowSettings, GridSize, fit_segment, metric, spatial_order,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::{Error, Progress};
@@ -35,8 +35,12 @@ fn disc_to_lobes(count: usize) -> (Vec<Vec2>, Vec<Vec2>) {
 
 const EXTENT: Vec2 = Vec2::new(1.0, 0.75);
 
+fn course<'a>(source: &'a [Vec2], target: &'a [Vec2], settings: &'a FlowSettings) -> Course<'a> {
+    Course { source, target, extent: EXTENT, settings, number: 0 }
+}
+
 fn fitted(source: &[Vec2], target: &[Vec2], settings: &FlowSettings) -> (Fields, FlowReport) {
-    fit_segment(source, target, EXTENT, settings, &Progress::new(), None).unwrap()
+    fit_segment(&course(source, target, settings), &Progress::new(), None).unwrap()
 }
 
 fn positions(fields: &Fields, source: &[Vec2], target: &[Vec2], times: &[f64]) -> Vec<Vec<Vec2>> {
@@ -181,7 +185,7 @@ fn a_guide_photon_moves_alike_in_every_later_pass() {
     let mut keep = |_: usize, c: &[Vec2]| tracks.push(c.to_vec());
     let settings = FlowSettings { guides: 500, ..settings(0.4, 6) };
     let (fields, report) =
-        fit_segment(&source, &target, EXTENT, &settings, &Progress::new(), Some(&mut keep)).unwrap();
+        fit_segment(&course(&source, &target, &settings), &Progress::new(), Some(&mut keep)).unwrap();
     assert_eq!((report.guides, tracks.len()), (500, 7));
     let mut carrier = Carrier::new(&fields, &source, &target);
     let mut now = vec![Vec2::ZERO; source.len()];
@@ -301,7 +305,7 @@ fn a_cancelled_run_says_so() {
     let (source, target) = disc_to_lobes(200);
     let cancelled = Progress::new();
     cancelled.cancel();
-    let fit = fit_segment(&source, &target, EXTENT, &settings(0.5, 4), &cancelled, None);
+    let fit = fit_segment(&course(&source, &target, &settings(0.5, 4)), &cancelled, None);
     assert!(matches!(fit, Err(Error::Cancelled)));
     let (fields, _) = fitted(&source, &target, &settings(0.5, 4));
     let mut out = vec![Vec2::ZERO; source.len()];
@@ -324,7 +328,7 @@ fn photons_that_are_no_longer_finite_are_counted_not_spread() {
 #[test]
 fn bad_photons_are_refused() {
     let refuse = |source: &[Vec2], target: &[Vec2], said: &str| {
-        let error = fit_segment(source, target, EXTENT, &settings(0.5, 2), &Progress::new(), None);
+        let error = fit_segment(&course(source, target, &settings(0.5, 2)), &Progress::new(), None);
         let message = error.err().unwrap().to_string();
         assert!(message.contains(said), "{message}");
     };

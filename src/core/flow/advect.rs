@@ -5,8 +5,8 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::fade::{Fade, ease};
-use super::field::Field;
 use super::guidance::position;
+use super::stage::Stage;
 use crate::{Error, Progress, Result};
 
 /// Photons per parallel task: fits the L1 cache beside the coefficients around them.
@@ -19,8 +19,8 @@ pub(super) struct Step {
     pub start: f64,
     /// Duration.
     pub length: f64,
-    /// Field and (1-s)/(1-t) at begin, middle and end; nothing once the fade has ended and all go straight.
-    pub stages: Option<[(Field, f32); 3]>,
+    /// The field and its rate at begin, middle and end; nothing once the fade has ended and all go straight.
+    pub stages: Option<[Stage; 3]>,
 }
 
 /// Photons on their way, column by column.
@@ -147,9 +147,9 @@ impl Step {
             return [Vec2::ZERO; 3];
         };
         let (t, h) = (self.start as f32, self.length as f32);
-        let slope = |(field, rate): &(Field, f32), v: Vec2, t: f32| {
-            let u = field.velocity(position(target, v, t));
-            (v - u) * (h * rate * ease(v.length() * per_limit))
+        let slope = |stage: &Stage, v: Vec2, t: f32| {
+            let u = stage.velocity(position(target, v, t));
+            (v - u) * (h * stage.rate * ease(v.length() * per_limit))
         };
         let k1 = slope(begin, v, t);
         let k2 = slope(middle, v + 0.5 * k1, t + 0.5 * h);

@@ -39,6 +39,7 @@ pub mod settings;
 
 mod advect;
 mod report;
+mod stage;
 mod trajectory;
 
 use glam::Vec2;
@@ -60,7 +61,22 @@ const MAX_ITERATIONS: usize = 500;
 /// Is shown the step and the positions of the guide photons there.
 pub type Tracks<'a> = &'a mut dyn FnMut(usize, &[Vec2]);
 
-/// Fits the fields that carry photons from `source` to `target`, row by row, on the rectangle `extent`.
+/// What lies between two key frames: where the photons come from, where they go, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<'a> {
+    /// Positions of n photons at the begin, plane units.
+    pub source: &'a [Vec2],
+    /// Where the photon of the same row ends, n points.
+    pub target: &'a [Vec2],
+    /// Size of the plane; its longer side is 1.
+    pub extent: Vec2,
+    /// How they flow.
+    pub settings: &'a FlowSettings,
+    /// Which segment of the animation this is, from 0: what changes in time by itself goes on from the segment before.
+    pub number: usize,
+}
+
+/// Fits the fields that carry photons along a course, row by row.
 ///
 /// The fields are fitted to at most `settings.guides` photons, taken evenly from all: a field of 128 x 128 cells is determined
 /// by some 100 000. `tracks` is shown the positions of these guides at the begin of each step and at the end.
@@ -69,13 +85,11 @@ pub type Tracks<'a> = &'a mut dyn FnMut(usize, &[Vec2]);
 /// `Value` when there are no photons, the columns differ in length or hold a number that is not finite; `Numeric` when the
 /// solver fails or a photon is lost; `Cancelled`.
 pub fn fit_segment(
-    source: &[Vec2],
-    target: &[Vec2],
-    extent: Vec2,
-    settings: &FlowSettings,
+    course: &Course,
     progress: &Progress,
     mut tracks: Option<Tracks>,
 ) -> Result<(Fields, FlowReport)> {
+    let Course { source, target, extent, settings, .. } = *course;
     check_photons(source, target)?;
     let guides = guide_rows(source.len(), settings.guides as usize);
     let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();

@@ -5,6 +5,7 @@ use glam::Vec2;
 use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
+use super::stage::Stage;
 use crate::{Progress, Result};
 
 /// The fields fitted between two key frames: all that moves photons, whatever pass they are from.
@@ -73,7 +74,7 @@ impl Fields {
             [0.0, 0.5, 1.0].map(|x| {
                 let mut field = now.clone();
                 Field::blend(now, 1.0 + x, before, -x, &mut field);
-                (field, self.fade.rate(start + f64::from(x) * (end - start)))
+                Stage { field, rate: self.fade.rate(start + f64::from(x) * (end - start)) }
             })
         });
         Step { start, length: end - start, stages }

@@ -6,7 +6,7 @@ use super::batch::Batch;
 use super::meter::Meter;
 use super::summary::FlowNumbers;
 use super::supply::KeyPhotons;
-use crate::flow::{Fields, FlowSettings, fit_segment};
+use crate::flow::{Course, Fields, FlowSettings, fit_segment};
 use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
 use crate::project::{KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
@@ -69,11 +69,12 @@ pub(super) fn fit(
     progress: &Progress,
 ) -> Result<Motion> {
     let mut motion = Motion { segments: Vec::new(), numbers: None };
-    for _ in 1..project.keys.len() {
+    for number in 0..project.keys.len().saturating_sub(1) {
         progress.begin("match", 1);
         let paired = meter.measure("match", || match_next(&batch, project.matching, extent, progress))?;
         let (fields, report) = meter.measure("fit", || {
-            fit_segment(&batch.at.positions, &paired.next.positions, extent, &project.flow, progress, None)
+            let (source, target) = (&batch.at.positions[..], &paired.next.positions[..]);
+            fit_segment(&Course { source, target, extent, settings: &project.flow, number }, progress, None)
         })?;
         let numbers = FlowNumbers { flow: report, transport_cost_ratio: paired.cost_ratio, flux_ratio: 1.0 };
         motion.numbers = Some(match motion.numbers.take() {
