@@ -1,10 +1,13 @@
 //! The fields of a segment, kept, and the photons of any pass carried along them.
 
+use std::sync::Arc;
+
 use glam::Vec2;
 
 use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
+use super::obstacles::Obstacles;
 use super::stage::Stage;
 use crate::{Progress, Result};
 
@@ -18,6 +21,7 @@ pub struct Fields {
     steps: usize,
     fade: Fade,
     mean_straight: f32,
+    obstacles: Option<Arc<Obstacles>>,
 }
 
 impl Fields {
@@ -26,14 +30,19 @@ impl Fields {
     /// # Panics
     /// When there is no step, or a field is missing before the fade has ended.
     pub fn from_nodes(nodes: Vec<Field>, steps: usize, fade: Fade, mean_straight: f32) -> Self {
-        let fields = Self { nodes, steps, fade, mean_straight };
+        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None) };
         let asked = (0..steps).filter(|&n| fields.time(n) < fade.end()).count();
         assert!(asked > 0 && fields.nodes.len() >= asked, "a field for every step until the fade ends");
         fields
     }
 
-    pub(super) fn new(steps: usize, fade: Fade, mean_straight: f32) -> Self {
-        Self { nodes: Vec::new(), steps, fade, mean_straight }
+    pub(super) fn new(
+        steps: usize,
+        fade: Fade,
+        mean_straight: f32,
+        obstacles: Option<Arc<Obstacles>>,
+    ) -> Self {
+        Self { nodes: Vec::new(), steps, fade, mean_straight, obstacles }
     }
 
     pub(super) fn push(&mut self, field: Field) {
@@ -61,6 +70,11 @@ impl Fields {
         self.mean_straight
     }
 
+    /// The walls; none where none ever stands.
+    pub fn obstacles(&self) -> Option<&Arc<Obstacles>> {
+        self.obstacles.as_ref()
+    }
+
     /// Begin of step `n`.
     pub(super) fn time(&self, n: usize) -> f64 {
         n as f64 / self.steps as f64
@@ -77,8 +91,17 @@ impl Fields {
                 Stage { field, rate: self.fade.rate(start + f64::from(x) * (end - start)) }
             })
         });
-        Step { start, length: end - start, stages }
+        Step { number: n, left: self.steps - 1 - n, start, length: end - start, stages }
     }
+}
+
+/// Photons that walls did not keep.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Astray {
+    /// Whose target no way reaches: they go straight.
+    pub unreachable: usize,
+    /// That crossed a wall though a way leads around it; 0 unless the program is wrong.
+    pub crossings: usize,
 }
 
 /// Photons of one pass on their way along the fields. Its memory is 36 bytes a photon, whatever the number of frames.
@@ -100,7 +123,8 @@ impl<'a> Carrier<'a> {
     /// When the columns differ in length.
     pub fn new(fields: &'a Fields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
         assert_eq!(source.len(), targets.len(), "each photon has one target");
-        let swarm = Swarm::new(source, targets, &fields.fade, fields.mean_straight);
+        let fade = (fields.fade, fields.mean_straight);
+        let swarm = Swarm::new(source, targets, fade, fields.obstacles.as_deref());
         Self { fields, source, targets, swarm, begun: 0 }
     }
 
@@ -133,6 +157,11 @@ impl<'a> Carrier<'a> {
         let t = self.enter(t, out.len(), progress)?;
         self.swarm.positions(t, out);
         Ok(())
+    }
+
+    /// Photons so far whose target no way around the walls reaches, and those that crossed a wall though one did.
+    pub fn astray(&self) -> Astray {
+        self.swarm.astray()
     }
 
     fn enter(&mut self, t: f64, places: usize, progress: &Progress) -> Result<f64> {

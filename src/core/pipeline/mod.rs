@@ -5,6 +5,7 @@
 
 mod batch;
 mod check;
+mod drawn;
 mod finish;
 mod meter;
 mod motion;

@@ -26,6 +26,7 @@ pub use asset_path::AssetFolder;
 pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
+use crate::constraint::Constraint;
 use crate::flow::FlowSettings;
 use crate::matching::Method;
 use crate::render::RenderSettings;
@@ -61,6 +62,9 @@ pub struct Project {
     /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
     #[serde(default)]
     pub matching: Method,
+    /// What the artist drew: directed lines and walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constraints: Vec<Constraint>,
     /// The vector field and the way along it.
     #[serde(default)]
     pub flow: FlowSettings,
@@ -145,6 +149,9 @@ impl Project {
         self.plane.check("plane")?;
         keyframe::check(&self.keys, self.scene.is_some())?;
         self.check_given()?;
+        for (i, constraint) in self.constraints.iter().enumerate() {
+            constraint.check(&format!("constraints[{i}]"))?;
+        }
         self.flow.check("flow")?;
         self.render.check("render")?;
         self.output.check("output")
