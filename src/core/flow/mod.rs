@@ -36,6 +36,7 @@ pub mod flux;
 pub mod guidance;
 pub mod metric;
 pub mod settings;
+pub mod turbulence;
 
 mod advect;
 mod report;
@@ -48,6 +49,7 @@ pub use fade::Fade;
 pub use report::FlowReport;
 pub use settings::{FitKind, FlowSettings, GridSize};
 pub use trajectory::{Carrier, Fields, spatial_order};
+pub use turbulence::{Turbulence, TurbulenceSettings};
 
 use self::advect::Swarm;
 use self::field::Grid;
@@ -89,15 +91,17 @@ pub fn fit_segment(
     progress: &Progress,
     mut tracks: Option<Tracks>,
 ) -> Result<(Fields, FlowReport)> {
-    let Course { source, target, extent, settings, .. } = *course;
+    let Course { source, target, extent, settings, number } = *course;
     check_photons(source, target)?;
     let guides = guide_rows(source.len(), settings.guides as usize);
     let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();
     let target: Vec<Vec2> = guides.iter().map(|&i| target[i]).collect();
     let steps = settings.steps as usize;
-    let mut fields = Fields::new(steps, settings.fade, guidance::mean_straight(&source, &target));
+    let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
+    let mean_straight = guidance::mean_straight(&source, &target);
+    let mut fields = Fields::new(steps, settings.fade, mean_straight, turbulence);
     let mut fitter = Fitter::new(fit_settings(settings, extent))?;
-    let mut swarm = Swarm::new(&source, &target, &settings.fade, fields.mean_straight());
+    let mut swarm = Swarm::new(&source, &target, &settings.fade, fields.pace());
     let mut observer = Observer::new(&source, &target, extent);
     let mut positions = source.clone();
     let mut directions = guidance::guidance(&source, &target, 0.0);
@@ -109,7 +113,7 @@ pub fn fit_segment(
         }
         if t < settings.fade.end() {
             let (field, fit) = fitter.fit(&positions, &directions, progress)?;
-            observer.fitted(&field, &fit, &positions, &directions);
+            observer.fitted((&field, &fields.noise(t)), &fit, &positions, &directions);
             fields.push(field);
         }
         let step = fields.step(n);
@@ -123,7 +127,7 @@ pub fn fit_segment(
     if let Some(show) = &mut tracks {
         show(steps, &positions);
     }
-    let report = observer.finish(&positions);
+    let report = observer.finish(&positions, fields.turbulence());
     Ok((fields, report))
 }
 
