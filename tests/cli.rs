@@ -162,6 +162,29 @@ fn check_notes_a_stretched_grid() {
 }
 
 #[test]
+fn turbulence_is_left_out_or_told_of_and_exported() {
+    let (folder, project) = letters();
+    let none = run(&["check", text(&project)]);
+    assert!(none.contains("left out: turbulence") && !none.contains("note"), "{none}");
+    let text_of = fs::read_to_string(&project).unwrap();
+    let turbulent =
+        text_of.replace("\"grid\":32", r#""turbulence":{"strength":20,"grids":[100,30]},"grid":32"#);
+    fs::write(&project, turbulent).unwrap();
+    let some = run(&["check", text(&project)]);
+    // 0.2 times 100 cells in 8 steps.
+    assert!(!some.contains("left out: turbulence") && some.contains("give flow.steps 20"), "{some}");
+
+    let out = folder.path().join("out");
+    run(&["fit", text(&project), "--out", text(&out)]);
+    let mut fields = npyz::npz::NpzArchive::open(out.join("fields.npz")).unwrap();
+    let noise = fields.by_name("noise_0_30").unwrap().unwrap();
+    // Of 8 steps the fade needs 8 fits; 30 cells have 33 coefficients.
+    assert_eq!(noise.shape(), [8, 33, 33]);
+    let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert!((summary["turbulence_rms"].as_f64().unwrap() - 0.2).abs() < 1e-6);
+}
+
+#[test]
 fn schema_is_json_and_knows_the_fields() {
     let schema: Value = serde_json::from_str(&run(&["schema"])).unwrap();
     assert!(schema["properties"]["keys"].is_object());

@@ -1,9 +1,10 @@
-//! Photons carried along given fields: 1 M photons on a 128 x 128 grid. The item count is photon-steps.
+//! Photons carried along given fields, without and with turbulence: 1 M photons on a 128 x 128 grid. The item count is
+//! photon-steps.
 
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::{Carrier, Fade, Fields, spatial_order};
+use lightloom_core::flow::{Carrier, Fade, Fields, Turbulence, TurbulenceSettings, spatial_order};
 use lightloom_core::math::rng::{Purpose, Stream};
 
 const PHOTONS: usize = 1_000_000;
@@ -44,17 +45,35 @@ fn photons(sorted: bool) -> (Vec<Vec2>, Vec<Vec2>) {
 /// All steps; one position column per step, as a frame would ask.
 #[divan::bench(args = [true, false], sample_count = 5)]
 fn advect(bencher: divan::Bencher, sorted: bool) {
-    let fields = fields();
+    carry(bencher, &fields(), sorted);
+}
+
+fn carry(bencher: divan::Bencher, fields: &Fields, sorted: bool) {
     let (source, target) = photons(sorted);
     let mut out = vec![Vec2::ZERO; PHOTONS];
     let progress = Progress::new();
     bencher.counter(divan::counter::ItemsCount::new(PHOTONS * STEPS)).bench_local(|| {
-        let mut carrier = Carrier::new(&fields, &source, &target);
+        let mut carrier = Carrier::new(fields, &source, &target);
         for n in 0..STEPS {
             carrier.positions_at(n as f64 / STEPS as f64, &mut out, &progress).expect("finite");
         }
         out[0]
     });
+}
+
+/// All steps with turbulence on 30 x 30, or on 30 x 30 and 100 x 100 cells: about twice and three times the cost without.
+#[divan::bench(args = [1, 2], sample_count = 5)]
+fn advect_turbulent(bencher: divan::Bencher, grids: usize) {
+    let settings = TurbulenceSettings { grids: [30, 100][..grids].to_vec(), ..Default::default() };
+    let fields = fields().with_turbulence(Turbulence::new(&settings, Vec2::ONE, 0));
+    carry(bencher, &fields, true);
+}
+
+/// Key noises of a segment at the default rate, made orthonormal.
+#[divan::bench(args = [30, 100, 512], sample_count = 5)]
+fn key_noises(bencher: divan::Bencher, cells: u32) {
+    let settings = TurbulenceSettings { grids: vec![cells], ..Default::default() };
+    bencher.bench(|| Turbulence::new(&settings, Vec2::ONE, 0));
 }
 
 /// One frame between two steps: positions of 1 M photons.

@@ -125,7 +125,8 @@ pub(super) fn ease(speed_over_limit: f32) -> f32 {
     1.0 - x * x * (3.0 - 2.0 * x)
 }
 
-fn smoothstep(x: f64) -> f64 {
+/// From 0 to 1 without a kink at either end; clipped beyond.
+pub(super) fn smoothstep(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }

@@ -1,6 +1,6 @@
 //! Numbers that tell how good a flow is. Speeds are in mean straight speeds, |b - a| per unit of t.
 
-use glam::Vec2;
+use glam::{Mat2, Vec2};
 use rayon::prelude::*;
 
 use super::field::Field;
@@ -101,11 +101,11 @@ pub fn fit_residual(field: &Field, positions: &[Vec2], guidance: &[Vec2]) -> f64
     ratio(undone, guidance.iter().map(|v| f64::from(v.length_squared())).sum()).sqrt()
 }
 
-/// Root mean square of divergence and curl of the field at these points, per unit of t.
-pub fn divergence_and_curl_rms(field: &Field, points: &[Vec2]) -> [f64; 2] {
+/// Root mean square of divergence and curl of the sum of these fields at these points, per unit of t.
+pub fn divergence_and_curl_rms(fields: &[&Field], points: &[Vec2]) -> [f64; 2] {
     let mut squares = [0.0f64; 2];
     for &p in points {
-        let slope = field.gradient(p);
+        let slope: Mat2 = fields.iter().map(|field| field.gradient(p)).sum();
         squares[0] += f64::from(slope.x_axis.x + slope.y_axis.y).powi(2);
         squares[1] += f64::from(slope.x_axis.y - slope.y_axis.x).powi(2);
     }

@@ -36,6 +36,7 @@ pub mod flux;
 pub mod guidance;
 pub mod metric;
 pub mod settings;
+pub mod turbulence;
 
 mod advect;
 mod lines;
@@ -55,6 +56,7 @@ pub use obstacles::Obstacles;
 pub use report::FlowReport;
 pub use settings::{FitKind, FlowSettings, GridSize};
 pub use trajectory::{Astray, Carrier, Fields, spatial_order};
+pub use turbulence::{Turbulence, TurbulenceSettings};
 
 use self::advect::Swarm;
 use self::field::Grid;
@@ -102,24 +104,25 @@ pub fn fit_segment(
     progress: &Progress,
     mut tracks: Option<Tracks>,
 ) -> Result<(Fields, FlowReport)> {
-    let Course { source, target, extent, settings, .. } = *course;
+    let Course { source, target, extent, settings, number } = *course;
     check_photons(source, target)?;
     let guides = guide_rows(source.len(), settings.guides as usize);
     let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();
     let target: Vec<Vec2> = guides.iter().map(|&i| target[i]).collect();
+    let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
     let (obstacles, steps) =
         Obstacles::new(course.walls, settings.steps as usize, extent, &progress.inner())?;
     let mean_way = match &obstacles {
         None => guidance::mean_straight(&source, &target),
         Some(obstacles) => obstacles.mean_way(&source, &target, progress)?,
     };
-    let mut fields = Fields::new(steps, settings.fade, mean_way, obstacles.map(Arc::new));
+    let mut fields = Fields::new(steps, settings.fade, mean_way, turbulence, obstacles.map(Arc::new));
     let obstacles = fields.obstacles().cloned();
     let fit_settings = fit_settings(settings, extent);
     let grid = fit_settings.grid;
     let mut fitter = Fitter::new(fit_settings)?;
     let mut lines = Lines::new(course.lines, settings.beta, extent);
-    let mut swarm = Swarm::new(&source, &target, (settings.fade, mean_way), obstacles.as_deref());
+    let mut swarm = Swarm::new(&source, &target, (settings.fade, fields.pace()), obstacles.as_deref());
     swarm.set_out(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
     let mut positions = source.clone();
@@ -137,7 +140,7 @@ pub fn fit_segment(
             }
             let rows = lines.rows(t, &positions, &directions);
             let (field, fit) = fitter.fit_with(&positions, &directions, &rows, progress)?;
-            observer.fitted(&field, &fit, &positions, &directions);
+            observer.fitted((&field, &fields.noise(t)), &fit, &positions, &directions);
             fields.push(field);
         }
         let step = fields.step(n);
@@ -151,7 +154,7 @@ pub fn fit_segment(
     if let Some(show) = &mut tracks {
         show(steps, &positions);
     }
-    let report = observer.finish(&positions, swarm.astray());
+    let report = observer.finish(&positions, fields.turbulence(), swarm.astray());
     Ok((fields, report))
 }
 

@@ -9,6 +9,7 @@ use super::field::Field;
 use super::fit::FitReport;
 use super::metric::{self, NeighbourVariance};
 use super::trajectory::Astray;
+use super::turbulence::Turbulence;
 
 /// How the flow between two key frames turned out, over the guide photons and the whole run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -27,10 +28,12 @@ pub struct FlowReport {
     pub solver_residual: f64,
     /// |u(c) - v| / |v| in root mean square, averaged over the fits.
     pub fit_residual: f64,
-    /// Divergence of the fields where the photons are, root mean square, per unit of t.
+    /// Divergence of the fields and the turbulence where the photons are, root mean square, per unit of t.
     pub divergence_rms: f64,
-    /// Curl of the fields where the photons are, root mean square, per unit of t.
+    /// Curl of the same.
     pub curl_rms: f64,
+    /// Speed of the turbulence over the plane, root mean square, in plane units per unit of t; 0 where there is none.
+    pub turbulence_rms: f64,
     /// Mean straight way |b - a| in plane units.
     pub mean_straight: f64,
     /// 99.9 % fastest photon over the mean straight speed.
@@ -69,6 +72,7 @@ impl FlowReport {
             fit_residual: a.fit_residual.max(b.fit_residual),
             divergence_rms: a.divergence_rms.max(b.divergence_rms),
             curl_rms: a.curl_rms.max(b.curl_rms),
+            turbulence_rms: a.turbulence_rms.max(b.turbulence_rms),
             mean_straight: a.mean_straight.max(b.mean_straight),
             peak_speed_ratio: a.peak_speed_ratio.max(b.peak_speed_ratio),
             straight_peak_ratio: a.straight_peak_ratio.max(b.straight_peak_ratio),
@@ -131,8 +135,14 @@ impl<'a> Observer<'a> {
         }
     }
 
-    /// A field was fitted.
-    pub(super) fn fitted(&mut self, field: &Field, fit: &FitReport, positions: &[Vec2], guidance: &[Vec2]) {
+    /// A field was fitted; the turbulence is added to it.
+    pub(super) fn fitted(
+        &mut self,
+        (field, turbulence): (&Field, &[Field]),
+        fit: &FitReport,
+        positions: &[Vec2],
+        guidance: &[Vec2],
+    ) {
         let report = &mut self.report;
         report.fits += 1;
         report.unknowns = fit.unknowns;
@@ -140,8 +150,9 @@ impl<'a> Observer<'a> {
         report.solver_iterations_mean += fit.iterations as f64;
         report.solver_residual = report.solver_residual.max(fit.residual);
         report.fit_residual += metric::fit_residual(field, positions, guidance);
+        let all: Vec<&Field> = [field].into_iter().chain(turbulence).collect();
         let some: Vec<Vec2> = positions.iter().step_by(DERIVATIVE_STRIDE).copied().collect();
-        for (sum, rms) in self.squares.iter_mut().zip(metric::divergence_and_curl_rms(field, &some)) {
+        for (sum, rms) in self.squares.iter_mut().zip(metric::divergence_and_curl_rms(&all, &some)) {
             *sum += rms * rms;
         }
     }
@@ -163,11 +174,17 @@ impl<'a> Observer<'a> {
     }
 
     /// Derives the numbers that need the whole run. `positions` are those at t = 1.
-    pub(super) fn finish(mut self, positions: &[Vec2], astray: Astray) -> FlowReport {
+    pub(super) fn finish(
+        mut self,
+        positions: &[Vec2],
+        turbulence: Option<&Turbulence>,
+        astray: Astray,
+    ) -> FlowReport {
         let fits = self.report.fits.max(1) as f64;
         let report = &mut self.report;
         report.solver_iterations_mean /= fits;
         report.fit_residual /= fits;
+        report.turbulence_rms = turbulence.map_or(0.0, |turbulence| turbulence.speed().into());
         [report.divergence_rms, report.curl_rms] = self.squares.map(|sum| (sum / fits).sqrt());
         report.peak_speed_ratio = metric::peak_speed_ratio(&self.fastest, report.mean_straight as f32);
         let ways: Vec<f32> = self.source.iter().zip(self.target).map(|(a, b)| a.distance(*b)).collect();

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fade::Fade;
+use super::turbulence::TurbulenceSettings;
 use crate::{Error, Result};
 
 /// How the photons flow from one key frame to the next.
@@ -27,6 +28,9 @@ pub struct FlowSettings {
     pub steps: u32,
     /// How the photons leave the field to arrive at their targets. Default smooth.
     pub fade: Fade,
+    /// Swirls added to the field. Default none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turbulence: Option<TurbulenceSettings>,
     /// Brightness of the target, over 0 to 1000: its total flux over that of the source. Default 1, which keeps the
     /// energy.
     pub rho: f32,
@@ -67,6 +71,7 @@ impl Default for FlowSettings {
             grid: GridSize::Longer(128),
             steps: 40,
             fade: Fade::default(),
+            turbulence: None,
             rho: 1.0,
             guides: 100_000,
             tolerance: 1e-4,
@@ -123,6 +128,9 @@ impl FlowSettings {
         count("steps", self.steps, 10_000)?;
         count("guides", self.guides, 50_000_000)?;
         self.fade.check(&format!("{place}.fade"))?;
+        if let Some(turbulence) = &self.turbulence {
+            turbulence.check(&format!("{place}.turbulence"))?;
+        }
         self.check_grid(&format!("{place}.grid"))
     }
 

@@ -8,6 +8,8 @@ use super::field::Field;
 pub(super) struct Stage {
     /// The fitted field, taken to this time.
     pub field: Field,
+    /// The turbulence at this time, one field per grid; none costs nothing.
+    pub noise: Vec<Field>,
     /// (1-s)/(1-t).
     pub rate: f32,
 }
@@ -16,6 +18,10 @@ impl Stage {
     /// The velocity u at `p`, in plane units per unit of t.
     #[inline(always)]
     pub(super) fn velocity(&self, p: Vec2) -> Vec2 {
-        self.field.velocity(p)
+        let mut velocity = self.field.velocity(p);
+        for noise in &self.noise {
+            velocity += noise.velocity(p);
+        }
+        velocity
     }
 }

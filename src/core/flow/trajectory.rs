@@ -9,6 +9,7 @@ use super::fade::Fade;
 use super::field::Field;
 use super::obstacles::Obstacles;
 use super::stage::Stage;
+use super::turbulence::Turbulence;
 use crate::{Progress, Result};
 
 /// The fields fitted between two key frames: all that moves photons, whatever pass they are from.
@@ -21,6 +22,7 @@ pub struct Fields {
     steps: usize,
     fade: Fade,
     mean_straight: f32,
+    turbulence: Option<Turbulence>,
     obstacles: Option<Arc<Obstacles>>,
 }
 
@@ -30,7 +32,7 @@ impl Fields {
     /// # Panics
     /// When there is no step, or a field is missing before the fade has ended.
     pub fn from_nodes(nodes: Vec<Field>, steps: usize, fade: Fade, mean_straight: f32) -> Self {
-        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None) };
+        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None, None) };
         let asked = (0..steps).filter(|&n| fields.time(n) < fade.end()).count();
         assert!(asked > 0 && fields.nodes.len() >= asked, "a field for every step until the fade ends");
         fields
@@ -40,9 +42,15 @@ impl Fields {
         steps: usize,
         fade: Fade,
         mean_straight: f32,
+        turbulence: Option<Turbulence>,
         obstacles: Option<Arc<Obstacles>>,
     ) -> Self {
-        Self { nodes: Vec::new(), steps, fade, mean_straight, obstacles }
+        Self { nodes: Vec::new(), steps, fade, mean_straight, turbulence, obstacles }
+    }
+
+    /// The same fields with this turbulence in place of any other.
+    pub fn with_turbulence(self, turbulence: Option<Turbulence>) -> Self {
+        Self { turbulence, ..self }
     }
 
     pub(super) fn push(&mut self, field: Field) {
@@ -65,7 +73,7 @@ impl Fields {
         self.fade
     }
 
-    /// The mean straight way |b - a| of the photons that were fitted to: the measure of every speed limit.
+    /// The mean straight way |b - a| of the photons that were fitted to.
     pub fn mean_straight(&self) -> f32 {
         self.mean_straight
     }
@@ -73,6 +81,25 @@ impl Fields {
     /// The walls; none where none ever stands.
     pub fn obstacles(&self) -> Option<&Arc<Obstacles>> {
         self.obstacles.as_ref()
+    }
+
+    /// The turbulence that is added to the fields, where there is any.
+    pub fn turbulence(&self) -> Option<&Turbulence> {
+        self.turbulence.as_ref()
+    }
+
+    /// The turbulence at time `t`: fields whose velocities add up.
+    pub fn noise(&self, t: f64) -> Vec<Field> {
+        self.turbulence.as_ref().map_or_else(Vec::new, |turbulence| turbulence.at(t))
+    }
+
+    /// The speed that every speed limit is measured in: that of the straight ways and of the turbulence together, so
+    /// that it may also stir photons which have nowhere to go.
+    pub(super) fn pace(&self) -> f32 {
+        match &self.turbulence {
+            Some(turbulence) => self.mean_straight.hypot(turbulence.speed()),
+            None => self.mean_straight,
+        }
     }
 
     /// Begin of step `n`.
@@ -88,7 +115,8 @@ impl Fields {
             [0.0, 0.5, 1.0].map(|x| {
                 let mut field = now.clone();
                 Field::blend(now, 1.0 + x, before, -x, &mut field);
-                Stage { field, rate: self.fade.rate(start + f64::from(x) * (end - start)) }
+                let t = start + f64::from(x) * (end - start);
+                Stage { field, noise: self.noise(t), rate: self.fade.rate(t) }
             })
         });
         Step { number: n, left: self.steps - 1 - n, start, length: end - start, stages }
@@ -123,7 +151,7 @@ impl<'a> Carrier<'a> {
     /// When the columns differ in length.
     pub fn new(fields: &'a Fields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
         assert_eq!(source.len(), targets.len(), "each photon has one target");
-        let fade = (fields.fade, fields.mean_straight);
+        let fade = (fields.fade, fields.pace());
         let swarm = Swarm::new(source, targets, fade, fields.obstacles.as_deref());
         Self { fields, source, targets, swarm, begun: 0 }
     }

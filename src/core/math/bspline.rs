@@ -8,6 +8,15 @@ pub const EXTRA: usize = 3;
 /// coarse I = sum over k of REFINE\[k\] fine (2I - 3 + k), exactly.
 pub const REFINE: [f64; 5] = [0.125, 0.5, 0.75, 0.5, 0.125];
 
+/// Places in -1..=1 and weights of Gauss and Legendre's rule with four points, exact to degree 7: products of two cubics
+/// have degree 6 at most.
+pub(super) const GAUSS: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
+    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
+];
+
 /// Values of the four functions at `f` in 0..=1 within the cell.
 #[inline(always)]
 pub fn values(f: f64) -> [f64; 4] {
@@ -39,18 +48,11 @@ pub struct Band {
 impl Band {
     /// Exact integrals over `cells` cells of `width` of the products of derivatives of order 0, 1 or 2.
     pub fn gram(cells: usize, width: f64, order: usize) -> Self {
-        // Gauss-Legendre with four points is exact to degree 7; the products have degree 6 at most.
-        const POINTS: [(f64, f64); 4] = [
-            (-0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
-            (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-            (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-            (0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
-        ];
         let derivative = [values, slopes, curvatures][order];
         let scale = width / width.powi(2 * order as i32);
         let mut diagonals = [0; 4].map(|_| vec![0.0; cells + EXTRA]);
         for cell in 0..cells {
-            for (x, weight) in POINTS {
+            for (x, weight) in GAUSS {
                 let basis = derivative(0.5 + 0.5 * x);
                 for i in 0..4 {
                     for k in i..4 {

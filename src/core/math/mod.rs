@@ -7,6 +7,7 @@ pub mod colour;
 pub mod distribution;
 pub mod hilbert;
 pub mod kronecker;
+pub mod mixed_gram;
 pub mod multigrid;
 pub mod null_space;
 pub mod operator;

@@ -18,6 +18,8 @@ pub enum Purpose {
     Background = 4,
     /// Camera paths that look for the receiver.
     Visible = 5,
+    /// Noises of the turbulence.
+    Turbulence = 6,
 }
 
 /// A small, fast generator.

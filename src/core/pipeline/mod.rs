@@ -29,7 +29,7 @@ pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
-use crate::flow::GridSize;
+use crate::flow::{FlowSettings, GridSize};
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
@@ -190,6 +190,7 @@ impl Pipeline {
             let supplies = Supplies::load(project, extent, &assets)?;
             notes.extend(supplies.notes());
             notes.extend(stretch_note(project.flow.grid, extent));
+            notes.extend(swirl_note(&project.flow).filter(|_| project.keys.len() > 1));
             let slots = Slots::new(&project.keys, &frames);
             let plan = plan::plan(
                 project,
@@ -273,6 +274,19 @@ fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
     (stretch > 2.0).then(|| {
         format!(
             "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
+        )
+    })
+}
+
+/// Steps in which photons cross more than a cell of the noise do not follow its swirls.
+fn swirl_note(flow: &FlowSettings) -> Option<String> {
+    let turbulence = flow.turbulence.as_ref()?;
+    let finest = *turbulence.grids.iter().max()?;
+    let needed = (turbulence.speed() * finest as f32).ceil();
+    (needed > flow.steps as f32).then(|| {
+        format!(
+            "flow.turbulence: in one step the photons cross {:.1} cells of the {finest} x {finest} noise; give flow.steps {needed} to follow its swirls",
+            needed / flow.steps as f32
         )
     })
 }

@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::Serialize;
 
+use crate::flow::TurbulenceSettings;
 use crate::matching::Method;
 use crate::project::{Project, Shows};
 use crate::render::frames::FrameStore;
@@ -107,6 +108,7 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     leave(!still && given, "transport map", "the rows of the point files are paired as given");
     leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
     leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
+    leave(!still && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0");
     leave(
         fixed && project.render.passes > 1,
         "passes after the first",
@@ -142,13 +144,20 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
         stages.push(("match", photons / pace::MATCH));
         stages.push(("fit", f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT)));
     }
+    // Each noise grid is asked for a velocity as the fitted field is.
+    let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
     let per_pass = trace
         + segments * photons / pace::REMATCH
-        + steps * photons / pace::ADVECT
+        + steps * photons * fields_asked / pace::ADVECT
         + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
+}
+
+/// The turbulence, where it is not left out.
+fn swirls(project: &Project) -> Option<&TurbulenceSettings> {
+    project.flow.turbulence.as_ref().filter(|turbulence| turbulence.is_on())
 }
 
 /// Unknowns of one linear system.
@@ -164,10 +173,14 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
     let fields =
         if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
+    let noises = match swirls(project) {
+        Some(turbulence) => project.keys.len().saturating_sub(1) as f64 * turbulence.bytes(extent) as f64,
+        None => 0.0,
+    };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
     // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
     let textures = 6.0 * 16.0 * texels(project, extent);
-    60.0 + (photons + fields + pixels * 600.0 + textures) / MIB
+    60.0 + (photons + fields + noises + pixels * 600.0 + textures) / MIB
 }
 
 const MIB: f64 = 1_048_576.0;

@@ -11,7 +11,8 @@ use super::motion::Motion;
 use super::passes::{Account, total};
 use super::supply::KeyPhotons;
 use crate::files::write_atomic;
-use crate::flow::{Carrier, flux};
+use crate::flow::field::Field;
+use crate::flow::{Carrier, Fields, flux};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -126,6 +127,8 @@ impl Table<'_> {
 
 /// Writes the coefficients of all fields: for segment i `psi_i` and `phi_i` of shape (steps, N + 3, M + 3) for M x N
 /// cells, each fitted at the time in `times_i`; and `grid` (M, N) and `extent` of the plane. u = J grad psi + grad phi.
+/// Each grid of the turbulence adds its own J grad psi at these times: `noise_i_C` for C cells along the longer side,
+/// square ones, so that the last may reach beyond the plane.
 fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
     write_atomic(path, |file| {
         let mut npz = npyz::npz::NpzWriter::new(file);
@@ -141,6 +144,7 @@ fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
                 });
                 array(&mut npz, &format!("{name}_{i}"), &shape, potentials)?;
             }
+            write_noises(&mut npz, i, fields)?;
             let times = (0..fields.nodes().len()).map(|n| n as f32 / fields.steps() as f32);
             array(&mut npz, &format!("times_{i}"), &shape[..1], times)?;
             if i == 0 {
@@ -150,6 +154,23 @@ fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
         }
         npz.zip_writer().flush()
     })
+}
+
+/// Writes psi of each grid of segment `i`'s turbulence at the times of the fits, where there is any.
+fn write_noises<W: io::Write + io::Seek>(
+    npz: &mut npyz::npz::NpzWriter<W>,
+    i: usize,
+    fields: &Fields,
+) -> io::Result<()> {
+    let times = 0..fields.nodes().len();
+    let noises: Vec<Vec<Field>> = times.map(|n| fields.noise(n as f64 / fields.steps() as f64)).collect();
+    for (k, noise) in noises.first().into_iter().flatten().enumerate() {
+        let [columns, rows] = noise.grid().nodes().map(|n| n as u64);
+        let psi = noises.iter().flat_map(|at_one_time| at_one_time[k].potentials().0);
+        let cells = noise.grid().cells.into_iter().max().unwrap_or_default();
+        array(npz, &format!("noise_{i}_{cells}"), &[noises.len() as u64, rows, columns], psi)?;
+    }
+    Ok(())
 }
 
 /// Writes one array of float32 into an NPZ file.
