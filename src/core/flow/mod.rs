@@ -91,6 +91,13 @@ pub struct Course<'a> {
     pub number: usize,
 }
 
+impl<'a> Course<'a> {
+    /// The first segment of an animation, with nothing drawn.
+    pub fn new(source: &'a [Vec2], target: &'a [Vec2], extent: Vec2, settings: &'a FlowSettings) -> Self {
+        Self { source, target, extent, settings, lines: &[], walls: &[], number: 0 }
+    }
+}
+
 /// Fits the fields that carry photons along a course, row by row.
 ///
 /// The fields are fitted to at most `settings.guides` photons, taken evenly from all: a field of 128 x 128 cells is determined
@@ -104,14 +111,13 @@ pub fn fit_segment(
     progress: &Progress,
     mut tracks: Option<Tracks>,
 ) -> Result<(Fields, FlowReport)> {
-    let Course { source, target, extent, settings, number } = *course;
+    let Course { source, target, extent, settings, number, lines, walls } = *course;
     check_photons(source, target)?;
     let guides = guide_rows(source.len(), settings.guides as usize);
     let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();
     let target: Vec<Vec2> = guides.iter().map(|&i| target[i]).collect();
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
-    let (obstacles, steps) =
-        Obstacles::new(course.walls, settings.steps as usize, extent, &progress.inner())?;
+    let (obstacles, steps) = Obstacles::new(walls, settings.steps as usize, extent, &progress.inner())?;
     let mean_way = match &obstacles {
         None => guidance::mean_straight(&source, &target),
         Some(obstacles) => obstacles.mean_way(&source, &target, progress)?,
@@ -121,7 +127,7 @@ pub fn fit_segment(
     let fit_settings = fit_settings(settings, extent);
     let grid = fit_settings.grid;
     let mut fitter = Fitter::new(fit_settings)?;
-    let mut lines = Lines::new(course.lines, settings.beta, extent);
+    let mut lines = Lines::new(lines, settings.beta, extent);
     let mut swarm = Swarm::new(&source, &target, (settings.fade, fields.pace()), obstacles.as_deref());
     swarm.set_out(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
