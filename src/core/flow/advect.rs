@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::fade::{Fade, ease};
 use super::field::Field;
 use super::guidance::position;
+use super::report::Moving;
 use crate::{Error, Progress, Result};
 
 /// Photons per parallel task: fits the L1 cache beside the coefficients around them.
@@ -90,28 +91,10 @@ impl<'a> Swarm<'a> {
         Err(Error::Numeric { stage: "advect", what })
     }
 
-    /// Positions at `t`, which lies in the current step.
-    pub(super) fn positions(&self, t: f64, out: &mut [Vec2]) {
-        let x = self.place_in_step(t);
-        self.each(out, |target, v0, [k0, k1, k2]| {
-            position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32)
-        });
-    }
-
     /// Guidance v of Eq. (2) at `t`, which lies in the current step.
     pub(super) fn guidance(&self, t: f64, out: &mut [Vec2]) {
         let x = self.place_in_step(t);
         self.each(out, |_, v0, [k0, k1, k2]| v0 + x * (k0 + x * (k1 + x * k2)));
-    }
-
-    /// Velocities c' = v - (1-t) v' at `t`, which lies in the current step.
-    pub(super) fn velocities(&self, t: f64, out: &mut [Vec2]) {
-        let x = self.place_in_step(t);
-        let slope = if self.length > 0.0 { ((1.0 - t) / self.length) as f32 } else { 0.0 };
-        self.each(out, |_, v0, [k0, k1, k2]| {
-            let v = v0 + x * (k0 + x * (k1 + x * k2));
-            v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)))
-        });
     }
 
     /// Share of the field, 1 - s, of each photon with guidance `v`, where `share` is that of the time.
@@ -134,6 +117,25 @@ impl<'a> Swarm<'a> {
             for i in 0..out.len() {
                 out[i] = value(targets[i], guidance[i], curve[i]);
             }
+        });
+    }
+}
+
+impl Moving for Swarm<'_> {
+    fn positions(&self, t: f64, out: &mut [Vec2]) {
+        let x = self.place_in_step(t);
+        self.each(out, |target, v0, [k0, k1, k2]| {
+            position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32)
+        });
+    }
+
+    /// c' = v - (1-t) v'.
+    fn velocities(&self, t: f64, out: &mut [Vec2]) {
+        let x = self.place_in_step(t);
+        let slope = if self.length > 0.0 { ((1.0 - t) / self.length) as f32 } else { 0.0 };
+        self.each(out, |_, v0, [k0, k1, k2]| {
+            let v = v0 + x * (k0 + x * (k1 + x * k2));
+            v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)))
         });
     }
 }

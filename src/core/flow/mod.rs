@@ -2,7 +2,8 @@
 //!
 //! At each time step the field is fitted to the directions in which the photons should go (`guidance`, `fit`), then
 //! carries them on (`advect`); a `fade` lets them leave it so that each arrives exactly. The fields are kept
-//! (`trajectory`), and carry the photons of all later passes.
+//! (`trajectory`), and carry the photons of all later passes. Methods to compare with need no field: [`Movement`] names
+//! them, `path` holds their ways, and [`Course`] is either.
 //!
 //! # The fade, measured
 //!
@@ -35,15 +36,21 @@ pub mod fit;
 pub mod flux;
 pub mod guidance;
 pub mod metric;
+pub mod movement;
+pub mod path;
 pub mod settings;
 
 mod advect;
+mod course;
 mod report;
 mod trajectory;
 
 use glam::Vec2;
 
+pub use course::{Carriage, Course};
 pub use fade::Fade;
+pub use movement::Movement;
+pub use path::{Paths, watch_paths};
 pub use report::FlowReport;
 pub use settings::{FitKind, FlowSettings, GridSize};
 pub use trajectory::{Carrier, Fields, spatial_order};
@@ -51,7 +58,7 @@ pub use trajectory::{Carrier, Fields, spatial_order};
 use self::advect::Swarm;
 use self::field::Grid;
 use self::fit::{Blend, FitSettings, Fitter};
-use self::report::Observer;
+use self::report::{Moving as _, Observer};
 use crate::{Error, Progress, Result};
 
 /// Conjugate gradients with multigrid need some ten iterations; a solve that needs this many has failed.
@@ -100,7 +107,8 @@ pub fn fit_segment(
         }
         let step = fields.step(n);
         swarm.advance(&step, progress)?;
-        observer.stepped(&swarm, &step, &settings.fade);
+        observer.stepped(&swarm, step.start, step.length);
+        observer.steered(&swarm, step.start, &settings.fade);
         let end = fields.time(n + 1);
         swarm.positions(end, &mut positions);
         swarm.guidance(end, &mut directions);

@@ -5,6 +5,7 @@ use glam::Vec2;
 use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
+use super::report::Moving as _;
 use crate::{Progress, Result};
 
 /// The fields fitted between two key frames: all that moves photons, whatever pass they are from.

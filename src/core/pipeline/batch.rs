@@ -2,7 +2,7 @@
 
 use super::supply::{KeyPhotons, PassLight, Supplies};
 use crate::flow::spatial_order;
-use crate::matching::{Matching, Method, TransportMap};
+use crate::matching::{ContinuousMap, Method};
 use crate::photon::Tracer;
 use crate::{Progress, Result};
 
@@ -47,20 +47,14 @@ impl<'a> Batch<'a> {
     pub(super) fn pair(
         &self,
         next: KeyPhotons,
-        map: Option<&TransportMap>,
+        map: Option<&ContinuousMap>,
         progress: &Progress,
     ) -> Result<KeyPhotons> {
         match (self.method, map) {
             (Method::Transport, Some(map)) => {
-                let matching = Matching::new(
-                    &self.at.positions,
-                    &next.positions,
-                    map,
-                    self.supplies.seed(),
-                    self.pass,
-                    progress,
-                )?;
-                Ok(next.permuted(&matching.target_of))
+                let (from, seed) = (&self.at.positions, self.supplies.seed());
+                let paired = map.pair(from, &next.positions, seed, self.pass, progress)?;
+                Ok(KeyPhotons { bows: paired.bows, ..next.permuted(&paired.matching.target_of) })
             }
             _ => Ok(next),
         }
@@ -74,11 +68,12 @@ impl<'a> Batch<'a> {
 }
 
 impl KeyPhotons {
-    /// Row k of the result is row `order[k]` of this.
+    /// Row k of the result is row `order[k]` of this, not yet paired.
     fn permuted(&self, order: &[u32]) -> Self {
         Self {
             positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
             flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
+            bows: Vec::new(),
         }
     }
 }

@@ -5,6 +5,8 @@
 
 mod batch;
 mod check;
+mod compare;
+mod course;
 mod finish;
 mod meter;
 mod motion;
@@ -23,6 +25,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 pub use check::CheckReport;
+pub use compare::{Comparison, Compared};
 pub use meter::StageCost;
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
@@ -33,12 +36,12 @@ use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Image, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
+    Image, PlaneView, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
 };
 use crate::scene::{Scene, SceneDesc};
 use crate::{Error, Progress, Result};
 use batch::Batch;
-use finish::Finisher;
+use finish::{Finisher, Thumbnails};
 use meter::Meter;
 use motion::{Motion, MotionInput};
 use passes::{Account, Exposer};
@@ -79,6 +82,14 @@ struct Prepared {
     notes: Vec<String>,
 }
 
+/// A finished render, with what a comparison asks of it.
+struct Rendered {
+    summary: Summary,
+    motion: Arc<Motion>,
+    thumbnails: Thumbnails,
+    plane: PlaneView,
+}
+
 impl Pipeline {
     /// A pipeline that has done nothing yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
@@ -109,6 +120,19 @@ impl Pipeline {
         let prepared = self.prepare(project, &mut meter)?;
         prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
+        self.frames(project, prepared, meter, out, progress, saved).map(|rendered| rendered.summary)
+    }
+
+    /// All stages of a render after the first look at the project.
+    fn frames(
+        &mut self,
+        project: &Project,
+        prepared: Prepared,
+        mut meter: Meter,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Rendered> {
         let (visible, background) = self.look(project, &prepared, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
@@ -118,11 +142,15 @@ impl Pipeline {
         let (passes, account) = meter.measure("render", || {
             render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress)
         })?;
+        let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
+        let (visible, background) = (&*visible, &*background);
+        let drawn = &[];
         let finisher =
-            Finisher { project, render: &render, visible: &visible, background: &background, out, saved };
-        let bad_values = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
+            Finisher { project, render: &render, visible, background, out, drawn, plane: plane.clone(), saved };
+        let (bad_values, thumbnails) = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
         let done = Done { command: "render", passes, motion: &motion, account, bad_values };
-        Ok(Summary::new(project, prepared, done, &meter))
+        let summary = Summary::new(project, prepared, done, &meter);
+        Ok(Rendered { summary, motion, thumbnails, plane })
     }
 
     /// Fits the flow and writes `tracks.npy`, `flux.npy` and `fields.npz` into the folder `out`.

@@ -3,11 +3,12 @@
 use glam::Vec2;
 
 use super::batch::Batch;
+use super::course;
 use super::meter::Meter;
 use super::summary::FlowNumbers;
 use super::supply::KeyPhotons;
-use crate::flow::{Fields, FlowSettings, fit_segment};
-use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
+use crate::flow::{Course, FlowSettings, Movement};
+use crate::matching::{ContinuousMap, Method, mean_square_distance};
 use crate::project::{KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
 use crate::{Progress, Result};
@@ -15,9 +16,11 @@ use crate::{Progress, Result};
 /// From one key to the next.
 pub(super) struct Segment {
     /// Where the light of this key goes at the next; absent where rows are paired as given.
-    pub(super) map: Option<TransportMap>,
-    /// The vector field, step by step.
-    pub(super) fields: Fields,
+    pub(super) map: Option<ContinuousMap>,
+    /// What moves the photons.
+    pub(super) course: Course,
+    /// What the pairing of pass 0 costs.
+    pub(super) cost: Cost,
 }
 
 /// How the light of a project moves; empty where there is one key.
@@ -34,6 +37,7 @@ pub(super) struct MotionInput {
     plane: PlaneSettings,
     keys: Vec<KeyFrame>,
     matching: Method,
+    method: Movement,
     flow: FlowSettings,
     seed: u64,
     photons: usize,
@@ -53,6 +57,7 @@ impl MotionInput {
             plane: project.plane.clone(),
             keys: project.keys.iter().map(plain).collect(),
             matching: project.matching,
+            method: project.method,
             flow: project.flow.clone(),
             seed: project.seed,
             photons,
@@ -71,41 +76,52 @@ pub(super) fn fit(
     let mut motion = Motion { segments: Vec::new(), numbers: None };
     for _ in 1..project.keys.len() {
         progress.begin("match", 1);
-        let paired = meter.measure("match", || match_next(&batch, project.matching, extent, progress))?;
-        let (fields, report) = meter.measure("fit", || {
-            fit_segment(&batch.at.positions, &paired.next.positions, extent, &project.flow, progress, None)
-        })?;
-        let numbers = FlowNumbers { flow: report, transport_cost_ratio: paired.cost_ratio, flux_ratio: 1.0 };
+        let Paired { map, next, cost } =
+            meter.measure("match", || match_next(&batch, project, extent, progress))?;
+        let (course, flow) = course::course(project, &batch.at, &next, extent, meter, progress)?;
+        let numbers = FlowNumbers::new(flow, &cost);
         motion.numbers = Some(match motion.numbers.take() {
             Some(sum) => sum.worst(numbers),
             None => numbers,
         });
-        motion.segments.push(Segment { map: paired.map, fields });
-        batch.arrive(paired.next);
+        motion.segments.push(Segment { map, course, cost });
+        batch.arrive(next);
     }
     Ok(motion)
 }
 
 /// The photons' targets at the next key.
 struct Paired {
-    map: Option<TransportMap>,
+    map: Option<ContinuousMap>,
     next: KeyPhotons,
-    /// Cost over a lower bound of the optimum; absent where rows are paired as given.
-    cost_ratio: Option<f64>,
+    cost: Cost,
 }
 
-fn match_next(batch: &Batch, method: Method, extent: Vec2, progress: &Progress) -> Result<Paired> {
-    let points = batch.next_points();
-    if method == Method::Given {
-        let next = batch.pair(points, None, &progress.inner())?;
-        return Ok(Paired { map: None, next, cost_ratio: None });
+/// What a pairing costs, in squared plane units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cost {
+    /// Mean squared distance of the pairs.
+    pub(super) mean: f64,
+    /// A lower bound of that of any pairing; absent where nobody asked or the method has none to tell.
+    pub(super) bound: Option<f64>,
+}
+
+impl Cost {
+    /// Over the bound, or over that of another method on the same points.
+    pub(super) fn ratio(&self, bound: Option<f64>) -> Option<f64> {
+        // Nothing to move costs nothing, which is the optimum.
+        bound.map(|bound| if bound > 0.0 { self.mean / bound } else { 1.0 })
     }
-    let from = &batch.at.positions;
-    let map = transport_map(from, &points.positions, extent, &progress.inner())?;
-    let bound = dual_bound(&map, from, &points.positions, progress)?;
-    let next = batch.pair(points, Some(&map), &progress.inner())?;
-    let cost = mean_square_distance(from, next.positions.iter().copied());
-    // Nothing to move costs nothing, which is the optimum.
-    let cost_ratio = if bound > 0.0 { cost / bound } else { 1.0 };
-    Ok(Paired { map: Some(map), next, cost_ratio: Some(cost_ratio) })
+}
+
+fn match_next(batch: &Batch, project: &Project, extent: Vec2, progress: &Progress) -> Result<Paired> {
+    let (points, from) = (batch.next_points(), &batch.at.positions);
+    let map = course::continuous_map(project, from, &points.positions, extent, &progress.inner())?;
+    let bound = match &map {
+        Some(map) => map.lower_bound(from, &points.positions, &progress.inner())?,
+        None => None,
+    };
+    let next = batch.pair(points, map.as_ref(), &progress.inner())?;
+    let mean = mean_square_distance(from, next.positions.iter().copied());
+    Ok(Paired { map, next, cost: Cost { mean, bound } })
 }

@@ -9,7 +9,7 @@ use super::batch::Batch;
 use super::motion::Segment;
 use super::slots::Slots;
 use super::supply::KeyPhotons;
-use crate::flow::{Carrier, flux};
+use crate::flow::flux;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Progress, Result};
 
@@ -87,11 +87,11 @@ impl<'a> Exposer<'a> {
         moments: impl Iterator<Item = (usize, f64)>,
         progress: &Progress,
     ) -> Result<()> {
-        let mut carrier = Carrier::new(&leg.segment.fields, &leg.from.positions, &leg.to.positions);
+        let mut carriage = leg.segment.course.carry(&leg.from.positions, &leg.to.positions, &leg.to.bows);
         self.positions.resize(leg.from.positions.len(), Vec2::ZERO);
         self.flux.resize(leg.from.flux.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            carrier.positions_at(time, &mut self.positions, &progress.inner())?;
+            carriage.positions_at(time, &mut self.positions, &progress.inner())?;
             flux::blend(&leg.from.flux, &leg.to.flux, time as f32, &mut self.flux);
             self.expose(slot, leg.pass, leg.source)?;
             progress.advance(1);

@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::Serialize;
 
+use crate::flow::Movement;
 use crate::matching::Method;
 use crate::project::{Project, Shows};
 use crate::render::frames::FrameStore;
@@ -44,6 +45,8 @@ mod pace {
     pub(super) const MATCH: f64 = 0.25e6;
     /// Points sent through a known map and made a bijection, per second.
     pub(super) const REMATCH: f64 = 1.2e6;
+    /// Points paired per second by the method of 2016.
+    pub(super) const STYLIZED: f64 = 0.2e6;
     /// Unknowns solved per second in one step of the fit.
     pub(super) const FIT: f64 = 1.0e6;
     /// Photons carried over one step, per second.
@@ -105,8 +108,14 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     leave(project.scene.is_some() && !physical, "photon tracing", "no key shows the physical caustic");
     leave(still, "matching, fit and advection", "there is one key frame, so nothing moves");
     leave(!still && given, "transport map", "the rows of the point files are paired as given");
-    leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
-    leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
+    let (fitted, gamma) = (!still && project.method == Movement::Flow, project.flow.gamma);
+    let linear = !still && project.method == Movement::Linear;
+    let stylized = !still && project.method == Movement::Stylized;
+    leave(linear, "fit and advection", "the method is linear: photons go straight");
+    leave(stylized, "fit and advection", "the method is stylized: each photon has a cubic way of its own");
+    leave(stylized, "transport map", "the method is stylized: a thin-plate warp takes its place");
+    leave(fitted && gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
+    leave(fitted && gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
     leave(
         fixed && project.render.passes > 1,
         "passes after the first",
@@ -138,13 +147,21 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     if traced {
         stages.push(("trace", trace));
     }
+    let fitted = project.method == Movement::Flow;
+    let (matched, rematched) = match project.method {
+        Movement::Flow | Movement::Linear => (pace::MATCH, pace::REMATCH),
+        Movement::Stylized => (pace::STYLIZED, pace::STYLIZED),
+    };
     for _ in 1..project.keys.len() {
-        stages.push(("match", photons / pace::MATCH));
-        stages.push(("fit", f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT)));
+        stages.push(("match", photons / matched));
+        if fitted {
+            let step = 0.01 + unknowns(project, extent) / pace::FIT;
+            stages.push(("fit", f64::from(project.flow.steps) * step));
+        }
     }
     let per_pass = trace
-        + segments * photons / pace::REMATCH
-        + steps * photons / pace::ADVECT
+        + segments * photons / rematched
+        + if fitted { steps * photons / pace::ADVECT } else { 0.0 }
         + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
@@ -162,8 +179,11 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let moving = project.keys.len() > 1;
     // Two keys' positions and flux, the pairing, the carrier's copy.
     let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
-    let fields =
-        if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
+    let fields = if moving && project.method == Movement::Flow {
+        8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1)
+    } else {
+        0.0
+    };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
     // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
     let textures = 6.0 * 16.0 * texels(project, extent);

@@ -16,6 +16,8 @@ pub(super) struct KeyPhotons {
     pub(super) positions: Vec<Vec2>,
     /// RGB flux in watts.
     pub(super) flux: Vec<Vec3>,
+    /// How far the photons' ways to this key bow from the straight ones at half-time; empty where the method bows none.
+    pub(super) bows: Vec<Vec2>,
 }
 
 /// One key frame, resolved.
@@ -113,7 +115,7 @@ impl Supplies {
         let (photons, _) = tracer.trace(pass, count, progress)?;
         let total = photons.total_flux();
         Ok(PassLight {
-            physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux }),
+            physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux, ..Default::default() }),
             total,
         })
     }
@@ -141,6 +143,6 @@ impl Supplies {
             Supply::Points(points) => points.resampled(count, seed, pass),
         };
         let flux = flux::share_out(light.total * f64::from(rho), &points.colours, count);
-        KeyPhotons { positions: points.positions, flux }
+        KeyPhotons { positions: points.positions, flux, ..Default::default() }
     }
 }

@@ -11,7 +11,7 @@ use super::motion::Motion;
 use super::passes::{Account, total};
 use super::supply::KeyPhotons;
 use crate::files::write_atomic;
-use crate::flow::{Carrier, flux};
+use crate::flow::{Fields, flux};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -22,7 +22,8 @@ pub(super) fn with_guides_alone(project: &Project) -> Project {
     project
 }
 
-/// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and `fields.npz` into `out`.
+/// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and, where the method has fields,
+/// `fields.npz` into `out`.
 ///
 /// The steps of all segments follow each other; the end of one segment is the start of the next and stands once.
 pub(super) fn write(
@@ -45,9 +46,12 @@ pub(super) fn write(
     let account = table.write_flux(&flux)?;
     saved(&flux);
     progress.advance(1);
-    let fields = out.join("fields.npz");
-    write_fields(&fields, motion)?;
-    saved(&fields);
+    let fields: Vec<&Fields> = motion.segments.iter().filter_map(|segment| segment.course.fields()).collect();
+    if !fields.is_empty() {
+        let path = out.join("fields.npz");
+        write_fields(&path, &fields)?;
+        saved(&path);
+    }
     progress.advance(1);
     Ok(account)
 }
@@ -88,10 +92,10 @@ impl Table<'_> {
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut positions = vec![Vec2::ZERO; photons];
             for (i, segment) in self.motion.segments.iter().enumerate() {
-                let (from, to) = (&self.stops[i].positions, &self.stops[i + 1].positions);
-                let mut carrier = Carrier::new(&segment.fields, from, to);
+                let (from, to) = (&self.stops[i].positions, &self.stops[i + 1]);
+                let mut carriage = segment.course.carry(from, &to.positions, &to.bows);
                 for time in self.times(i) {
-                    if let Err(error) = carrier.positions_at(time, &mut positions, &progress.inner()) {
+                    if let Err(error) = carriage.positions_at(time, &mut positions, &progress.inner()) {
                         failure = Some(error);
                         return Err(io::Error::other("the advection failed"));
                     }
@@ -126,11 +130,10 @@ impl Table<'_> {
 
 /// Writes the coefficients of all fields: for segment i `psi_i` and `phi_i` of shape (steps, N + 3, M + 3) for M x N
 /// cells, each fitted at the time in `times_i`; and `grid` (M, N) and `extent` of the plane. u = J grad psi + grad phi.
-fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
+fn write_fields(path: &Path, segments: &[&Fields]) -> Result<()> {
     write_atomic(path, |file| {
         let mut npz = npyz::npz::NpzWriter::new(file);
-        for (i, segment) in motion.segments.iter().enumerate() {
-            let fields = &segment.fields;
+        for (i, fields) in segments.iter().enumerate() {
             let Some(grid) = fields.nodes().first().map(|field| field.grid()) else { continue };
             let [columns, rows] = grid.nodes().map(|n| n as u64);
             let shape = [fields.nodes().len() as u64, rows, columns];

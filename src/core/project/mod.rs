@@ -26,7 +26,7 @@ pub use asset_path::AssetFolder;
 pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
-use crate::flow::FlowSettings;
+use crate::flow::{FlowSettings, Movement};
 use crate::matching::Method;
 use crate::render::RenderSettings;
 use crate::scene::SceneDesc;
@@ -61,6 +61,10 @@ pub struct Project {
     /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
     #[serde(default)]
     pub matching: Method,
+    /// How the photons get from key to key: "flow" (default), or to compare with it "stylized" (the method of 2016) or
+    /// "linear" (straight lines).
+    #[serde(default)]
+    pub method: Movement,
     /// The vector field and the way along it.
     #[serde(default)]
     pub flow: FlowSettings,
@@ -157,6 +161,10 @@ impl Project {
             let what =
                 "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
             return Err(Error::value("matching", what));
+        }
+        if self.matching == Method::Given && self.method == Movement::Stylized {
+            let what = "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
+            return Err(Error::value("method", what));
         }
         Ok(())
     }
