@@ -109,6 +109,7 @@ pub(super) fn distance_to_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]
