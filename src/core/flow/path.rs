@@ -98,7 +98,9 @@ pub fn watch_paths(
 ) -> Result<FlowReport> {
     check_photons(paths.source, paths.targets)?;
     let rows = guide_rows(paths.source.len(), guides);
-    let some = |column: &[Vec2]| if column.is_empty() { Vec::new() } else { rows.iter().map(|&i| column[i]).collect() };
+    let some = |column: &[Vec2]| {
+        if column.is_empty() { Vec::new() } else { rows.iter().map(|&i| column[i]).collect() }
+    };
     let (source, targets, bows) = (some(paths.source), some(paths.targets), some(paths.bows));
     let paths = Paths::new(&source, &targets, &bows);
     let mut observer = Observer::new(&source, &targets, extent);

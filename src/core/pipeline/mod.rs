@@ -25,7 +25,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 pub use check::CheckReport;
-pub use compare::{Comparison, Compared};
+pub use compare::{Compared, Comparison};
 pub use meter::StageCost;
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
@@ -145,8 +145,16 @@ impl Pipeline {
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let (visible, background) = (&*visible, &*background);
         let drawn = &[];
-        let finisher =
-            Finisher { project, render: &render, visible, background, out, drawn, plane: plane.clone(), saved };
+        let finisher = Finisher {
+            project,
+            render: &render,
+            visible,
+            background,
+            out,
+            drawn,
+            plane: plane.clone(),
+            saved,
+        };
         let (bad_values, thumbnails) = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
         let done = Done { command: "render", passes, motion: &motion, account, bad_values };
         let summary = Summary::new(project, prepared, done, &meter);

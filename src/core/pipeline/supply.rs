@@ -115,7 +115,11 @@ impl Supplies {
         let (photons, _) = tracer.trace(pass, count, progress)?;
         let total = photons.total_flux();
         Ok(PassLight {
-            physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux, ..Default::default() }),
+            physical: Some(KeyPhotons {
+                positions: photons.positions,
+                flux: photons.flux,
+                ..Default::default()
+            }),
             total,
         })
     }

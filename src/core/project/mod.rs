@@ -163,7 +163,8 @@ impl Project {
             return Err(Error::value("matching", what));
         }
         if self.matching == Method::Given && self.method == Movement::Stylized {
-            let what = "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
+            let what =
+                "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
             return Err(Error::value("method", what));
         }
         Ok(())
