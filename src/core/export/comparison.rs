@@ -4,17 +4,21 @@ use std::path::Path;
 
 use super::overlay::Overlay;
 use super::png::{self, PngDepth};
-use super::sheet::{CAPTION, GAP, INK, LETTERS, SURROUND, paste};
+use super::sheet::{GAP, INK, SURROUND, paste};
 use super::text;
 use crate::Result;
 use crate::render::image::Image;
 
 /// Width of the column with the words, pixels.
-const WORDS: usize = 330;
+const WORDS: usize = 450;
 /// Heights of the lines of the heading, of a row's title, and of its other lines.
-const HEADING: f32 = 34.0;
-const TITLE: f32 = 34.0;
-const LINE: f32 = 22.0;
+const HEADING: f32 = 46.0;
+const TITLE: f32 = 44.0;
+const LINE: f32 = 30.0;
+/// Height of small letters.
+const SMALL: f32 = 26.0;
+/// Height of the line with the frame numbers.
+const NUMBERS: usize = 34;
 /// Titles, screen values.
 const BRIGHT: glam::Vec3 = glam::Vec3::splat(0.93);
 
@@ -57,17 +61,17 @@ fn arrange(comparison: &Comparison, overlay: Overlay) -> Image {
     assert!(pictures().all(|p| (p.width, p.height) == (width, height)), "pictures of one size");
     let lines = rows.iter().map(|row| row.lines.len()).max().unwrap_or(0);
     let row_height = height.max((TITLE + LINE * (lines as f32 + 0.5)) as usize) + GAP;
-    let top = 2 * GAP + HEADING as usize + CAPTION;
+    let top = 2 * GAP + HEADING as usize + NUMBERS;
     let left = 2 * GAP + WORDS;
     let mut page = Image::new(left + numbers.len() * (width + GAP), top + rows.len() * row_height);
     page.pixels.fill(SURROUND);
 
     let end = text::draw(&mut page, heading, [GAP as f32 * 1.5, GAP as f32], HEADING, BRIGHT);
-    let beside = [end + GAP as f32 * 2.0, GAP as f32 + 0.5 * (HEADING - LETTERS) + 3.0];
-    text::draw(&mut page, subheading, beside, LETTERS, INK);
+    let beside = [end + GAP as f32 * 2.0, GAP as f32 + 0.5 * (HEADING - SMALL) + 3.0];
+    text::draw(&mut page, subheading, beside, SMALL, INK);
     for (column, number) in numbers.iter().enumerate() {
-        let place = [(left + column * (width + GAP)) as f32, (top - CAPTION) as f32];
-        text::draw(&mut page, &format!("frame {number}"), place, LETTERS, INK);
+        let place = [(left + column * (width + GAP)) as f32, (top - NUMBERS) as f32];
+        text::draw(&mut page, &format!("frame {number}"), place, SMALL, INK);
     }
     for (i, row) in rows.iter().enumerate() {
         let top = top + i * row_height;
@@ -85,8 +89,8 @@ fn words(page: &mut Image, row: &Row, top: f32) {
     text::draw(page, &row.title, [left, top - 4.0], TITLE, BRIGHT);
     for (i, (name, value)) in row.lines.iter().enumerate() {
         let y = top + TITLE + LINE * i as f32;
-        text::draw(page, name, [left, y], LETTERS - 1.0, INK);
-        text::draw(page, value, [left + 0.46 * WORDS as f32, y], LETTERS - 1.0, BRIGHT);
+        text::draw(page, name, [left, y], SMALL, INK);
+        text::draw(page, value, [left + 0.42 * WORDS as f32, y], SMALL, BRIGHT);
     }
 }
 

@@ -17,9 +17,9 @@ pub(super) const INK: Vec3 = Vec3::splat(0.72);
 /// Between pictures and around them, pixels.
 pub(super) const GAP: usize = 12;
 /// Height of the line with the frame number.
-pub(super) const CAPTION: usize = 26;
+const CAPTION: usize = 26;
 /// Height of its letters' line.
-pub(super) const LETTERS: f32 = 20.0;
+const LETTERS: f32 = 20.0;
 
 /// At most `count` of `frames`, evenly chosen, the first and the last among them.
 pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {

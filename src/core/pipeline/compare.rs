@@ -157,16 +157,20 @@ impl Comparison {
         let rows: Vec<Row> =
             self.methods.iter().zip(done).map(|(m, (_, r))| m.row(&self.frames, r)).collect();
         let size = rows.iter().flat_map(|row| &row.pictures).next().map_or([1, 1], |p| [p.width, p.height]);
-        let plural = if self.passes == 1 { "pass" } else { "passes" };
         let sheet = Sheet {
             heading: self.project.clone(),
-            subheading: format!("{} {plural} of {} photons, seed {}", self.passes, self.photons, self.seed),
+            subheading: format!("{}, seed {}", self.photons_in_words(), self.seed),
             numbers: self.frames.clone(),
             rows,
         };
         let plane = done.first().map(|(_, rendered)| &rendered.plane);
         let pixel_from_plane = |point| plane.and_then(|plane| plane.pixel_from_plane(point, size));
         write_comparison(path, &sheet, Overlay { drawn: &[], pixel_from_plane: &pixel_from_plane })
+    }
+
+    fn photons_in_words(&self) -> String {
+        let passes = if self.passes == 1 { "pass" } else { "passes" };
+        format!("{} {passes} of {} photons", self.passes, self.photons)
     }
 
     /// Whether a frame holds values that were not finite and had to be replaced.
@@ -182,8 +186,7 @@ impl Comparison {
 
     /// As a few lines for people.
     pub fn to_text(&self) -> String {
-        let Self { project, passes, photons, .. } = self;
-        let mut text = format!("{project}: {passes} passes of {photons} photons by each method\n");
+        let mut text = format!("{}: {} by each method\n", self.project, self.photons_in_words());
         for method in &self.methods {
             let _ = write!(text, "  {:<10}", method.method.name());
             for (name, value) in method.lines() {
@@ -220,7 +223,7 @@ impl Compared {
     fn lines(&self) -> Vec<(String, String)> {
         let none = || "none".to_owned();
         let crossing = self.crossing_index.map_or_else(none, |c| c.map(|c| format!("{c:.4}")).join("  "));
-        let cost = self.transport_cost_ratio.map_or_else(none, |ratio| format!("{ratio:.3} x optimum"));
+        let cost = self.transport_cost_ratio.map_or_else(none, |ratio| format!("{ratio:.3} \u{d7} optimum"));
         let fit = if self.fit_seconds > 0.0 { format!("{:.1} s", self.fit_seconds) } else { none() };
         vec![
             ("crossing index".into(), crossing),
