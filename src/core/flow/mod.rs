@@ -43,6 +43,7 @@ pub mod turbulence;
 
 mod advect;
 mod lines;
+mod local;
 mod mover;
 mod obstacles;
 mod report;
@@ -67,7 +68,7 @@ pub use turbulence::{Turbulence, TurbulenceSettings};
 
 use self::advect::Swarm;
 use self::field::Grid;
-use self::fit::{Blend, FitSettings, Fitter};
+use self::fit::{Blend, FitSettings, Fitter, Steering};
 use self::lines::Lines;
 use self::report::{Moving as _, Observer};
 use crate::constraint::{ActiveLine, ActiveWall};
@@ -134,7 +135,7 @@ pub fn fit_segment(
     let fit_settings = fit_settings(settings, extent);
     let grid = fit_settings.grid;
     let mut fitter = Fitter::new(fit_settings)?;
-    let mut lines = Lines::new(lines, settings.beta, extent);
+    let mut lines = Lines::new(lines, settings.beta, grid);
     let mut swarm = Swarm::new(&source, &target, (settings.fade, fields.pace()), obstacles.as_deref());
     swarm.set_out(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
@@ -151,8 +152,13 @@ pub fn fit_segment(
             if let Some(obstacles) = obstacles.as_ref().filter(|obstacles| obstacles.changes(n)) {
                 obstacles.wall_in(n, &mut fitter, grid);
             }
-            let rows = lines.rows(t, &positions, &directions);
-            let (field, fit) = fitter.fit_with(&positions, &directions, &rows, progress)?;
+            let (field, fit) = if lines.pull(t) {
+                let (rows, mask) = lines.rows(t, &positions, &directions);
+                let steering = Steering { rows: &rows, mask };
+                fitter.fit_with(&positions, &directions, Some(steering), progress)?
+            } else {
+                fitter.fit(&positions, &directions, progress)?
+            };
             observer.fitted((&field, &fields.noise(t)), &fit, &positions, &directions);
             fields.push(field);
         }

@@ -9,6 +9,7 @@
 //!
 //! Cost is squared distance throughout: its optimum never lets two straight paths collide, which is what ghosting is made of.
 
+mod around;
 mod back_and_forth;
 mod bijection;
 mod continuous_map;
@@ -23,6 +24,7 @@ mod stylized;
 mod swap;
 mod transport_map;
 
+pub use around::AroundMap;
 pub use bijection::{Matching, mean_square_distance};
 pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;

@@ -8,6 +8,7 @@ mod corners;
 mod graph;
 
 use glam::Vec2;
+use rayon::prelude::*;
 
 use super::barrier::Barriers;
 use super::wall::ActiveWall;
@@ -130,6 +131,45 @@ impl Detour {
     /// Length of the shortest way from `a` to `b`; infinite where there is none.
     pub fn distance(&self, a: Vec2, b: Vec2, sight: &mut Sight) -> f32 {
         self.way(a, b, sight).map_or(f32::INFINITY, |way| self.length(way, a, b))
+    }
+
+    /// Lengths of the shortest ways from each of `from` to each of `to`, row by row; infinite where there is none.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn lengths(&self, from: &[Vec2], to: &[Vec2], progress: &Progress) -> Result<Vec<f32>> {
+        let seen = |p: &Vec2| {
+            let mut seen = Vec::new();
+            self.look(*p, false, &mut seen);
+            seen
+        };
+        let seen_from: Vec<Vec<(u16, f32)>> = from.par_iter().map(seen).collect();
+        // Ways from all corners to each target.
+        let tails: Vec<Vec<f32>> = to
+            .par_iter()
+            .map(|b| {
+                let mut tails = vec![f32::INFINITY; self.corners.len()];
+                for (last, after) in seen(b) {
+                    for (tail, length) in tails.iter_mut().zip(self.graph.lengths_to(last)) {
+                        *tail = tail.min(length + after);
+                    }
+                }
+                tails
+            })
+            .collect();
+        let row = |(a, seen): (&Vec2, &Vec<(u16, f32)>)| {
+            progress.check()?;
+            let length = |(b, tails): (&Vec2, &Vec<f32>)| {
+                if !self.barriers.blocks(*a, *b) {
+                    return a.distance(*b);
+                }
+                let around = seen.iter().map(|&(first, before)| before + tails[usize::from(first)]);
+                around.fold(f32::INFINITY, f32::min)
+            };
+            Ok(to.iter().zip(&tails).map(length).collect::<Vec<f32>>())
+        };
+        let rows: Vec<Vec<f32>> = from.par_iter().zip(&seen_from).map(row).collect::<Result<_>>()?;
+        Ok(rows.concat())
     }
 
     /// Where `way` leads next: its first corner, or `b`.
