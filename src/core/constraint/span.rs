@@ -111,6 +111,7 @@ fn smooth(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn linear(share: f64) -> f64 {

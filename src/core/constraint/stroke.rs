@@ -110,6 +110,7 @@ pub fn distance_to_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

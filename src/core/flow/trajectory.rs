@@ -8,6 +8,7 @@ use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
 use super::obstacles::Obstacles;
+use super::report::Moving as _;
 use super::stage::Stage;
 use super::turbulence::Turbulence;
 use crate::{Progress, Result};

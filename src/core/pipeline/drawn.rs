@@ -31,7 +31,8 @@ pub(super) fn drawn(project: &Project, segment: usize, extent: Vec2) -> Drawn {
     drawn
 }
 
-/// What acts in each segment.
+/// What acts in each segment: nothing unless the method is the flow.
 pub(super) fn all_drawn(project: &Project, extent: Vec2) -> Vec<Drawn> {
-    (1..project.keys.len()).map(|next| drawn(project, next - 1, extent)).collect()
+    let acting = |segment| if project.fits() { drawn(project, segment, extent) } else { Drawn::default() };
+    (1..project.keys.len()).map(|next| acting(next - 1)).collect()
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Prepared;
 use super::grouping::{CausticLight, notes_on_dark};
 use super::meter::{Meter, StageCost};
-use super::motion::Motion;
+use super::motion::{Cost, Motion};
 use super::passes::Account;
 use super::plan::LeftOut;
 use crate::export::Repairs;
@@ -20,18 +20,28 @@ pub struct FlowNumbers {
     /// What was seen while the fields were fitted.
     #[serde(flatten)]
     pub flow: FlowReport,
-    /// Mean squared distance of the matching over a lower bound of the optimum; absent where rows are paired as given.
+    /// Mean squared distance of the matching, plane units squared.
+    pub transport_cost: f64,
+    /// The same over a lower bound of the optimum; absent where rows are paired as given, and where the method has no
+    /// transport map to tell one (a comparison takes that of the other methods).
     pub transport_cost_ratio: Option<f64>,
     /// Flux of all photons over that of the source, times the colour and brightness asked for; the frame farthest from 1.
     pub flux_ratio: f64,
 }
 
 impl FlowNumbers {
+    /// Of one segment.
+    pub(super) fn new(flow: FlowReport, cost: &Cost) -> Self {
+        let transport_cost_ratio = cost.ratio(cost.bound);
+        Self { flow, transport_cost: cost.mean(), transport_cost_ratio, flux_ratio: 1.0 }
+    }
+
     /// The worse of both in every number.
     pub(super) fn worst(self, other: Self) -> Self {
         let ratios = [self.transport_cost_ratio, other.transport_cost_ratio];
         Self {
             flow: self.flow.worst(&other.flow),
+            transport_cost: self.transport_cost.max(other.transport_cost),
             transport_cost_ratio: ratios.into_iter().flatten().reduce(f64::max),
             flux_ratio: if (other.flux_ratio - 1.0).abs() > (self.flux_ratio - 1.0).abs() {
                 other.flux_ratio
@@ -176,12 +186,16 @@ impl Summary {
         if let Some(FlowNumbers { flow, .. }) = &self.flow {
             let _ = writeln!(
                 text,
-                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}, {:.1} solver iterations",
+                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}{}",
                 flow.endpoint_error,
                 flow.peak_speed_ratio,
                 flow.straight_peak_ratio,
                 flow.dispersion,
-                flow.solver_iterations_mean
+                if flow.fits > 0 {
+                    format!(", {:.1} solver iterations", flow.solver_iterations_mean)
+                } else {
+                    String::new()
+                }
             );
         }
         let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;

@@ -217,6 +217,7 @@ impl Detour {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::constraint::{Wall, Window, stroke};
     use crate::math::rng::{Purpose, Stream};

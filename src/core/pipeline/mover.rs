@@ -1,0 +1,50 @@
+//! What each method needs for a segment: its continuous map, and what moves its photons.
+
+use glam::Vec2;
+
+use super::meter::Meter;
+use crate::flow::{Course, FlowReport, Movement, Mover, Paths, fit_segment, watch_paths};
+use crate::matching::{ContinuousMap, Method, StylizedMap, transport_map};
+use crate::project::Project;
+use crate::{Progress, Result};
+
+/// The map by which the project's method pairs these points; none where rows are paired as given.
+pub(super) fn continuous_map(
+    project: &Project,
+    from: &[Vec2],
+    to: &[Vec2],
+    extent: Vec2,
+    progress: &Progress,
+) -> Result<Option<ContinuousMap>> {
+    Ok(match (project.matching, project.method) {
+        (Method::Given, _) => None,
+        (Method::Transport, Movement::Flow | Movement::Linear) => {
+            Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?))
+        }
+        (Method::Transport, Movement::Stylized) => {
+            Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?))
+        }
+    })
+}
+
+/// What moves photons along a course by this method, and how they move. `bows` are those of their pairing.
+pub(super) fn mover(
+    method: Movement,
+    course: &Course,
+    bows: &[Vec2],
+    meter: &mut Meter,
+    progress: &Progress,
+) -> Result<(Mover, FlowReport)> {
+    match method {
+        Movement::Flow => meter.measure("fit", || {
+            let (fields, report) = fit_segment(course, progress, None)?;
+            Ok((Mover::Fields(fields), report))
+        }),
+        Movement::Stylized | Movement::Linear => meter.measure("watch", || {
+            let Course { source, target, extent, settings, .. } = *course;
+            let (guides, steps) = (settings.guides as usize, settings.steps as usize);
+            let report = watch_paths(&Paths::new(source, target, bows), extent, guides, steps, progress)?;
+            Ok((Mover::Paths, report))
+        }),
+    }
+}
