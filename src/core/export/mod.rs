@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub use comparison::{Comparison, Row, write_comparison};
 pub use exr::Metadata;
-pub use overlay::{Drawn, Overlay};
+pub use overlay::{Drawn, MAGENTA, ORANGE, Overlay};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};

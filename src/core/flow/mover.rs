@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use super::path::Paths;
-use super::trajectory::{Carrier, Fields};
+use super::trajectory::{Astray, Carrier, Fields};
 use crate::{Progress, Result};
 
 /// What moves the photons from one key to the next.
@@ -59,6 +59,14 @@ impl Carriage<'_> {
                 paths.positions(t, out);
                 progress.check()
             }
+        }
+    }
+
+    /// Photons that walls did not keep, so far.
+    pub fn astray(&self) -> Astray {
+        match self {
+            Self::Fields(carrier) => carrier.astray(),
+            Self::Paths(_) => Astray::default(),
         }
     }
 }

@@ -133,6 +133,16 @@ pub struct Astray {
     pub crossings: usize,
 }
 
+impl Astray {
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            unreachable: self.unreachable + other.unreachable,
+            crossings: self.crossings + other.crossings,
+        }
+    }
+}
+
 /// Photons of one pass on their way along the fields. Its memory is 36 bytes a photon, whatever the number of frames.
 ///
 /// Rows keep their order. Photons in the order of [`spatial_order`] move faster: neighbours read the same coefficients.

@@ -1,18 +1,29 @@
 //! The continuous map of either method behind one interface.
 
-use glam::Vec2;
+use std::sync::Arc;
 
-use super::bijection::Matching;
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::around::AroundMap;
+use super::bijection::{Matching, mean_square_distance};
 use super::dual::dual_bound;
 use super::stylized::StylizedMap;
-use super::transport_map::TransportMap;
+use super::transport_map::{TransportMap, transport_map};
+use crate::constraint::Detour;
+use crate::constraint::detour::Sight;
 use crate::{Progress, Result};
 
+/// Photons per parallel task; fixed, so that sums come out the same on any number of threads.
+const CHUNK: usize = 4096;
+
 /// Where the light of one key goes at the next: it makes the photons of every pass move together.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum ContinuousMap {
     /// The optimal map between the densities.
     Transport(TransportMap),
+    /// The map around walls, and those walls.
+    Around(AroundMap, Arc<Detour>),
     /// The thin-plate warp of the method before.
     Stylized(StylizedMap),
 }
@@ -45,6 +56,10 @@ impl ContinuousMap {
                 let matching = Matching::new(source, target, map, seed, pass, progress)?;
                 Ok(Pairing { matching, bows: Vec::new() })
             }
+            Self::Around(map, detour) => {
+                let matching = Matching::around(source, target, (map, detour), seed, pass, progress)?;
+                Ok(Pairing { matching, bows: Vec::new() })
+            }
             Self::Stylized(map) => {
                 let (matching, bows) = map.pair(source, target, progress)?;
                 Ok(Pairing { matching, bows })
@@ -52,13 +67,35 @@ impl ContinuousMap {
         }
     }
 
+    /// Mean squared length of the ways of points that are paired row by row, plane units squared. Pairs that no way
+    /// connects count as straight.
+    pub fn cost(&self, source: &[Vec2], targets: &[Vec2]) -> f64 {
+        let Self::Around(_, detour) = self else {
+            return mean_square_distance(source, targets.iter().copied());
+        };
+        let squares = source.par_chunks(CHUNK).zip(targets.par_chunks(CHUNK)).map(|(source, targets)| {
+            let mut sight = Sight::default();
+            let square = |(&a, &b): (&Vec2, &Vec2)| {
+                let way = detour.distance(a, b, &mut sight);
+                f64::from(if way.is_finite() { way } else { a.distance(b) }).powi(2)
+            };
+            source.iter().zip(targets).map(square).sum::<f64>()
+        });
+        squares.collect::<Vec<_>>().iter().sum::<f64>() / source.len().max(1) as f64
+    }
+
     /// A lower bound of the mean squared distance of any bijection between these points, where the map has one to tell.
+    /// Around walls it is that of straight ways.
     ///
     /// # Errors
     /// `Cancelled`.
     pub fn lower_bound(&self, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<Option<f64>> {
         match self {
             Self::Transport(map) => dual_bound(map, source, target, progress).map(Some),
+            Self::Around(_, detour) => {
+                let map = transport_map(source, target, detour.extent(), progress)?;
+                dual_bound(&map, source, target, progress).map(Some)
+            }
             Self::Stylized(_) => Ok(None),
         }
     }

@@ -87,7 +87,7 @@ impl<'a> Batch<'a> {
         if self.rests(group) || from.is_empty() {
             return Ok(None);
         }
-        mover::continuous_map(self.project, from, points, self.extent, progress)
+        mover::continuous_map(self.project, self.key, (from, points), self.extent, progress)
     }
 
     /// Where the photons of all groups shall go: row k of each is where photon k goes.

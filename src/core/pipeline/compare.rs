@@ -5,9 +5,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::acting;
 use super::meter::Meter;
 use super::{Pipeline, Prepared, Rendered, Summary};
-use crate::export::{Comparison as Sheet, Overlay, Row, evenly_chosen, write_comparison};
+use crate::export::{Comparison as Sheet, Drawn, Overlay, Row, evenly_chosen, write_comparison};
 use crate::flow::Movement;
 use crate::matching::Method;
 use crate::project::Project;
@@ -104,7 +105,7 @@ impl Pipeline {
         }
         let comparison = Comparison::new(project, &done, stopped);
         let path = out.join("compare.png");
-        comparison.write_sheet(&path, &done)?;
+        comparison.write_sheet(&path, &acting::shown(project), &done)?;
         saved(&path);
         Ok(comparison)
     }
@@ -153,7 +154,7 @@ impl Comparison {
     }
 
     /// Draws all methods on one page.
-    fn write_sheet(&self, path: &Path, done: &[(Movement, Rendered)]) -> Result<()> {
+    fn write_sheet(&self, path: &Path, drawn: &[Drawn], done: &[(Movement, Rendered)]) -> Result<()> {
         let rows: Vec<Row> =
             self.methods.iter().zip(done).map(|(m, (_, r))| m.row(&self.frames, r)).collect();
         let size = rows.iter().flat_map(|row| &row.pictures).next().map_or([1, 1], |p| [p.width, p.height]);
@@ -165,7 +166,7 @@ impl Comparison {
         };
         let plane = done.first().map(|(_, rendered)| &rendered.plane);
         let pixel_from_plane = |point| plane.and_then(|plane| plane.pixel_from_plane(point, size));
-        write_comparison(path, &sheet, Overlay { drawn: &[], pixel_from_plane: &pixel_from_plane })
+        write_comparison(path, &sheet, Overlay { drawn, pixel_from_plane: &pixel_from_plane })
     }
 
     fn photons_in_words(&self) -> String {

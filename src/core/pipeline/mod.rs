@@ -3,10 +3,10 @@
 //! Each stage remembers the input it was made from: a new gamma refits and traces nothing; a new camera renders anew
 //! and fits nothing. Preview and final are the same code at two [`Quality`] values.
 
+mod acting;
 mod batch;
 mod check;
 mod compare;
-mod drawn;
 mod finish;
 mod grouping;
 mod meter;
@@ -148,7 +148,7 @@ impl Pipeline {
         })?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let (visible, background) = (&*visible, &*background);
-        let drawn = &[];
+        let drawn = &acting::shown(project);
         let finisher = Finisher {
             project,
             render: &render,
@@ -234,6 +234,7 @@ impl Pipeline {
             notes.extend(supplies.notes());
             notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
             notes.extend(stretch_note(project.flow.grid, extent));
+            notes.extend(acting::notes(project, extent));
             notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
             let slots = Slots::new(&project.keys, &frames);
             let plan = plan::plan(

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 
 use glam::Vec2;
 
+use super::acting::{Acting, all_acting};
 use super::batch::Batch;
-use super::drawn::{Drawn, all_drawn};
 use super::grouping::{CausticLight, Grouping};
 use super::meter::Meter;
 use super::mover;
@@ -70,7 +70,7 @@ pub(super) struct MotionInput {
     matching: Method,
     method: Movement,
     flow: FlowSettings,
-    drawn: Vec<Drawn>,
+    acting: Vec<Acting>,
     seed: u64,
     photons: usize,
 }
@@ -98,7 +98,7 @@ impl MotionInput {
             matching: project.matching,
             method: project.method,
             flow: project.flow.clone(),
-            drawn: all_drawn(project, extent),
+            acting: all_acting(project, extent),
             seed: project.seed,
             photons,
         }
@@ -115,7 +115,7 @@ pub(super) fn fit(
 ) -> Result<Motion> {
     let caustics = batch.supplies().caustics(batch.light());
     let mut motion = Motion { segments: Vec::new(), numbers: None, caustics };
-    for (number, drawn) in all_drawn(project, extent).iter().enumerate() {
+    for (number, acting) in all_acting(project, extent).iter().enumerate() {
         progress.begin("match", 1);
         let Paired { maps, next, cost } = meter.measure("match", || match_next(&batch, progress))?;
         let mut segment = Segment { maps, layers: Vec::new(), cost };
@@ -123,7 +123,7 @@ pub(super) fn fit(
             let source = &*column(&batch.at, &groups, |at| &at.positions);
             let target = &*column(&next, &groups, |next| &next.positions);
             let bows = &*column(&next, &groups, |next| &next.bows);
-            let (settings, Drawn { lines, walls }) = (&project.flow, drawn);
+            let (settings, Acting { lines, walls }) = (&project.flow, acting);
             let course = Course { source, target, extent, settings, lines, walls, number };
             let (mover, flow) = mover::mover(project.method, &course, bows, meter, progress)?;
             let numbers = FlowNumbers::new(flow, &cost);
@@ -211,7 +211,10 @@ fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
         };
         let next = batch.pair(group, points, map.as_ref(), &progress.inner())?;
         if !batch.rests(group) && !from.is_empty() {
-            let mean = mean_square_distance(from, next.positions.iter().copied());
+            let mean = match &map {
+                Some(map) => map.cost(from, &next.positions),
+                None => mean_square_distance(from, next.positions.iter().copied()),
+            };
             paired.cost.add(from.len(), mean, bound);
         }
         paired.maps.push(map);

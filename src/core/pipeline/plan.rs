@@ -3,6 +3,7 @@
 use glam::Vec2;
 use serde::Serialize;
 
+use crate::constraint::Constraint;
 use crate::flow::{Movement, TurbulenceSettings};
 use crate::matching::Method;
 use crate::project::{Project, Shows};
@@ -119,11 +120,14 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
 }
 
 /// What lies between matching and arrival, where light moves.
-fn unneeded_in_motion(project: &Project) -> [Unneeded; 9] {
+fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
     let (flow, given) = (project.fits(), project.matching == Method::Given);
     let [linear, stylized] = [Movement::Linear, Movement::Stylized].map(|method| project.method == method);
     let rests = (1..project.keys.len()).any(|key| layers(project, key) == 0);
     let gamma = project.flow.gamma;
+    let drawn = || project.constraints.iter().filter(|constraint| constraint.is_enabled());
+    let walls = drawn().any(|constraint| matches!(constraint, Constraint::Wall(_)));
+    let lines = drawn().any(|constraint| matches!(constraint, Constraint::DirectedLine(_)));
     [
         (given, "transport map", "the rows of the point files are paired as given"),
         (stylized, "transport map", "the method is stylized: a thin-plate warp takes its place"),
@@ -133,6 +137,8 @@ fn unneeded_in_motion(project: &Project) -> [Unneeded; 9] {
         (rests, "matching and fit of a segment", "all light is the physical caustic before and after"),
         (flow && gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns"),
         (flow && gamma == 1.0, "stream function", "gamma is 1: half the unknowns"),
+        (flow && !walls, "ways around walls", "no wall is drawn"),
+        (flow && !lines, "fit to directed lines", "none is drawn"),
         (flow && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0"),
     ]
 }

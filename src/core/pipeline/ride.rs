@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::motion::Segment;
 use super::supply::KeyPhotons;
-use crate::flow::{Carriage, flux};
+use crate::flow::{Astray, Carriage, flux};
 use crate::{Progress, Result};
 
 /// All groups from one key to the next. Their rows follow each other in the columns that are filled.
@@ -58,6 +58,12 @@ impl<'a> Ride<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Photons that walls did not keep, so far.
+    pub(super) fn astray(&self) -> Astray {
+        let carriages = self.groups.iter().filter_map(|group| group.carriage.as_ref());
+        carriages.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
     }
 
     /// RGB flux of all photons at time `t`, 0..=1, watts.

@@ -10,6 +10,7 @@ use super::meter::{Meter, StageCost};
 use super::motion::{Cost, Motion};
 use super::passes::Account;
 use super::plan::LeftOut;
+use crate::constraint::Constraint;
 use crate::export::Repairs;
 use crate::flow::FlowReport;
 use crate::project::Project;
@@ -98,6 +99,9 @@ pub struct Summary {
     /// is named.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub caustics: Vec<CausticLight>,
+    /// Whether walls were drawn.
+    #[serde(skip)]
+    pub walled: bool,
     /// Where the light went.
     pub energy: Energy,
     /// Replaced values.
@@ -124,6 +128,16 @@ impl BadValues {
     }
 }
 
+/// Light that walls could not lead to its target.
+fn note_on_walls(flow: &FlowReport) -> Option<String> {
+    (flow.unreachable > 0).then(|| {
+        format!(
+            "walls shut {} photons off from their targets: these go straight through; leave a gap, or move the target",
+            flow.unreachable
+        )
+    })
+}
+
 /// What a run did, for its summary.
 pub(super) struct Done<'a> {
     pub(super) command: &'static str,
@@ -137,11 +151,16 @@ impl Summary {
     pub(super) fn new(project: &Project, prepared: Prepared, done: Done, meter: &Meter) -> Self {
         let account = done.account;
         let flow = done.motion.numbers.clone();
-        let flow =
-            flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
+        let flow = flow.map(|mut numbers| {
+            numbers.flux_ratio = account.flux_ratio.unwrap_or(1.0);
+            numbers.flow.wall_crossings += account.crossings;
+            numbers.flow.unreachable = numbers.flow.unreachable.max(account.unreachable);
+            numbers
+        });
         let stages = meter.costs().to_vec();
         let mut notes = prepared.notes;
         notes.extend(notes_on_dark(&done.motion.caustics));
+        notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         Self {
             command: done.command,
             project: project.name.clone(),
@@ -153,6 +172,7 @@ impl Summary {
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             flow,
             caustics: done.motion.caustics.clone(),
+            walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
             energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
@@ -196,6 +216,13 @@ impl Summary {
                 } else {
                     String::new()
                 }
+            );
+        }
+        if let Some(FlowNumbers { flow, .. }) = self.flow.as_ref().filter(|_| self.walled) {
+            let _ = writeln!(
+                text,
+                "  walls: {} crossings, {} photons shut off",
+                flow.wall_crossings, flow.unreachable
             );
         }
         let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;
