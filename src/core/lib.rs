@@ -17,6 +17,7 @@
 //! | Eqs. (3) to (5) and (7), the fit | `flow/fit.rs`, `flow/bending.rs` |
 //! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
 //! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
+//! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path.rs`, `pipeline/compare.rs` |
 //!
 //! # What is absent
 //!

@@ -182,14 +182,17 @@ mod tests {
 
     #[test]
     fn nothing_drawn_changes_nothing_and_odd_lines_do_not_fail() {
-        let spot = Drawn { points: vec![Vec2::ONE; 3], colour: ORANGE, width: 0.1, arrow: true };
-        let none = Drawn { points: Vec::new(), ..spot };
-        let lost = Drawn { points: vec![vec2(f32::NAN, 0.0), Vec2::ZERO], ..spot };
-        let far = Drawn { points: vec![Vec2::splat(-1e30), Vec2::splat(1e30)], ..spot };
+        let through = |points: Vec<Vec2>| Drawn { points, colour: ORANGE, width: 0.1, arrow: true };
+        let lines = [
+            through(Vec::new()),
+            through(vec![Vec2::ONE; 3]),
+            through(vec![vec2(f32::NAN, 0.0), Vec2::ZERO]),
+            through(vec![Vec2::splat(-1e30), Vec2::splat(1e30)]),
+        ];
         let mut picture = Image::new(30, 20);
         Overlay::NONE.draw(&mut picture);
         assert_eq!(picture, Image::new(30, 20));
-        for line in [spot, none, lost, far] {
+        for line in lines {
             let see = |p: Vec2| (p.x < 0.9).then_some(p);
             Overlay { drawn: &[line], pixel_from_plane: &see }.draw(&mut picture);
             assert!(picture.pixels.iter().all(|p| p.is_finite()));

@@ -14,7 +14,7 @@ pub fn solve(matrix: &mut [f64], right: &mut [DVec2]) -> bool {
     for k in 0..n {
         let size = |row: usize| matrix[row * n + k].abs();
         let pivot = (k + 1..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
-        // Written so that NaN is singular, too.
+        // NaN is not larger, and so singular, too.
         let regular = size(pivot) > f64::EPSILON * largest;
         if !regular {
             return false;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::slots::Slots;
 use super::summary::BadValues;
 use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, sheet, write_frame};
+use crate::flow::Movement;
 use crate::project::Project;
 use crate::render::{Image, PlaneView, ProgressiveRender, View, Visible};
 use crate::{Progress, Result};
@@ -88,19 +89,23 @@ impl Finisher<'_> {
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {
-        let Project { name, seed, flow, render, output, .. } = self.project;
+        let Project { name, seed, method, flow, render, output, .. } = self.project;
         // Plain numbers and strings: writing them as JSON has nothing to fail on.
         let json = |value: serde_json::Result<String>| value.unwrap_or_default();
+        let mut settings = vec![
+            ("project".into(), name.clone()),
+            ("flow".into(), json(serde_json::to_string(flow))),
+            ("render".into(), json(serde_json::to_string(render))),
+        ];
+        if *method != Movement::Flow {
+            settings.push(("method".into(), method.name().into()));
+        }
         Metadata {
             frame,
             frames_per_second: (output.fps[0] as i32, output.fps[1]),
             seed: *seed,
             passes: passes as u32,
-            settings: vec![
-                ("project".into(), name.clone()),
-                ("flow".into(), json(serde_json::to_string(flow))),
-                ("render".into(), json(serde_json::to_string(render))),
-            ],
+            settings,
         }
     }
 }
