@@ -53,7 +53,7 @@ impl Matching {
         pass: u64,
         progress: &Progress,
     ) -> Result<Self> {
-        let apply = |point| map.apply(point, detour.barriers());
+        let apply = |point| map.apply(point, detour);
         Self::near(source, target, apply, Some(detour), (seed, pass), progress)
     }
 

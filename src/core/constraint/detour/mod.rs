@@ -8,7 +8,6 @@ mod corners;
 mod graph;
 
 use glam::Vec2;
-use rayon::prelude::*;
 
 use super::barrier::Barriers;
 use super::wall::ActiveWall;
@@ -32,6 +31,20 @@ pub struct Detour {
 pub struct Way {
     first: u16,
     last: u16,
+}
+
+/// What [`Detour::tails`] finds.
+#[derive(Clone, Debug)]
+pub struct Tails {
+    target: Vec2,
+    lengths: Vec<f32>,
+}
+
+/// What [`Detour::heads`] finds.
+#[derive(Clone, Debug)]
+pub struct Heads {
+    source: Vec2,
+    seen: Vec<(u16, f32)>,
 }
 
 /// Room for a search, kept from one to the next.
@@ -139,43 +152,33 @@ impl Detour {
         self.way(a, b, sight).map_or(f32::INFINITY, |way| self.length(way, a, b))
     }
 
-    /// Lengths of the shortest ways from each of `from` to each of `to`, row by row; infinite where there is none.
-    ///
-    /// # Errors
-    /// `Cancelled`.
-    pub fn lengths(&self, from: &[Vec2], to: &[Vec2], progress: &Progress) -> Result<Vec<f32>> {
-        let seen = |p: &Vec2| {
-            let mut seen = Vec::new();
-            self.look(*p, false, &mut seen);
-            seen
-        };
-        let seen_from: Vec<Vec<(u16, f32)>> = from.par_iter().map(seen).collect();
-        // Ways from all corners to each target.
-        let tails: Vec<Vec<f32>> = to
-            .par_iter()
-            .map(|b| {
-                let mut tails = vec![f32::INFINITY; self.corners.len()];
-                for (last, after) in seen(b) {
-                    for (tail, length) in tails.iter_mut().zip(self.graph.lengths_to(last)) {
-                        *tail = tail.min(length + after);
-                    }
-                }
-                tails
-            })
-            .collect();
-        let row = |(a, seen): (&Vec2, &Vec<(u16, f32)>)| {
-            progress.check()?;
-            let length = |(b, tails): (&Vec2, &Vec<f32>)| {
-                if !self.barriers.blocks(*a, *b) {
-                    return a.distance(*b);
-                }
-                let around = seen.iter().map(|&(first, before)| before + tails[usize::from(first)]);
-                around.fold(f32::INFINITY, f32::min)
-            };
-            Ok(to.iter().zip(&tails).map(length).collect::<Vec<f32>>())
-        };
-        let rows: Vec<Vec<f32>> = from.par_iter().zip(&seen_from).map(row).collect::<Result<_>>()?;
-        Ok(rows.concat())
+    /// Lengths of the shortest ways from all corners to `b`, for many questions about one target.
+    pub fn tails(&self, b: Vec2) -> Tails {
+        let mut seen = Vec::new();
+        self.look(b, false, &mut seen);
+        let mut lengths = vec![f32::INFINITY; self.corners.len()];
+        for (last, after) in seen {
+            for (tail, length) in lengths.iter_mut().zip(self.graph.lengths_to(last)) {
+                *tail = tail.min(length + after);
+            }
+        }
+        Tails { target: b, lengths }
+    }
+
+    /// The corners that `a` sees, for many questions about one source.
+    pub fn heads(&self, a: Vec2) -> Heads {
+        let mut seen = Vec::new();
+        self.look(a, false, &mut seen);
+        Heads { source: a, seen }
+    }
+
+    /// Length of the shortest way between the two; infinite where there is none.
+    pub fn between(&self, heads: &Heads, tails: &Tails) -> f32 {
+        if !self.barriers.blocks(heads.source, tails.target) {
+            return heads.source.distance(tails.target);
+        }
+        let around = heads.seen.iter().map(|&(first, before)| before + tails.lengths[usize::from(first)]);
+        around.fold(f32::INFINITY, f32::min)
     }
 
     /// Where `way` leads next: its first corner, or `b`.

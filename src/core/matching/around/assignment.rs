@@ -9,14 +9,22 @@ use crate::{Progress, Result};
 /// No row or column.
 const NONE: usize = usize::MAX;
 
-/// The column of each row in a cheapest assignment; `costs` are n x n, row by row, finite.
+/// A cheapest assignment.
+pub(super) struct Assignment {
+    /// The column of each row.
+    pub(super) column_of: Vec<usize>,
+    /// The dual price of each column: to every row, its own column has the least cost - price of all.
+    pub(super) price: Vec<f64>,
+}
+
+/// A cheapest assignment of rows to columns; `costs` are n x n, row by row, finite.
 ///
 /// # Errors
 /// `Cancelled`.
 ///
 /// # Panics
 /// When `costs` has not n x n values.
-pub(super) fn assign(costs: &[f64], n: usize, progress: &Progress) -> Result<Vec<usize>> {
+pub(super) fn assign(costs: &[f64], n: usize, progress: &Progress) -> Result<Assignment> {
     assert_eq!(costs.len(), n * n, "one cost for each pair");
     let mut problem = Problem::new(costs, n);
     let mut search = Search::new(n);
@@ -26,7 +34,7 @@ pub(super) fn assign(costs: &[f64], n: usize, progress: &Progress) -> Result<Vec
             problem.augment(row, &mut search);
         }
     }
-    Ok(problem.column_of)
+    Ok(Assignment { column_of: problem.column_of, price: problem.price })
 }
 
 struct Problem<'a> {
@@ -152,7 +160,11 @@ mod tests {
             let n = 1 + i as usize % 7;
             // Few different values: many ties.
             let costs: Vec<f64> = (0..n * n).map(|_| (random.f64() * 6.0).floor()).collect();
-            let columns = assign(&costs, n, &Progress::new()).unwrap();
+            let Assignment { column_of: columns, price } = assign(&costs, n, &Progress::new()).unwrap();
+            for (row, &own) in columns.iter().enumerate() {
+                let reduced = |column: usize| costs[row * n + column] - price[column];
+                assert!((0..n).all(|other| reduced(own) <= reduced(other) + 1e-9), "prices that hold");
+            }
             let cost: f64 = columns.iter().enumerate().map(|(row, &column)| costs[row * n + column]).sum();
             let mut taken = columns.clone();
             taken.sort_unstable();
@@ -163,6 +175,6 @@ mod tests {
 
     #[test]
     fn nothing_is_assigned_to_nothing() {
-        assert!(assign(&[], 0, &Progress::new()).unwrap().is_empty());
+        assert!(assign(&[], 0, &Progress::new()).unwrap().column_of.is_empty());
     }
 }

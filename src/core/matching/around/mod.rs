@@ -3,7 +3,8 @@
 //! The back-and-forth method knows straight ways only. Here both sets are cut into a thousand cells of equal numbers;
 //! the cells are assigned to each other exactly, by the ways around the walls; and the map interpolates that
 //! assignment: near each anchor it is affine, fitted to the neighbours that go the same way, and it tears only where
-//! neighbours part ways.
+//! neighbours part ways. Where it tears follows from the assignment's dual prices (a Laguerre diagram with the ways as
+//! distances), so that tears are as smooth as the walls and not as ragged as the cells.
 
 mod assignment;
 mod cells;
@@ -12,8 +13,10 @@ use glam::{Mat2, Vec2};
 use rayon::prelude::*;
 
 use super::transport_map::require_points;
+use crate::constraint::detour::{Heads, Tails};
 use crate::constraint::{Barriers, Detour};
 use crate::{Progress, Result};
+use assignment::Assignment;
 
 /// Most anchors.
 const ANCHORS: usize = 1024;
@@ -23,8 +26,8 @@ const PER_ANCHOR: usize = 4;
 const NEIGHBOURS: usize = 10;
 /// Neighbours go the same way while the map stretches their distance by no more than this.
 const STRETCH: f32 = 4.0;
-/// Anchors that a point asks for the nearest one that it sees.
-const CANDIDATES: usize = 8;
+/// Anchors near a point that it chooses from.
+const CANDIDATES: usize = 12;
 /// Price of a pair that no way connects: more than any way is long, so that as few as possible remain.
 const SHUT_OFF: f64 = 100.0;
 
@@ -46,6 +49,9 @@ struct Anchor {
     spacing: f32,
     /// Neighbours that go the same way.
     kin: Vec<u32>,
+    /// Ways to its target, and the target's price.
+    tails: Tails,
+    price: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -69,27 +75,42 @@ impl AroundMap {
         let most = (photons / PER_ANCHOR).clamp(1, ANCHORS);
         let count = if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 };
         let (from, to) = (cells::representatives(source, count), cells::representatives(target, count));
-        let lengths = detour.lengths(&from, &to, progress)?;
-        let costs: Vec<f64> = lengths
-            .iter()
-            .map(|&length| if length.is_finite() { f64::from(length).powi(2) } else { SHUT_OFF })
+        let heads: Vec<Heads> = from.par_iter().map(|&a| detour.heads(a)).collect();
+        let tails: Vec<Tails> = to.par_iter().map(|&b| detour.tails(b)).collect();
+        let costs: Vec<f64> = heads
+            .par_iter()
+            .flat_map_iter(|heads| tails.iter().map(|tails| cost(detour.between(heads, tails))))
             .collect();
-        let columns = assignment::assign(&costs, count, progress)?;
-        let to: Vec<Vec2> = columns.into_iter().map(|column| to[column]).collect();
+        progress.check()?;
+        let Assignment { column_of, price } = assignment::assign(&costs, count, progress)?;
+        let to: Vec<Vec2> = column_of.iter().map(|&column| to[column]).collect();
         let buckets = Buckets::new(&from);
         let anchors = (0..count)
             .into_par_iter()
-            .map(|i| Anchor::new(i, &from, &to, &buckets, detour.barriers()))
+            .map(|i| {
+                let column = column_of[i];
+                let own = (tails[column].clone(), price[column]);
+                Anchor::new(i, &from, &to, own, &buckets, detour.barriers())
+            })
             .collect();
         Ok(Self { anchors, buckets })
     }
 
-    /// Where `point` goes: the same way as the nearest anchor that it sees.
-    pub fn apply(&self, point: Vec2, barriers: &Barriers) -> Vec2 {
+    /// The anchor whose way `point` goes: of those near that it sees, the one whose target has the least cost less price.
+    fn anchor_of(&self, point: Vec2, detour: &Detour) -> Option<&Anchor> {
         let near = self.buckets.nearest(point, CANDIDATES, |i| self.anchors[i as usize].from);
-        let seen = near.iter().find(|&&i| !barriers.blocks(point, self.anchors[i as usize].from));
-        let Some(&first) = seen.or(near.first()) else { return point };
-        let first = &self.anchors[first as usize];
+        let nearest = self.anchors.get(*near.first()? as usize);
+        let heads = detour.heads(point);
+        let anchors = near.into_iter().map(|i| &self.anchors[i as usize]);
+        let seen = anchors.filter(|anchor| !detour.barriers().blocks(point, anchor.from));
+        let value = |anchor: &Anchor| cost(detour.between(&heads, &anchor.tails)) - anchor.price;
+        let least = seen.map(|anchor| (value(anchor), anchor)).min_by(|a, b| a.0.total_cmp(&b.0));
+        least.map(|(_, anchor)| anchor).or(nearest)
+    }
+
+    /// Where `point` goes.
+    pub fn apply(&self, point: Vec2, detour: &Detour) -> Vec2 {
+        let Some(first) = self.anchor_of(point, detour) else { return point };
         let (mut sum, mut weights) = (Vec2::ZERO, 0.0);
         let kin = first.kin.iter().map(|&i| &self.anchors[i as usize]);
         for anchor in std::iter::once(first).chain(kin) {
@@ -103,7 +124,14 @@ impl AroundMap {
 }
 
 impl Anchor {
-    fn new(i: usize, from: &[Vec2], to: &[Vec2], buckets: &Buckets, barriers: &Barriers) -> Self {
+    fn new(
+        i: usize,
+        from: &[Vec2],
+        to: &[Vec2],
+        (tails, price): (Tails, f64),
+        buckets: &Buckets,
+        barriers: &Barriers,
+    ) -> Self {
         let mut near = buckets.nearest(from[i], NEIGHBOURS + 1, |k| from[k as usize]);
         near.retain(|&k| k as usize != i);
         let square = |k: &u32| from[i].distance_squared(from[*k as usize]);
@@ -119,8 +147,13 @@ impl Anchor {
             })
             .collect();
         let slope = slope(kin.iter().map(|&k| (from[k as usize] - from[i], to[k as usize] - to[i])), spacing);
-        Self { from: from[i], to: to[i], slope, spacing, kin }
+        Self { from: from[i], to: to[i], slope, spacing, kin, tails, price }
     }
+}
+
+/// The cost of a way of this length.
+fn cost(length: f32) -> f64 {
+    if length.is_finite() { f64::from(length).powi(2) } else { SHUT_OFF }
 }
 
 /// The matrix J that least misses b = J a over all pairs (a, b), drawn a little towards the identity.
