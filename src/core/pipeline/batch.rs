@@ -2,7 +2,8 @@
 
 use glam::Vec2;
 
-use super::supply::{KeyPhotons, PassLight, Supplies};
+use super::light::{KeyPhotons, PassLight};
+use super::supply::Supplies;
 use crate::flow::spatial_order;
 use crate::matching::{Matching, Method, TransportMap, transport_map};
 use crate::photon::Tracer;
@@ -39,7 +40,7 @@ impl<'a> Batch<'a> {
                 Method::Given => at,
             }
         };
-        let at = (0..light.groups()).map(first).collect();
+        let at = (0..light.groups.len()).map(first).collect();
         Ok(Self { supplies, light, pass, method, extent, key: 0, at })
     }
 

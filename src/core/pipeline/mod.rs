@@ -7,6 +7,7 @@ mod batch;
 mod check;
 mod finish;
 mod grouping;
+mod light;
 mod meter;
 mod motion;
 mod passes;

@@ -7,9 +7,9 @@ use glam::Vec2;
 
 use super::batch::Batch;
 use super::grouping::{CausticLight, Grouping};
+use super::light::KeyPhotons;
 use super::meter::Meter;
 use super::summary::FlowNumbers;
-use super::supply::KeyPhotons;
 use crate::flow::{Fields, FlowSettings, fit_segment};
 use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
 use crate::project::{CausticDesc, CausticKey, KeyFrame, PlaneSettings, Project};
