@@ -2,8 +2,9 @@
 
 use glam::Vec2;
 
+use super::light::{KeyPhotons, PassLight};
 use super::mover;
-use super::supply::{KeyPhotons, PassLight, Supplies};
+use super::supply::Supplies;
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, Method};
 use crate::photon::Tracer;
@@ -41,7 +42,7 @@ impl<'a> Batch<'a> {
                 Method::Given => at,
             }
         };
-        let at = (0..light.groups()).map(first).collect();
+        let at = (0..light.groups.len()).map(first).collect();
         Ok(Self { supplies, light, pass, project, extent, key: 0, at })
     }
 

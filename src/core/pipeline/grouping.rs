@@ -14,9 +14,14 @@ use crate::{Error, Result};
 /// The groups of a project: its named caustics in their order, then the rest. One group where none is named.
 pub(super) struct Grouping {
     caustics: Vec<CausticDesc>,
-    /// Group of each (light, mesh) of the scene, light by light; empty where no caustic is named.
-    group_of: Vec<u16>,
-    meshes: usize,
+    /// What belongs to each caustic.
+    members: Vec<Members>,
+}
+
+/// Which lights and meshes of the scene a caustic takes, by index.
+struct Members {
+    lights: Vec<bool>,
+    meshes: Vec<bool>,
 }
 
 /// The light of one caustic on the receiver.
@@ -47,20 +52,21 @@ impl Grouping {
     pub(super) fn resolve(project: &Project, scene: Option<&Scene>) -> Result<Self> {
         let caustics = project.caustics.clone();
         let Some(scene) = scene.filter(|_| !caustics.is_empty()) else {
-            return Ok(Self { caustics: Vec::new(), group_of: Vec::new(), meshes: 0 });
+            return Ok(Self { caustics: Vec::new(), members: Vec::new() });
         };
         let lights: Vec<&str> = scene.lights().iter().map(|light| light.name()).collect();
         let meshes: Vec<&str> = scene.meshes().iter().map(|mesh| mesh.name.as_str()).collect();
+        let mut members = Vec::new();
         for (i, caustic) in caustics.iter().enumerate() {
-            require("light", i, caustic.light.as_deref(), &lights, |light| of_light(caustic, light))?;
-            require("mesh", i, caustic.mesh.as_deref(), &meshes, |mesh| of_mesh(caustic, mesh))?;
+            let of = Members {
+                lights: lights.iter().map(|light| of_light(caustic, light)).collect(),
+                meshes: meshes.iter().map(|mesh| of_mesh(caustic, mesh)).collect(),
+            };
+            require("light", i, caustic.light.as_deref(), &lights, &of.lights)?;
+            require("mesh", i, caustic.mesh.as_deref(), &meshes, &of.meshes)?;
+            members.push(of);
         }
-        let group = |light: &str, mesh: &str| {
-            let own = caustics.iter().position(|c| of_light(c, light) && of_mesh(c, mesh));
-            own.unwrap_or(caustics.len()) as u16
-        };
-        let group_of = lights.iter().flat_map(|light| meshes.iter().map(|mesh| group(light, mesh))).collect();
-        Ok(Self { group_of, meshes: meshes.len(), caustics })
+        Ok(Self { caustics, members })
     }
 
     /// How many groups.
@@ -78,9 +84,10 @@ impl Grouping {
         self.caustics.get(group).is_some_and(|caustic| caustic.own_flow)
     }
 
-    /// The group of the photons of a light, by index, that met a mesh last, by index.
+    /// The group of the photons of a light, by index, that met a mesh last, by index: the first caustic that takes both.
     pub(super) fn group_of(&self, light: u16, mesh: u16) -> usize {
-        self.group_of.get(usize::from(light) * self.meshes + usize::from(mesh)).map_or(0, |&g| g.into())
+        let takes = |of: &Members| of.lights[usize::from(light)] && of.meshes[usize::from(mesh)];
+        self.members.iter().position(takes).unwrap_or(self.members.len())
     }
 
     /// The photons of each group, in their order.
@@ -119,16 +126,10 @@ impl Grouping {
     }
 }
 
-/// That caustic `i` names something that is there.
-fn require(
-    kind: &str,
-    i: usize,
-    name: Option<&str>,
-    known: &[&str],
-    fits: impl Fn(&str) -> bool,
-) -> Result<()> {
+/// That caustic `i` takes any of what its `name` stands for.
+fn require(kind: &str, i: usize, name: Option<&str>, known: &[&str], takes: &[bool]) -> Result<()> {
     match name {
-        Some(name) if !known.iter().any(|known| fits(known)) => {
+        Some(name) if !takes.contains(&true) => {
             Err(Error::value(format!("caustics[{i}].{kind}"), unknown(kind, name, known.iter().copied())))
         }
         _ => Ok(()),

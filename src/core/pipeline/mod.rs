@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod finish;
 mod grouping;
+mod light;
 mod meter;
 mod motion;
 mod mover;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::grouping::{CausticLight, Grouping};
+use super::light::{GroupLight, KeyPhotons, PassLight};
 use crate::flow::flux;
 use crate::matching::Method;
 use crate::photon::Tracer;
@@ -12,19 +13,6 @@ use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
 use crate::target::{PictureSampler, Points, load_points};
 use crate::{Error, Progress, Result};
-
-/// The photons of one group in one pass at one key frame: columns of equal length.
-#[derive(Clone, Debug, Default)]
-pub(super) struct KeyPhotons {
-    /// Plane coordinates.
-    pub(super) positions: Vec<Vec2>,
-    /// RGB flux in watts.
-    pub(super) flux: Vec<Vec3>,
-    /// Which traced photon each is, where they shall stay in place until the next key; else empty.
-    origin: Vec<u32>,
-    /// How far the photons' ways to this key bow from the straight ones at half-time; empty where the method bows none.
-    pub(super) bows: Vec<Vec2>,
-}
 
 /// What a group shows at a key frame, resolved.
 enum Supply {
@@ -45,21 +33,6 @@ pub(super) struct Supplies {
     seed: u64,
     rho: f32,
     watts: f32,
-}
-
-/// The light of one group in one pass.
-struct GroupLight {
-    /// The traced photons where a key shows them.
-    physical: Option<KeyPhotons>,
-    /// Flux of all its photons, watts, which the other keys share out.
-    total: DVec3,
-    /// How many they are.
-    count: usize,
-}
-
-/// The light of one pass, group by group.
-pub(super) struct PassLight {
-    groups: Vec<GroupLight>,
 }
 
 impl Supplies {
@@ -239,33 +212,4 @@ fn open(shows: &Shows, place: &str, extent: Vec2, assets: &AssetFolder) -> Resul
             Supply::Points(load_points(&path)?)
         }
     })
-}
-
-impl PassLight {
-    /// Groups of photons.
-    pub(super) fn groups(&self) -> usize {
-        self.groups.len()
-    }
-}
-
-impl KeyPhotons {
-    /// Row k of the result is row `order[k]` of this, not yet paired.
-    pub(super) fn permuted(&self, order: &[u32]) -> Self {
-        let origin = if self.origin.is_empty() {
-            Vec::new()
-        } else {
-            order.iter().map(|&i| self.origin[i as usize]).collect()
-        };
-        Self {
-            positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
-            flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
-            origin,
-            bows: Vec::new(),
-        }
-    }
-
-    /// The traced photons `next`, each in the row in which it stands here.
-    pub(super) fn in_place(&self, next: &Self) -> Self {
-        next.permuted(&self.origin)
-    }
 }

@@ -8,10 +8,10 @@ use npyz::WriterBuilder as _;
 
 use super::batch::Batch;
 use super::grouping::Grouping;
+use super::light::KeyPhotons;
 use super::motion::Motion;
 use super::passes::{Account, between, total};
 use super::ride::Ride;
-use super::supply::KeyPhotons;
 use crate::files::write_atomic;
 use crate::flow::Fields;
 use crate::flow::field::Field;

@@ -1,9 +1,11 @@
 //! Caustics by name: which light through which glass, and what each does at a key frame.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error as _, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{KeyFrame, Project, Shows};
 use crate::{Error, Result};
@@ -76,6 +78,32 @@ impl KeyFrame {
     }
 }
 
+/// Reads what a key says of single caustics; a name that stands twice is an error, not the last one's word.
+pub(super) fn by_name<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, CausticKey>, D::Error> {
+    struct ByName;
+    impl<'de> Visitor<'de> for ByName {
+        type Value = BTreeMap<String, CausticKey>;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("caustics by name")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut caustics = BTreeMap::new();
+            while let Some((name, caustic)) = map.next_entry::<String, _>()? {
+                if caustics.contains_key(&name) {
+                    return Err(A::Error::custom(format!("duplicate caustic `{name}`")));
+                }
+                caustics.insert(name, caustic);
+            }
+            Ok(caustics)
+        }
+    }
+    deserializer.deserialize_map(ByName)
+}
+
 /// The named caustics, and what the keys say of them.
 pub(super) fn check(project: &Project) -> Result<()> {
     let caustics = &project.caustics;
@@ -134,5 +162,12 @@ mod tests {
             assert_eq!(*key.shown_by(other), Shows::PhysicalCaustic);
         }
         assert_eq!(key.caustics["blue"].gain(), [0.5; 3]);
+    }
+
+    #[test]
+    fn a_caustic_that_a_key_names_twice_is_refused() {
+        let text = r#"{ "frame": 1, "shows": "physical_caustic", "caustics": { "red": {}, "red": { "brightness": 2 } } }"#;
+        let error = serde_json::from_str::<KeyFrame>(text).expect_err("a name twice").to_string();
+        assert!(error.contains("duplicate caustic `red`"), "{error}");
     }
 }

@@ -18,7 +18,11 @@ pub struct KeyFrame {
     /// What the light shows at this frame.
     pub shows: Shows,
     /// What single caustics do otherwise at this frame, by the names in `caustics` of the project. Default: nothing.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        deserialize_with = "super::caustic::by_name",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
     pub caustics: BTreeMap<String, CausticKey>,
     /// How the time runs from this key to the next: "smooth" (default), "linear", "in" or "out".
     #[serde(default)]
