@@ -203,7 +203,7 @@ impl Compared {
     fn new(method: Movement, rendered: &Rendered, all: &[(Movement, Rendered)]) -> Self {
         let summary = rendered.summary.clone();
         let seconds = |stage: &str| {
-            summary.stages.iter().filter(|cost| cost.stage == stage).map(|cost| cost.seconds).sum::<f64>()
+            summary.stages.iter().find(|cost| cost.stage == stage).map_or(0.0, |cost| cost.seconds)
         };
         // All methods pair the same points, so that what one knows of their optimum holds for all.
         let bound =
@@ -225,12 +225,12 @@ impl Compared {
         let none = || "none".to_owned();
         let crossing = self.crossing_index.map_or_else(none, |c| c.map(|c| format!("{c:.4}")).join("  "));
         let cost = self.transport_cost_ratio.map_or_else(none, |ratio| format!("{ratio:.3} \u{d7} optimum"));
-        let fit = if self.fit_seconds > 0.0 { format!("{:.1} s", self.fit_seconds) } else { none() };
+        let seconds = |s: f64| if s > 0.0 { format!("{s:.1} s") } else { none() };
         vec![
             ("crossing index".into(), crossing),
             ("transport cost".into(), cost),
-            ("match".into(), format!("{:.1} s", self.match_seconds)),
-            ("fit".into(), fit),
+            ("match".into(), seconds(self.match_seconds)),
+            ("fit".into(), seconds(self.fit_seconds)),
         ]
     }
 
