@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "error", "progress", "files", "math", "scene", "photon", "target", "matching", "flow", "render",
-    "export", "project", "pipeline", "lib",
+    "export", "project", "pipeline", "report", "lib",
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.

@@ -19,6 +19,17 @@ pub(super) fn run(
     out: &Path,
     work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<Summary>,
 ) -> Result<Summary> {
+    let summary = self::work(args, out, work)?;
+    conclude(&summary, out, args.json)?;
+    Ok(summary)
+}
+
+/// Loads the project and shows how far `work` is.
+pub(super) fn work<T>(
+    args: &ProjectArgs,
+    out: &Path,
+    work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<T>,
+) -> Result<T> {
     args.set_threads()?;
     let project = args.load()?;
     let assets = AssetFolder::new(&args.path, args.allow_external)?;
@@ -28,10 +39,7 @@ pub(super) fn run(
 
     let display = Display::start(&progress, Lines::beside(args.json));
     let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
-    let summary = work(&mut Pipeline::new(assets), &project, &progress, &saved)?;
-    drop(display);
-    conclude(&summary, out, args.json)?;
-    Ok(summary)
+    work(&mut Pipeline::new(assets), &project, &progress, &saved)
 }
 
 /// Ctrl-C asks the work to stop; a second one leaves at once.
@@ -74,7 +82,8 @@ fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<
 }
 
 /// What stands in an output folder beside the frames.
-const OUTPUTS: [&str; 5] = ["summary.json", "contact_sheet.png", "tracks.npy", "flux.npy", "fields.npz"];
+const OUTPUTS: [&str; 7] =
+    ["summary.json", "contact_sheet.png", "tracks.npy", "flux.npy", "fields.npz", "gamma.svg", "gamma.csv"];
 
 /// Writes summary.json, and prints it as JSON or as a few lines.
 fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {

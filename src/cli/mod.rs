@@ -6,6 +6,7 @@ mod fit;
 mod job;
 mod progress;
 mod render;
+mod report;
 
 use std::process::ExitCode;
 
@@ -32,6 +33,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::Fit(args) => fit::run(args),
         Command::Check(args) => check::run(args),
+        Command::Report(args) => report::run(args),
         Command::Schema => schema(),
     };
     match done {

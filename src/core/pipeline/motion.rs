@@ -6,11 +6,12 @@ use super::batch::Batch;
 use super::meter::Meter;
 use super::summary::FlowNumbers;
 use super::supply::KeyPhotons;
+use crate::flow::guidance::mean_straight;
 use crate::flow::{Course, Fields, FlowSettings, fit_segment};
 use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
 use crate::project::{KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// From one key to the next.
 pub(super) struct Segment {
@@ -85,6 +86,39 @@ pub(super) fn fit(
         batch.arrive(paired.next);
     }
     Ok(motion)
+}
+
+/// The photons of the first two key frames between which they move: row k of `target` is where photon k of `source` goes.
+pub struct FirstMove {
+    /// Positions at the earlier key, plane units.
+    pub source: Vec<Vec2>,
+    /// Positions at the later one.
+    pub target: Vec<Vec2>,
+    /// Size of the plane; its longer side is 1.
+    pub extent: Vec2,
+    /// Number of the segment, from 0.
+    pub number: usize,
+}
+
+/// Goes from key to key until photons move.
+pub(super) fn first_move(
+    mut batch: Batch,
+    project: &Project,
+    extent: Vec2,
+    progress: &Progress,
+) -> Result<FirstMove> {
+    for number in 0..project.keys.len().saturating_sub(1) {
+        progress.begin("match", 1);
+        let next = match_next(&batch, project.matching, extent, progress)?.next;
+        if mean_straight(&batch.at.positions, &next.positions) > 0.0 {
+            return Ok(FirstMove { source: batch.at.positions, target: next.positions, extent, number });
+        }
+        batch.arrive(next);
+    }
+    Err(Error::value(
+        "keys",
+        "no photon moves from one key frame to the next, so there is no flow to look at",
+    ))
 }
 
 /// The photons' targets at the next key.
