@@ -86,9 +86,12 @@ fn draw_panel<'a>(area: &Area<'a>, axis: &str, panel: &Panel) -> Result<(), Fail
             .label(line.label)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
     }
+    // On the right, where the lines are not.
+    let ends = panel.lines.first().and_then(|line| Some((line.points.first()?.1, line.points.last()?.1)));
+    let rises = ends.is_some_and(|(begin, end)| end > begin);
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerMiddle)
+        .position(if rises { SeriesLabelPosition::LowerRight } else { SeriesLabelPosition::UpperRight })
         .background_style(WHITE.mix(0.8))
         .border_style(TRANSPARENT)
         .draw()
