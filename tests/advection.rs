@@ -36,7 +36,7 @@ fn disc_to_lobes(count: usize) -> (Vec<Vec2>, Vec<Vec2>) {
 const EXTENT: Vec2 = Vec2::new(1.0, 0.75);
 
 fn course<'a>(source: &'a [Vec2], target: &'a [Vec2], settings: &'a FlowSettings) -> Course<'a> {
-    Course { source, target, extent: EXTENT, settings, number: 0 }
+    Course::new(source, target, EXTENT, settings)
 }
 
 fn fitted(source: &[Vec2], target: &[Vec2], settings: &FlowSettings) -> (Fields, FlowReport) {

@@ -5,13 +5,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 15] = [
-    "error", "progress", "files", "math", "scene", "photon", "target", "matching", "flow", "render",
-    "export", "project", "pipeline", "report", "lib",
+const ORDER: [&str; 16] = [
+    "error",
+    "progress",
+    "files",
+    "math",
+    "scene",
+    "photon",
+    "target",
+    "constraint",
+    "matching",
+    "flow",
+    "render",
+    "export",
+    "project",
+    "pipeline",
+    "report",
+    "lib",
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.
-const SCENELESS: [&str; 3] = ["target", "matching", "flow"];
+const SCENELESS: [&str; 4] = ["target", "constraint", "matching", "flow"];
 
 const LONGEST_FILE: usize = 500;
 

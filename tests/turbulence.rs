@@ -41,7 +41,7 @@ fn photons(count: usize) -> (Vec<Vec2>, Vec<Vec2>) {
 
 fn fitted(settings: &FlowSettings, number: usize) -> (Fields, FlowReport) {
     let (source, target) = photons(2000);
-    let course = Course { source: &source, target: &target, extent: EXTENT, settings, number };
+    let course = Course { number, ..Course::new(&source, &target, EXTENT, settings) };
     fit_segment(&course, &Progress::new(), None).unwrap()
 }
 
@@ -266,7 +266,7 @@ fn the_photons_are_stirred_and_the_more_the_stronger() {
 fn photons_with_nowhere_to_go_are_stirred_too_and_come_back() {
     let (source, _) = photons(500);
     let settings = flow(noise(20.0, &[20]));
-    let course = Course { source: &source, target: &source, extent: EXTENT, settings: &settings, number: 0 };
+    let course = Course::new(&source, &source, EXTENT, &settings);
     let (fields, report) = fit_segment(&course, &Progress::new(), None).unwrap();
     let mut carrier = Carrier::new(&fields, &source, &source);
     let mut now = source.clone();
@@ -298,7 +298,7 @@ fn one_thread_and_two_give_the_same_bits() {
 fn a_guide_photon_moves_alike_in_every_later_pass() {
     let (source, target) = photons(2000);
     let settings = FlowSettings { guides: 400, ..flow(noise(20.0, &[30])) };
-    let course = Course { source: &source, target: &target, extent: EXTENT, settings: &settings, number: 0 };
+    let course = Course::new(&source, &target, EXTENT, &settings);
     let mut tracks = Vec::new();
     let mut keep = |_: usize, c: &[Vec2]| tracks.push(c.to_vec());
     let (fields, _) = fit_segment(&course, &Progress::new(), Some(&mut keep)).unwrap();

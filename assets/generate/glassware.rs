@@ -85,3 +85,11 @@ pub(crate) const BOTTLE_SQUARE: Vessel = Vessel {
     floor: &[(34.2, 9.4), (28.0, 7.6), (18.0, 8.0), (9.0, 9.0), (0.0, 9.4)],
     section: Section::Squared { exponent: 7.0, heights: [140.0, 190.0] },
 };
+
+/// Water for the bottles, up to their shoulders; like the wine, it ends in the middle of the wall.
+pub(crate) const WATER_ROUND: [(f64, f64); 7] =
+    [(48.6, 88.0), (47.4, 89.8), (45.6, 90.4), (42.0, 90.3), (30.0, 90.3), (15.0, 90.3), (0.0, 90.3)];
+pub(crate) const WATER_TALL: [(f64, f64); 7] =
+    [(34.6, 173.2), (34.5, 174.4), (34.0, 175.1), (32.5, 175.0), (22.0, 175.0), (11.0, 175.0), (0.0, 175.0)];
+pub(crate) const WATER_SQUARE: [(f64, f64); 7] =
+    [(37.4, 128.2), (37.4, 129.4), (36.9, 130.1), (35.5, 130.0), (25.0, 130.0), (12.0, 130.0), (0.0, 130.0)];

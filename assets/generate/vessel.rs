@@ -12,6 +12,9 @@ use crate::mesh::Mesh;
 const METRES: f64 = 1e-3;
 const FINENESS: Fineness = Fineness { step: 3.8, turn: 0.25 };
 const SIDES: usize = 96;
+/// For liquids whose walls lie hidden in the glass: facets there are never seen, and need only stay within it.
+const HIDDEN: Fineness = Fineness { step: 8.0, turn: 0.4 };
+const HIDDEN_SIDES: usize = 48;
 
 /// Control points of a hollow vessel: radius and height in millimetres.
 pub(crate) struct Vessel {
@@ -55,17 +58,27 @@ impl Vessel {
     /// The mesh in metres, standing on y = 0.
     pub(crate) fn mesh(&self) -> Mesh {
         let profile = grounded(self.profile(), self.ground());
-        lofted(&profile, |angle, height, inside| self.section.radius(angle, height, inside))
+        lofted(&profile, |angle, height, inside| self.section.radius(angle, height, inside), SIDES)
     }
 
     /// The liquid that fills the vessel up to `surface`, the control points from the wall to the axis.
     pub(crate) fn liquid(&self, surface: &[(f64, f64)]) -> Mesh {
+        lofted(&self.liquid_profile(surface, FINENESS), round, SIDES)
+    }
+
+    /// The same for a vessel that is not round, or a liquid that is looked at from the side only: fewer triangles.
+    pub(crate) fn filling(&self, surface: &[(f64, f64)]) -> Mesh {
+        let profile = self.liquid_profile(surface, HIDDEN);
+        lofted(&profile, |angle, height, _| self.section.radius(angle, height, false), HIDDEN_SIDES)
+    }
+
+    fn liquid_profile(&self, surface: &[(f64, f64)], fineness: Fineness) -> Vec<Station> {
         let half = self.thickness / 2.0;
         let floor = self.floor.iter().rev().map(|&(x, y)| DVec2::new(x, y - half));
         let level = surface[0].1;
         let wall = offset(&points(self.wall), half).into_iter().filter(|p| p.y < level - 2.0);
         let control: Vec<_> = floor.chain(wall).chain(points(surface)).collect();
-        lofted(&grounded(Curve::profile(&control).stations(FINENESS), self.ground()), round)
+        grounded(Curve::profile(&control).stations(fineness), self.ground())
     }
 
     /// Height of the lowest point of the foot.
@@ -118,8 +131,8 @@ fn points(list: &[(f64, f64)]) -> Vec<DVec2> {
     list.iter().copied().map(DVec2::from).collect()
 }
 
-fn lofted(profile: &[Station], section: impl Fn(f64, f64, bool) -> f64) -> Mesh {
-    let mut mesh = loft(profile, section, SIDES);
+fn lofted(profile: &[Station], section: impl Fn(f64, f64, bool) -> f64, sides: usize) -> Mesh {
+    let mut mesh = loft(profile, section, sides);
     mesh.positions.iter_mut().for_each(|p| *p *= METRES);
     mesh
 }

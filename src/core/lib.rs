@@ -38,6 +38,8 @@ pub mod photon;
 
 pub mod target;
 
+pub mod constraint;
+
 pub mod matching;
 
 pub mod flow;

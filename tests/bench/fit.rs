@@ -106,7 +106,7 @@ fn reference_cholesky(bencher: Bencher, n: usize) {
     let mut assembly = Assembly::new(grid(n), true);
     assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1e-5 });
     let mut operator = Operator::<f64>::zero(assembly.right.layout, 2);
-    operator.set(&assembly.parts, Weights { psi: 0.5, phi: 0.5, cross: 0.5, smooth: 1e-3 });
+    operator.set(&assembly.parts, Weights { psi: 0.5, phi: 0.5, cross: 0.5, smooth: 1e-3, tilt: -1.0 });
     let [nx, ny] = grid(n).nodes();
     let mut triplets = Vec::new();
     for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {

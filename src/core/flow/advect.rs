@@ -6,15 +6,22 @@ use rayon::prelude::*;
 
 use super::fade::{Fade, ease};
 use super::guidance::position;
+use super::obstacles::Obstacles;
 use super::stage::Stage;
+use super::trajectory::Astray;
+use super::walled::{Columns, Walled};
 use crate::{Error, Progress, Result};
 
 /// Photons per parallel task: fits the L1 cache beside the coefficients around them.
-const CHUNK: usize = 2048;
+pub(super) const CHUNK: usize = 2048;
 
 /// What moves the photons from `start` to `start + length`: the field and the fade at the three times that RK4 asks for.
 /// Blended once per step, so that a photon pays for one field where it would for two.
 pub(super) struct Step {
+    /// Number of the step, from 0.
+    pub number: usize,
+    /// Steps that follow.
+    pub left: usize,
     /// Time at the begin.
     pub start: f64,
     /// Duration.
@@ -34,11 +41,34 @@ pub(super) struct Swarm<'a> {
     curve: Vec<[Vec2; 3]>,
     start: f64,
     length: f64,
+    /// Where walls stand.
+    walled: Option<Walled<'a>>,
 }
 
 impl<'a> Swarm<'a> {
-    /// Photons at `source`, bound for `targets`, both n points.
-    pub(super) fn new(source: &[Vec2], targets: &'a [Vec2], fade: &Fade, mean_straight: f32) -> Self {
+    /// Photons at `source`, bound for `targets`, both n points, which leave the field by `fade`.
+    pub(super) fn new(
+        source: &[Vec2],
+        targets: &'a [Vec2],
+        (fade, mean_straight): (Fade, f32),
+        obstacles: Option<&'a Obstacles>,
+    ) -> Self {
+        let walled = obstacles.map(|obstacles| Walled::new(obstacles, source, (fade, mean_straight)));
+        Self { walled, ..Self::free(source, targets, &fade, mean_straight) }
+    }
+
+    /// Finds the ways around walls, if it was not done before: needed before anything is asked of a swarm at its start.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn set_out(&mut self, progress: &Progress) -> Result<()> {
+        match &mut self.walled {
+            Some(walled) => walled.set_out(self.targets, &mut self.per_limit, progress),
+            None => Ok(()),
+        }
+    }
+
+    fn free(source: &[Vec2], targets: &'a [Vec2], fade: &Fade, mean_straight: f32) -> Self {
         let ways = source.par_iter().zip(targets);
         let per_limit = ways
             .clone()
@@ -50,7 +80,13 @@ impl<'a> Swarm<'a> {
             curve: vec![[Vec2::ZERO; 3]; source.len()],
             start: 0.0,
             length: 0.0,
+            walled: None,
         }
+    }
+
+    /// Photons that walls did not keep.
+    pub(super) fn astray(&self) -> Astray {
+        self.walled.as_ref().map_or(Astray::default(), Walled::astray)
     }
 
     /// From the end of the step before through the next.
@@ -59,13 +95,39 @@ impl<'a> Swarm<'a> {
     /// `Numeric` with the count when photons are no longer finite, `Cancelled`.
     pub(super) fn advance(&mut self, step: &Step, progress: &Progress) -> Result<()> {
         (self.start, self.length) = (step.start, step.length);
+        self.set_out(progress)?;
+        let lost = match &mut self.walled {
+            None => self.advance_free(step, progress)?,
+            Some(walled) => {
+                let columns = Columns {
+                    guidance: &mut self.guidance,
+                    curve: &mut self.curve,
+                    targets: self.targets,
+                    per_limit: &self.per_limit,
+                };
+                walled.advance(step, columns, progress)?
+            }
+        };
+        if lost == 0 {
+            return Ok(());
+        }
+        let what = format!(
+            "{lost} of {} photons are no longer finite at t = {:.4}; take more steps or a larger alpha",
+            self.targets.len(),
+            step.start + step.length
+        );
+        Err(Error::Numeric { stage: "advect", what })
+    }
+
+    /// Moves all photons through `step` where no wall stands; returns how many are no longer finite.
+    fn advance_free(&mut self, step: &Step, progress: &Progress) -> Result<usize> {
         let columns = (
             self.guidance.par_chunks_mut(CHUNK),
             self.curve.par_chunks_mut(CHUNK),
             self.targets.par_chunks(CHUNK),
             self.per_limit.par_chunks(CHUNK),
         );
-        let lost = columns
+        columns
             .into_par_iter()
             .map(|(guidance, curve, targets, per_limit)| {
                 progress.check()?;
@@ -78,39 +140,37 @@ impl<'a> Swarm<'a> {
                 }
                 Ok(lost)
             })
-            .try_reduce(|| 0, |a, b| Ok(a + b))?;
-        if lost == 0 {
-            return Ok(());
-        }
-        let what = format!(
-            "{lost} of {} photons are no longer finite at t = {:.4}; take more steps or a larger alpha",
-            self.targets.len(),
-            step.start + step.length
-        );
-        Err(Error::Numeric { stage: "advect", what })
+            .try_reduce(|| 0, |a, b| Ok(a + b))
     }
 
     /// Positions at `t`, which lies in the current step.
     pub(super) fn positions(&self, t: f64, out: &mut [Vec2]) {
         let x = self.place_in_step(t);
-        self.each(out, |target, v0, [k0, k1, k2]| {
-            position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32)
+        let place = |i| self.walled.as_ref().and_then(|walled| walled.place(i, x));
+        self.each(out, |i, target, v0, [k0, k1, k2]| {
+            place(i).unwrap_or_else(|| position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32))
         });
     }
 
-    /// Guidance v of Eq. (2) at `t`, which lies in the current step.
+    /// Guidance v of Eq. (2) at `t`, which lies in the current step; where walls stand, at its end.
     pub(super) fn guidance(&self, t: f64, out: &mut [Vec2]) {
+        if let Some(walled) = &self.walled {
+            return walled.guidance(self.targets, (1.0 - t) as f32, out);
+        }
         let x = self.place_in_step(t);
-        self.each(out, |_, v0, [k0, k1, k2]| v0 + x * (k0 + x * (k1 + x * k2)));
+        self.each(out, |_, _, v0, [k0, k1, k2]| v0 + x * (k0 + x * (k1 + x * k2)));
     }
 
     /// Velocities c' = v - (1-t) v' at `t`, which lies in the current step.
     pub(super) fn velocities(&self, t: f64, out: &mut [Vec2]) {
         let x = self.place_in_step(t);
         let slope = if self.length > 0.0 { ((1.0 - t) / self.length) as f32 } else { 0.0 };
-        self.each(out, |_, v0, [k0, k1, k2]| {
+        let per_length = if self.length > 0.0 { (1.0 / self.length) as f32 } else { 0.0 };
+        let line = |i| self.walled.as_ref().and_then(|walled| walled.line(i));
+        self.each(out, |i, _, v0, [k0, k1, k2]| {
             let v = v0 + x * (k0 + x * (k1 + x * k2));
-            v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)))
+            let curved = v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)));
+            line(i).map_or(curved, |way| way * per_length)
         });
     }
 
@@ -123,26 +183,31 @@ impl<'a> Swarm<'a> {
         if self.length > 0.0 { ((t - self.start) / self.length) as f32 } else { 0.0 }
     }
 
-    fn each(&self, out: &mut [Vec2], value: impl Fn(Vec2, Vec2, [Vec2; 3]) -> Vec2 + Sync) {
+    fn each(&self, out: &mut [Vec2], value: impl Fn(usize, Vec2, Vec2, [Vec2; 3]) -> Vec2 + Sync) {
         let columns = (
             out.par_chunks_mut(CHUNK),
             self.targets.par_chunks(CHUNK),
             self.guidance.par_chunks(CHUNK),
             self.curve.par_chunks(CHUNK),
         );
-        columns.into_par_iter().for_each(|(out, targets, guidance, curve)| {
+        columns.into_par_iter().enumerate().for_each(|(chunk, (out, targets, guidance, curve))| {
             for i in 0..out.len() {
-                out[i] = value(targets[i], guidance[i], curve[i]);
+                out[i] = value(chunk * CHUNK + i, targets[i], guidance[i], curve[i]);
             }
         });
     }
 }
 
 impl Step {
+    /// Time at its end, the begin of the next.
+    pub(super) fn end(&self) -> f64 {
+        self.start + self.length
+    }
+
     /// The cubic of one photon. Its coefficients are those of RK4's own continuous extension of order 3 (Hairer,
     /// Norsett, Wanner, Solving Ordinary Differential Equations I, II.6), which costs no fifth evaluation.
     #[inline(always)]
-    fn curve(&self, target: Vec2, v: Vec2, per_limit: f32) -> [Vec2; 3] {
+    pub(super) fn curve(&self, target: Vec2, v: Vec2, per_limit: f32) -> [Vec2; 3] {
         let Some([begin, middle, end]) = &self.stages else {
             return [Vec2::ZERO; 3];
         };

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::bending::bending;
 use super::field::Grid;
 use crate::math::bspline::{slopes, values};
-use crate::math::operator::Parts;
-use crate::math::stencil::{OFFSETS, Stencil, offset_index};
+use crate::math::operator::{Parts, Tilt};
+use crate::math::stencil::{OFFSETS, Stencil, offset, offset_index};
 use crate::math::vector::{GridVector, HALO, Layout};
 
 /// Velocities wanted at points, each with the same weight: the term weight/2 sum |u(p) - v|^2.
@@ -22,6 +22,17 @@ pub struct Rows<'a> {
     /// Velocity wanted at each.
     pub velocities: &'a [Vec2],
     /// 1/K for Term (3), beta/P for Term (6).
+    pub weight: f64,
+}
+
+/// Walls that the field shall not cross: the term weight/2 sum (n.u(p))^2.
+#[derive(Clone, Copy)]
+pub struct WallRows<'a> {
+    /// Points on the walls, plane units.
+    pub positions: &'a [Vec2],
+    /// Their normals, of length 1.
+    pub normals: &'a [Vec2],
+    /// Weight of each.
     pub weight: f64,
 }
 
@@ -78,6 +89,7 @@ impl Assembly {
                 direct: Stencil::zero(layout),
                 cross: coupled.then(|| Stencil::zero(layout)),
                 smooth: bending(grid),
+                tilt: None,
             },
             right: GridVector::zero(layout, 2),
             table: table(),
@@ -99,6 +111,50 @@ impl Assembly {
         // tasks come in a second round.
         self.add_round(0, rows.weight);
         self.add_round(PERIOD - 3, rows.weight);
+    }
+
+    /// Sets the part E and Y of walls, which stays until it is set anew. The other half of what walls add is that of
+    /// [`Rows`] of half the weight at the same points, wanted velocity zero.
+    pub fn set_tilt(&mut self, walls: Option<WallRows>) {
+        self.parts.tilt = walls.map(|walls| {
+            let layout = self.parts.direct.layout;
+            let zero = || Stencil::zero(layout);
+            let mut tilt = Tilt { direct: zero(), cross: self.parts.cross.as_ref().map(|_| zero()) };
+            for (&position, &normal) in walls.positions.iter().zip(walls.normals) {
+                self.add_tilt(&mut tilt, position, normal, walls.weight);
+            }
+            tilt
+        });
+    }
+
+    /// With P = g_x g_x^T - g_y g_y^T, Q = g_x g_y^T + g_y g_x^T and the normal's double angle 2a:
+    /// 2 E = cos 2a P + sin 2a Q and 2 Y = sin 2a P - cos 2a Q.
+    fn add_tilt(&self, tilt: &mut Tilt, position: Vec2, normal: Vec2, weight: f64) {
+        let (grid, layout) = (self.grid, tilt.direct.layout);
+        let size = grid.cell_size();
+        let [(column, x), (row, y)] = [0, 1].map(|axis| {
+            let at = (f64::from(position[axis]) / size[axis]).clamp(0.0, grid.cells[axis] as f64);
+            let cell = (at as usize).min(grid.cells[axis] - 1);
+            (cell, at - cell as f64)
+        });
+        let (bx, by) = (values(x), values(y));
+        let (dx, dy) = (slopes(x).map(|d| d / size[0]), slopes(y).map(|d| d / size[1]));
+        let gradient = |row: usize, column: usize| [dx[column] * by[row], bx[column] * dy[row]];
+        let (nx, ny) = (f64::from(normal.x), f64::from(normal.y));
+        let (cos, sin) = (nx * nx - ny * ny, 2.0 * nx * ny);
+        for entry in &self.table {
+            let [gx, gy] = gradient(entry.row, entry.column);
+            let (step_x, step_y) = offset(entry.offset);
+            let [hx, hy] =
+                gradient(entry.row.wrapping_add_signed(step_y), entry.column.wrapping_add_signed(step_x));
+            let (p, q) = (gx * hx - gy * hy, gx * hy + gy * hx);
+            let at =
+                ((row + entry.row) * OFFSETS + entry.offset) * layout.stride + HALO + column + entry.column;
+            tilt.direct.rows_mut()[at] += 0.5 * weight * (cos * p + sin * q);
+            if let Some(cross) = &mut tilt.cross {
+                cross.rows_mut()[at] += 0.5 * weight * (sin * p - cos * q);
+            }
+        }
     }
 
     fn add_round(&mut self, first: usize, weight: f64) {

@@ -7,7 +7,7 @@
 
 use glam::Vec2;
 
-use super::assembly::{Assembly, Rows};
+use super::assembly::{Assembly, Rows, WallRows};
 use super::bending::bending;
 use super::field::{Field, Grid};
 use crate::math::cg::{ConjugateGradients, LinearSystem, Solved};
@@ -63,6 +63,14 @@ pub struct Fitter {
     solver: ConjugateGradients,
     right: GridVector<f64>,
     systems: Vec<System>,
+    walls: Walls,
+}
+
+/// Points on walls.
+#[derive(Default)]
+struct Walls {
+    positions: Vec<Vec2>,
+    weight: f64,
 }
 
 /// One solve: psi' and phi' coupled, or one of the two alone.
@@ -104,7 +112,17 @@ impl Fitter {
             solver: ConjugateGradients::new(&zero),
             right: zero,
             systems,
+            walls: Walls::default(),
         })
+    }
+
+    /// From now on the field shall not cross walls at these points: the term weight/2 sum (n.u)^2.
+    pub fn set_walls(&mut self, walls: Option<WallRows>) {
+        self.assembly.set_tilt(walls);
+        self.walls = walls.map_or_else(Walls::default, |walls| Walls {
+            positions: walls.positions.to_vec(),
+            weight: walls.weight,
+        });
     }
 
     /// Fits to the velocity wanted at each position, both in plane units.
@@ -118,25 +136,44 @@ impl Fitter {
         velocities: &[Vec2],
         progress: &Progress,
     ) -> Result<(Field, FitReport)> {
-        check_columns(positions, velocities)?;
-        let rows = Rows { positions, velocities, weight: 1.0 / positions.len().max(1) as f64 };
-        // Inside the thread pool the many small parallel loops need not wake it up each time.
-        rayon::scope(|_| self.fit_rows(&[rows], progress))
+        self.fit_with(positions, velocities, &[], progress)
     }
 
-    fn fit_rows(&mut self, terms: &[Rows], progress: &Progress) -> Result<(Field, FitReport)> {
+    /// As [`Self::fit`], with what directed lines ask for besides, Term (6).
+    ///
+    /// # Errors
+    /// As [`Self::fit`].
+    pub fn fit_with(
+        &mut self,
+        positions: &[Vec2],
+        velocities: &[Vec2],
+        lines: &[Rows],
+        progress: &Progress,
+    ) -> Result<(Field, FitReport)> {
+        check_columns(positions, velocities)?;
+        for line in lines {
+            check_columns(line.positions, line.velocities)?;
+        }
+        let photons = Rows { positions, velocities, weight: 1.0 / positions.len().max(1) as f64 };
+        // Inside the thread pool the many small parallel loops need not wake it up each time.
+        rayon::scope(|_| self.fit_rows(photons, lines, progress))
+    }
+
+    fn fit_rows(&mut self, photons: Rows, lines: &[Rows], progress: &Progress) -> Result<(Field, FitReport)> {
         self.assembly.clear();
-        for &rows in terms {
+        for &rows in std::iter::once(&photons).chain(lines) {
             progress.check()?;
             self.assembly.add(rows);
         }
-        // Where psi and phi are fitted apart, both have the same matrix.
-        let weights = self.systems[0].weights;
-        self.operator.set(&self.assembly.parts, weights);
-        self.multigrid.set(&self.assembly.parts, weights);
+        self.add_walls();
         let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0 };
-        for system in &mut self.systems {
+        for (i, system) in self.systems.iter_mut().enumerate() {
             progress.check()?;
+            // Where psi and phi are fitted apart, both have the same matrix but for walls.
+            if i == 0 || self.assembly.parts.tilt.is_some() {
+                self.operator.set(&self.assembly.parts, system.weights);
+                self.multigrid.set(&self.assembly.parts, system.weights);
+            }
             system.set_right(&self.settings, &self.assembly.right, &mut self.right);
             let limits = (self.settings.tolerance, self.settings.max_iterations);
             let linear = LinearSystem {
@@ -153,6 +190,15 @@ impl Fitter {
             report.unknowns += system.solution.components * nx * ny;
         }
         Ok((self.field(), report))
+    }
+
+    /// The half of the walls' term that has no direction.
+    fn add_walls(&mut self) {
+        let Walls { positions, weight, .. } = &self.walls;
+        if !positions.is_empty() {
+            let still = vec![Vec2::ZERO; positions.len()];
+            self.assembly.add(Rows { positions, velocities: &still, weight: 0.5 * weight });
+        }
     }
 
     /// Forgets the last solution: the next fit starts from zero.
@@ -204,10 +250,12 @@ impl System {
         let (weights, null) = if unknown == Unknown::Both {
             // u = a J grad psi' + b grad phi': psi' = b y has the velocity (-a b, 0), phi' = a x has (a b, 0).
             let linear = vec![[[0.0, 0.0, b], [0.0, a, 0.0]], [[0.0, b, 0.0], [0.0, 0.0, -a]]];
-            let weights = Weights { psi: 1.0 - gamma, phi: gamma, cross: a * b, smooth: alpha };
+            let weights = Weights { psi: 1.0 - gamma, phi: gamma, cross: a * b, smooth: alpha, tilt: -1.0 };
             (weights, NullSpace::new(2, linear))
         } else {
-            (Weights { psi: 1.0, phi: 0.0, cross: 0.0, smooth: alpha }, NullSpace::new(1, Vec::new()))
+            let tilt = if unknown == Unknown::Psi { -1.0 } else { 1.0 };
+            let weights = Weights { psi: 1.0, phi: 0.0, cross: 0.0, smooth: alpha, tilt };
+            (weights, NullSpace::new(1, Vec::new()))
         };
         let null_vectors = null.vectors(layout, grid.cell_size());
         Self { unknown, weights, solution: GridVector::zero(layout, null.components()), null, null_vectors }

@@ -39,22 +39,31 @@ pub mod settings;
 pub mod turbulence;
 
 mod advect;
+mod lines;
+mod obstacles;
 mod report;
 mod stage;
 mod trajectory;
+mod walker;
+mod walled;
+
+use std::sync::Arc;
 
 use glam::Vec2;
 
 pub use fade::Fade;
+pub use obstacles::Obstacles;
 pub use report::FlowReport;
 pub use settings::{FitKind, FlowSettings, GridSize};
-pub use trajectory::{Carrier, Fields, spatial_order};
+pub use trajectory::{Astray, Carrier, Fields, spatial_order};
 pub use turbulence::{Turbulence, TurbulenceSettings};
 
 use self::advect::Swarm;
 use self::field::Grid;
 use self::fit::{Blend, FitSettings, Fitter};
+use self::lines::Lines;
 use self::report::Observer;
+use crate::constraint::{ActiveLine, ActiveWall};
 use crate::{Error, Progress, Result};
 
 /// Conjugate gradients with multigrid need some ten iterations; a solve that needs this many has failed.
@@ -74,8 +83,19 @@ pub struct Course<'a> {
     pub extent: Vec2,
     /// How they flow.
     pub settings: &'a FlowSettings,
+    /// Directed lines, Term (6).
+    pub lines: &'a [ActiveLine],
+    /// Walls.
+    pub walls: &'a [ActiveWall],
     /// Which segment of the animation this is, from 0: what changes in time by itself goes on from the segment before.
     pub number: usize,
+}
+
+impl<'a> Course<'a> {
+    /// The first segment of an animation, with nothing drawn.
+    pub fn new(source: &'a [Vec2], target: &'a [Vec2], extent: Vec2, settings: &'a FlowSettings) -> Self {
+        Self { source, target, extent, settings, lines: &[], walls: &[], number: 0 }
+    }
 }
 
 /// Fits the fields that carry photons along a course, row by row.
@@ -91,20 +111,29 @@ pub fn fit_segment(
     progress: &Progress,
     mut tracks: Option<Tracks>,
 ) -> Result<(Fields, FlowReport)> {
-    let Course { source, target, extent, settings, number } = *course;
+    let Course { source, target, extent, settings, number, lines, walls } = *course;
     check_photons(source, target)?;
     let guides = guide_rows(source.len(), settings.guides as usize);
     let source: Vec<Vec2> = guides.iter().map(|&i| source[i]).collect();
     let target: Vec<Vec2> = guides.iter().map(|&i| target[i]).collect();
-    let steps = settings.steps as usize;
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
-    let mean_straight = guidance::mean_straight(&source, &target);
-    let mut fields = Fields::new(steps, settings.fade, mean_straight, turbulence);
-    let mut fitter = Fitter::new(fit_settings(settings, extent))?;
-    let mut swarm = Swarm::new(&source, &target, &settings.fade, fields.pace());
+    let (obstacles, steps) = Obstacles::new(walls, settings.steps as usize, extent, &progress.inner())?;
+    let mean_way = match &obstacles {
+        None => guidance::mean_straight(&source, &target),
+        Some(obstacles) => obstacles.mean_way(&source, &target, progress)?,
+    };
+    let mut fields = Fields::new(steps, settings.fade, mean_way, turbulence, obstacles.map(Arc::new));
+    let obstacles = fields.obstacles().cloned();
+    let fit_settings = fit_settings(settings, extent);
+    let grid = fit_settings.grid;
+    let mut fitter = Fitter::new(fit_settings)?;
+    let mut lines = Lines::new(lines, settings.beta, extent);
+    let mut swarm = Swarm::new(&source, &target, (settings.fade, fields.pace()), obstacles.as_deref());
+    swarm.set_out(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
     let mut positions = source.clone();
-    let mut directions = guidance::guidance(&source, &target, 0.0);
+    let mut directions = vec![Vec2::ZERO; source.len()];
+    swarm.guidance(0.0, &mut directions);
     progress.begin("fit", steps as u64);
     for n in 0..steps {
         let t = fields.time(n);
@@ -112,7 +141,11 @@ pub fn fit_segment(
             show(n, &positions);
         }
         if t < settings.fade.end() {
-            let (field, fit) = fitter.fit(&positions, &directions, progress)?;
+            if let Some(obstacles) = obstacles.as_ref().filter(|obstacles| obstacles.changes(n)) {
+                obstacles.wall_in(n, &mut fitter, grid);
+            }
+            let rows = lines.rows(t, &positions, &directions);
+            let (field, fit) = fitter.fit_with(&positions, &directions, &rows, progress)?;
             observer.fitted((&field, &fields.noise(t)), &fit, &positions, &directions);
             fields.push(field);
         }
@@ -127,7 +160,7 @@ pub fn fit_segment(
     if let Some(show) = &mut tracks {
         show(steps, &positions);
     }
-    let report = observer.finish(&positions, fields.turbulence());
+    let report = observer.finish(&positions, fields.turbulence(), swarm.astray());
     Ok((fields, report))
 }
 

@@ -8,6 +8,7 @@ use super::fade::Fade;
 use super::field::Field;
 use super::fit::FitReport;
 use super::metric::{self, NeighbourVariance};
+use super::trajectory::Astray;
 use super::turbulence::Turbulence;
 
 /// How the flow between two key frames turned out, over the guide photons and the whole run.
@@ -51,6 +52,10 @@ pub struct FlowReport {
     pub wander: f64,
     /// max |c(1) - b| in plane units.
     pub endpoint_error: f64,
+    /// Photons that crossed a wall though a way leads around it, over all steps.
+    pub wall_crossings: usize,
+    /// Photons whose target no way around the walls reaches: they go straight, through the walls.
+    pub unreachable: usize,
 }
 
 impl FlowReport {
@@ -77,6 +82,8 @@ impl FlowReport {
             field_share: a.field_share.min(b.field_share),
             wander: a.wander.max(b.wander),
             endpoint_error: a.endpoint_error.max(b.endpoint_error),
+            wall_crossings: a.wall_crossings + b.wall_crossings,
+            unreachable: a.unreachable.max(b.unreachable),
         }
     }
 }
@@ -167,7 +174,12 @@ impl<'a> Observer<'a> {
     }
 
     /// Derives the numbers that need the whole run. `positions` are those at t = 1.
-    pub(super) fn finish(mut self, positions: &[Vec2], turbulence: Option<&Turbulence>) -> FlowReport {
+    pub(super) fn finish(
+        mut self,
+        positions: &[Vec2],
+        turbulence: Option<&Turbulence>,
+        astray: Astray,
+    ) -> FlowReport {
         let fits = self.report.fits.max(1) as f64;
         let report = &mut self.report;
         report.solver_iterations_mean /= fits;
@@ -181,6 +193,7 @@ impl<'a> Observer<'a> {
         let motion = self.by_field + self.by_guidance;
         report.field_share = if motion > 0.0 { self.by_field / motion } else { 0.0 };
         report.endpoint_error = metric::endpoint_error(positions, self.target);
+        (report.wall_crossings, report.unreachable) = (astray.crossings, astray.unreachable);
         self.report
     }
 

@@ -42,6 +42,8 @@ pub struct FlowSettings {
     /// Smoothness of the field, 1e-12 to 1e6: the field is smooth over about sqrt(alpha) of the longer side of the
     /// receiver (1e-4: 0.01, 1e-3: 0.03, 1e-2: 0.1). Default 1e-3.
     pub alpha: f32,
+    /// How strongly directed lines pull, 0 to 1e6, beside all photons together, which pull by 1. Default 1.
+    pub beta: f32,
     /// How the two kinds of flow are put together. Default separate.
     pub fit: FitKind,
     /// Cells of the field: one number for the longer side, or two for x and y. At least 8 each. Default 128.
@@ -89,6 +91,7 @@ impl Default for FlowSettings {
         Self {
             gamma: 0.5,
             alpha: 1e-3,
+            beta: 1.0,
             fit: FitKind::default(),
             grid: GridSize::Longer(128),
             steps: 40,
@@ -138,6 +141,7 @@ impl FlowSettings {
         };
         real("gamma", self.gamma, 0.0, 1.0)?;
         real("alpha", self.alpha, 1e-12, 1e6)?;
+        real("beta", self.beta, 0.0, 1e6)?;
         real("rho", self.rho, f32::MIN_POSITIVE, 1000.0)?;
         real("tolerance", self.tolerance, 1e-12, 0.1)?;
         let count = |name: &str, value: u32, high: u32| {

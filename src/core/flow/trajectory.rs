@@ -1,10 +1,13 @@
 //! The fields of a segment, kept, and the photons of any pass carried along them.
 
+use std::sync::Arc;
+
 use glam::Vec2;
 
 use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
+use super::obstacles::Obstacles;
 use super::stage::Stage;
 use super::turbulence::Turbulence;
 use crate::{Progress, Result};
@@ -20,6 +23,7 @@ pub struct Fields {
     fade: Fade,
     mean_straight: f32,
     turbulence: Option<Turbulence>,
+    obstacles: Option<Arc<Obstacles>>,
 }
 
 impl Fields {
@@ -28,14 +32,20 @@ impl Fields {
     /// # Panics
     /// When there is no step, or a field is missing before the fade has ended.
     pub fn from_nodes(nodes: Vec<Field>, steps: usize, fade: Fade, mean_straight: f32) -> Self {
-        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None) };
+        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None, None) };
         let asked = (0..steps).filter(|&n| fields.time(n) < fade.end()).count();
         assert!(asked > 0 && fields.nodes.len() >= asked, "a field for every step until the fade ends");
         fields
     }
 
-    pub(super) fn new(steps: usize, fade: Fade, mean_straight: f32, turbulence: Option<Turbulence>) -> Self {
-        Self { nodes: Vec::new(), steps, fade, mean_straight, turbulence }
+    pub(super) fn new(
+        steps: usize,
+        fade: Fade,
+        mean_straight: f32,
+        turbulence: Option<Turbulence>,
+        obstacles: Option<Arc<Obstacles>>,
+    ) -> Self {
+        Self { nodes: Vec::new(), steps, fade, mean_straight, turbulence, obstacles }
     }
 
     /// The same fields with this turbulence in place of any other.
@@ -66,6 +76,11 @@ impl Fields {
     /// The mean straight way |b - a| of the photons that were fitted to.
     pub fn mean_straight(&self) -> f32 {
         self.mean_straight
+    }
+
+    /// The walls; none where none ever stands.
+    pub fn obstacles(&self) -> Option<&Arc<Obstacles>> {
+        self.obstacles.as_ref()
     }
 
     /// The turbulence that is added to the fields, where there is any.
@@ -104,8 +119,17 @@ impl Fields {
                 Stage { field, noise: self.noise(t), rate: self.fade.rate(t) }
             })
         });
-        Step { start, length: end - start, stages }
+        Step { number: n, left: self.steps - 1 - n, start, length: end - start, stages }
     }
+}
+
+/// Photons that walls did not keep.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Astray {
+    /// Whose target no way reaches: they go straight.
+    pub unreachable: usize,
+    /// That crossed a wall though a way leads around it; 0 unless the program is wrong.
+    pub crossings: usize,
 }
 
 /// Photons of one pass on their way along the fields. Its memory is 36 bytes a photon, whatever the number of frames.
@@ -127,7 +151,8 @@ impl<'a> Carrier<'a> {
     /// When the columns differ in length.
     pub fn new(fields: &'a Fields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
         assert_eq!(source.len(), targets.len(), "each photon has one target");
-        let swarm = Swarm::new(source, targets, &fields.fade, fields.pace());
+        let fade = (fields.fade, fields.pace());
+        let swarm = Swarm::new(source, targets, fade, fields.obstacles.as_deref());
         Self { fields, source, targets, swarm, begun: 0 }
     }
 
@@ -160,6 +185,11 @@ impl<'a> Carrier<'a> {
         let t = self.enter(t, out.len(), progress)?;
         self.swarm.positions(t, out);
         Ok(())
+    }
+
+    /// Photons so far whose target no way around the walls reaches, and those that crossed a wall though one did.
+    pub fn astray(&self) -> Astray {
+        self.swarm.astray()
     }
 
     fn enter(&mut self, t: f64, places: usize, progress: &Progress) -> Result<f64> {

@@ -3,9 +3,11 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
+use super::around::AroundMap;
 use super::halves::{Item, halve};
 use super::swap::{Pair, sweep};
 use super::transport_map::{TransportMap, require_points};
+use crate::constraint::Detour;
 use crate::math::rng::{Purpose, Stream};
 use crate::{Error, Progress, Result};
 
@@ -36,16 +38,44 @@ impl Matching {
         pass: u64,
         progress: &Progress,
     ) -> Result<Self> {
+        Self::near(source, target, |point| map.apply(point), None, (seed, pass), progress)
+    }
+
+    /// The same around walls: near `map`, and with little total squared length of the ways.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn around(
+        source: &[Vec2],
+        target: &[Vec2],
+        (map, detour): (&AroundMap, &Detour),
+        seed: u64,
+        pass: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let apply = |point| map.apply(point, detour.barriers());
+        Self::near(source, target, apply, Some(detour), (seed, pass), progress)
+    }
+
+    fn near(
+        source: &[Vec2],
+        target: &[Vec2],
+        map: impl Fn(Vec2) -> Vec2 + Sync,
+        walls: Option<&Detour>,
+        (seed, pass): (u64, u64),
+        progress: &Progress,
+    ) -> Result<Self> {
         require_points("source", source)?;
         require_points("target", target)?;
         require_equal_counts(source.len(), target.len())?;
         progress.begin("match", 1 + SWEEPS.len() as u64);
-        let mut pairs = halved(source, target, map, seed, pass, progress);
+        let mut pairs = halved(source, target, map, walls, (seed, pass), progress);
         progress.check()?;
         progress.advance(1);
         let mut stream = Stream::new(seed, Purpose::Match, pass, 0);
         for t in SWEEPS {
-            sweep(&mut pairs, t, Vec2::new(stream.f32(), stream.f32()), WINDOW, progress)?;
+            let shift = Vec2::new(stream.f32(), stream.f32());
+            sweep(&mut pairs, t, shift, WINDOW, walls, progress)?;
             progress.advance(1);
         }
         let mut target_of = vec![0; pairs.len()];
@@ -85,16 +115,16 @@ pub fn mean_square_distance(source: &[Vec2], targets: impl Iterator<Item = Vec2>
 fn halved(
     source: &[Vec2],
     target: &[Vec2],
-    map: &TransportMap,
-    seed: u64,
-    pass: u64,
+    map: impl Fn(Vec2) -> Vec2 + Sync,
+    walls: Option<&Detour>,
+    (seed, pass): (u64, u64),
     progress: &Progress,
 ) -> Vec<Pair> {
     let mut a: Vec<Item> = source
         .par_iter()
         .enumerate()
         .with_min_len(4096)
-        .map(|(row, point)| Item { position: map.apply(*point), row: row as u32 })
+        .map(|(row, point)| Item { position: map(*point), row: row as u32 })
         .collect();
     let mut b: Vec<Item> =
         target.iter().enumerate().map(|(row, &position)| Item { position, row: row as u32 }).collect();
@@ -107,6 +137,7 @@ fn halved(
             target: b.position,
             source_row: a.row,
             target_row: b.row,
+            astray: walls.is_some_and(|detour| detour.barriers().blocks(a.position, b.position)),
         })
         .collect()
 }

@@ -7,6 +7,7 @@
 //!
 //! Cost is squared distance throughout: its optimum never lets two straight paths collide, which is what ghosting is made of.
 
+mod around;
 mod back_and_forth;
 mod bijection;
 mod dual;
@@ -19,6 +20,7 @@ mod settings;
 mod swap;
 mod transport_map;
 
+pub use around::AroundMap;
 pub use bijection::{Matching, mean_square_distance};
 pub use dual::dual_bound;
 pub use settings::Method;

@@ -17,6 +17,18 @@ pub struct Parts {
     pub cross: Option<Stencil<f64>>,
     /// B.
     pub smooth: Kronecker,
+    /// E and Y, where walls ask for one direction only.
+    pub tilt: Option<Tilt>,
+}
+
+/// What rows add that ask for the velocity along one direction n alone, (n.u - v)^2, beside half of what rows for both
+/// directions add: `[ S - E, C + Y; -C + Y, S + E ]`, E and Y symmetric.
+#[derive(Clone, Debug)]
+pub struct Tilt {
+    /// E.
+    pub direct: Stencil<f64>,
+    /// Y, where two potentials are coupled.
+    pub cross: Option<Stencil<f64>>,
 }
 
 /// The factors of the parts.
@@ -30,6 +42,8 @@ pub struct Weights {
     pub cross: f64,
     /// Of B.
     pub smooth: f64,
+    /// Of E in the first potential, or in the only one, besides that of S: -1 for psi, 1 for phi.
+    pub tilt: f64,
 }
 
 impl Parts {
@@ -39,6 +53,10 @@ impl Parts {
             direct: self.direct.coarsened(nodes, 1.0),
             cross: self.cross.as_ref().map(|cross| cross.coarsened(nodes, -1.0)),
             smooth: self.smooth.coarsened(nodes),
+            tilt: self.tilt.as_ref().map(|tilt| Tilt {
+                direct: tilt.direct.coarsened(nodes, 1.0),
+                cross: tilt.cross.as_ref().map(|cross| cross.coarsened(nodes, 1.0)),
+            }),
         }
     }
 }
@@ -58,12 +76,14 @@ pub struct Operator<T> {
 struct Coupled<T> {
     phi: Stencil<T>,
     cross: Stencil<T>,
+    /// Y; absent without walls.
+    even: Option<Stencil<T>>,
 }
 
 impl<T: Real> Operator<T> {
     /// Room for a matrix of zeros.
     pub fn zero(layout: Layout, components: usize) -> Self {
-        let coupled = || Coupled { phi: Stencil::zero(layout), cross: Stencil::zero(layout) };
+        let coupled = || Coupled { phi: Stencil::zero(layout), cross: Stencil::zero(layout), even: None };
         Self {
             layout,
             components,
@@ -75,21 +95,31 @@ impl<T: Real> Operator<T> {
 
     /// Sets the matrix. Two potentials need `parts.cross`.
     pub fn set(&mut self, parts: &Parts, weights: Weights) {
-        let block = |out: &mut Stencil<T>, part: &Stencil<f64>, weight: f64, smooth: f64| {
+        let tilt = parts.tilt.as_ref();
+        let block = |out: &mut Stencil<T>, weight: f64, tilted: f64| {
             out.fill_rows(|row, dx, dy, entries| {
-                let source = &part.padded(row + HALO, offset_index(dx, dy))[HALO..];
-                for (entry, value) in entries.iter_mut().zip(source) {
-                    *entry = T::from_f64(weight * value);
+                let source = |part| row_of(part, row, dx, dy);
+                write(entries, source(&parts.direct), weight);
+                if let Some(tilt) = tilt {
+                    add(entries, source(&tilt.direct), weight * tilted);
                 }
-                if smooth != 0.0 {
-                    parts.smooth.add_entries(smooth, row, dx, dy as usize, entries);
-                }
+                parts.smooth.add_entries(weights.smooth, row, dx, dy as usize, entries);
             });
         };
-        block(&mut self.psi, &parts.direct, weights.psi, weights.smooth);
+        block(&mut self.psi, weights.psi, weights.tilt);
         if let (Some(coupled), Some(cross)) = (&mut self.coupled, &parts.cross) {
-            block(&mut coupled.phi, &parts.direct, weights.phi, weights.smooth);
-            block(&mut coupled.cross, cross, weights.cross, 0.0);
+            block(&mut coupled.phi, weights.phi, -weights.tilt);
+            let mixed = |out: &mut Stencil<T>, part: &Stencil<f64>| {
+                out.fill_rows(|row, dx, dy, entries| {
+                    write(entries, row_of(part, row, dx, dy), weights.cross);
+                });
+            };
+            mixed(&mut coupled.cross, cross);
+            coupled.even = tilt.and_then(|tilt| tilt.cross.as_ref()).map(|even| {
+                let mut out = coupled.even.take().unwrap_or_else(|| Stencil::zero(even.layout));
+                mixed(&mut out, even);
+                out
+            });
         }
         self.set_inverse_diagonal();
     }
@@ -126,10 +156,13 @@ impl<T: Real> Operator<T> {
     /// Entry between component `i` of node (x, y) and component `k` of the node at offset (dx, dy).
     pub fn entry(&self, [i, k]: [usize; 2], x: usize, y: usize, dx: isize, dy: isize) -> f64 {
         let one = T::from_f64(1.0);
+        let even = |coupled: &Coupled<T>| {
+            coupled.even.as_ref().map_or(T::default(), |even| even.entry(x, y, dx, dy, one))
+        };
         let entry = match (&self.coupled, i, k) {
             (Some(coupled), 1, 1) => coupled.phi.entry(x, y, dx, dy, one),
-            (Some(coupled), 0, 1) => coupled.cross.entry(x, y, dx, dy, -one),
-            (Some(coupled), 1, 0) => -coupled.cross.entry(x, y, dx, dy, -one),
+            (Some(coupled), 0, 1) => coupled.cross.entry(x, y, dx, dy, -one) + even(coupled),
+            (Some(coupled), 1, 0) => even(coupled) - coupled.cross.entry(x, y, dx, dy, -one),
             _ => self.psi.entry(x, y, dx, dy, one),
         };
         entry.to_f64()
@@ -149,32 +182,11 @@ impl<T: Real> Operator<T> {
     #[inline]
     pub fn subtract_row<const ABSOLUTE: bool>(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
         match &self.coupled {
-            None => self.subtract_single::<ABSOLUTE>(row, vector, out),
-            Some(coupled) => self.subtract_coupled::<ABSOLUTE>(coupled, row, vector, out),
-        }
-    }
-
-    fn subtract_single<const ABSOLUTE: bool>(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
-        let width = self.layout.width;
-        let out = &mut out[HALO..HALO + width];
-        let at = row + HALO;
-        let centre = &self.psi.padded(at, 0)[HALO..HALO + width];
-        let x = &vector.padded(at, 0)[HALO..HALO + width];
-        for i in 0..width {
-            out[i] = minus::<T, ABSOLUTE>(centre[i]).fused(x[i], out[i]);
-        }
-        for k in 1..OFFSETS {
-            let (dx, dy) = offset(k);
-            let (after, before) = (HALO.wrapping_add_signed(dx), HALO.wrapping_add_signed(-dx));
-            let (above, below) = (at + dy as usize, at - dy as usize);
-            let s = &self.psi.padded(at, k)[HALO..HALO + width];
-            let t = &self.psi.padded(below, k)[before..before + width];
-            let x = &vector.padded(above, 0)[after..after + width];
-            let y = &vector.padded(below, 0)[before..before + width];
-            for i in 0..width {
-                out[i] =
-                    minus::<T, ABSOLUTE>(t[i]).fused(y[i], minus::<T, ABSOLUTE>(s[i]).fused(x[i], out[i]));
+            None => {
+                let out = &mut out[HALO..HALO + self.layout.width];
+                subtract_symmetric::<T, ABSOLUTE>(&self.psi, row + HALO, |row| vector.padded(row, 0), out);
             }
+            Some(coupled) => self.subtract_coupled::<ABSOLUTE>(coupled, row, vector, out),
         }
     }
 
@@ -200,6 +212,10 @@ impl<T: Real> Operator<T> {
         }
         for k in 1..OFFSETS {
             self.subtract_offset::<ABSOLUTE>(coupled, (at, k), vector, out_psi, out_phi);
+        }
+        if let Some(even) = &coupled.even {
+            subtract_symmetric::<T, ABSOLUTE>(even, at, |row| vector.padded(row, 1), out_psi);
+            subtract_symmetric::<T, ABSOLUTE>(even, at, |row| vector.padded(row, 0), out_phi);
         }
     }
 
@@ -239,6 +255,53 @@ impl<T: Real> Operator<T> {
             out_phi[i] = minus::<T, ABSOLUTE>(q[i])
                 .fused(phi[i], minus::<T, ABSOLUTE>(c[i]).fused(psi[i], out_phi[i]));
         }
+    }
+}
+
+/// `out` -= node row `at` (counting the halo) of a symmetric stencil times one component of a vector.
+#[inline]
+fn subtract_symmetric<'a, T: Real + 'a, const ABSOLUTE: bool>(
+    stencil: &Stencil<T>,
+    at: usize,
+    vector: impl Fn(usize) -> &'a [T],
+    out: &mut [T],
+) {
+    let width = out.len();
+    let centre = &stencil.padded(at, 0)[HALO..HALO + width];
+    let x = &vector(at)[HALO..HALO + width];
+    for i in 0..width {
+        out[i] = minus::<T, ABSOLUTE>(centre[i]).fused(x[i], out[i]);
+    }
+    for k in 1..OFFSETS {
+        let (dx, dy) = offset(k);
+        let (after, before) = (HALO.wrapping_add_signed(dx), HALO.wrapping_add_signed(-dx));
+        let (above, below) = (at + dy as usize, at - dy as usize);
+        let s = &stencil.padded(at, k)[HALO..HALO + width];
+        let t = &stencil.padded(below, k)[before..before + width];
+        let x = &vector(above)[after..after + width];
+        let y = &vector(below)[before..before + width];
+        for i in 0..width {
+            out[i] = minus::<T, ABSOLUTE>(t[i]).fused(y[i], minus::<T, ABSOLUTE>(s[i]).fused(x[i], out[i]));
+        }
+    }
+}
+
+/// The entries of one offset along node row `row`.
+fn row_of(part: &Stencil<f64>, row: usize, dx: isize, dy: isize) -> &[f64] {
+    &part.padded(row + HALO, offset_index(dx, dy))[HALO..]
+}
+
+/// `entries` = `weight` times `source`.
+fn write<T: Real>(entries: &mut [T], source: &[f64], weight: f64) {
+    for (entry, value) in entries.iter_mut().zip(source) {
+        *entry = T::from_f64(weight * value);
+    }
+}
+
+/// `entries` += `weight` times `source`.
+fn add<T: Real>(entries: &mut [T], source: &[f64], weight: f64) {
+    for (entry, value) in entries.iter_mut().zip(source) {
+        *entry = *entry + T::from_f64(weight * value);
     }
 }
 

@@ -1,12 +1,19 @@
 //! What `check` says of a project before any work is done.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use serde::Serialize;
 
 use super::Prepared;
+use super::grouping::notes_on_dark;
 use super::plan::{LeftOut, Plan};
+use crate::photon::Tracer;
 use crate::project::{Project, Shows};
+use crate::{Progress, Result};
+
+/// Photons that look which caustics there are: what casts a thousandth of the light is seen.
+const PILOT: usize = 20_000;
 
 /// What would be done, what is left out and why, and roughly what it costs.
 #[derive(Clone, Debug, Serialize)]
@@ -15,6 +22,8 @@ pub struct CheckReport {
     pub project: String,
     /// What each key frame shows.
     pub keys: Vec<String>,
+    /// The caustics that the scene casts, the brightest first; empty where nothing is traced.
+    pub caustics: Vec<CastCaustic>,
     /// What is done, in numbers.
     #[serde(flatten)]
     pub plan: Plan,
@@ -24,23 +33,50 @@ pub struct CheckReport {
     pub notes: Vec<String>,
 }
 
+/// One caustic that the scene casts: the light of one lamp that came over one mesh last.
+#[derive(Clone, Debug, Serialize)]
+pub struct CastCaustic {
+    /// The lamp.
+    pub light: String,
+    /// The mesh.
+    pub mesh: String,
+    /// Its name in the project; none where it belongs to the rest.
+    pub name: Option<String>,
+    /// Share of the flux of all caustics, 0..=1.
+    pub share: f64,
+    /// Flux of all channels on the receiver, watts.
+    pub watts: f64,
+}
+
 impl CheckReport {
-    pub(super) fn new(project: &Project, prepared: &Prepared) -> Self {
+    pub(super) fn new(
+        project: &Project,
+        prepared: &Prepared,
+        tracer: Option<&Tracer>,
+        progress: &Progress,
+    ) -> Result<Self> {
         let key = |key: &crate::project::KeyFrame| {
-            let shows = match &key.shows {
-                Shows::PhysicalCaustic => "the physical caustic".to_owned(),
-                Shows::Image(image) => format!("the picture {}", image.file),
-                Shows::Points(points) => format!("the points of {}", points.file),
-            };
-            format!("frame {}: {shows}", key.frame)
+            let mut text = format!("frame {}: {}", key.frame, describe(&key.shows));
+            for (name, caustic) in &key.caustics {
+                if let Some(shows) = &caustic.shows {
+                    let _ = write!(text, "; '{name}' {}", describe(shows));
+                }
+            }
+            text
         };
-        Self {
+        let mut notes = prepared.notes.clone();
+        let caustics = match tracer {
+            Some(tracer) => cast(prepared, tracer, &mut notes, progress)?,
+            None => Vec::new(),
+        };
+        Ok(Self {
             project: project.name.clone(),
             keys: project.keys.iter().map(key).collect(),
+            caustics,
             seconds: prepared.plan.seconds(),
             plan: prepared.plan.clone(),
-            notes: prepared.notes.clone(),
-        }
+            notes,
+        })
     }
 
     /// As indented JSON.
@@ -55,6 +91,14 @@ impl CheckReport {
         let mut text = format!("{}: {frames} frames, {passes} passes of {photons} photons\n", self.project);
         for key in &self.keys {
             let _ = writeln!(text, "  {key}");
+        }
+        for CastCaustic { light, mesh, name, share, watts } in &self.caustics {
+            let name = name.as_ref().map_or(String::new(), |name| format!(", named '{name}'"));
+            let _ = writeln!(
+                text,
+                "  caustic of light '{light}' by mesh '{mesh}': {:.1} % of the light, {watts:.3e} W{name}",
+                100.0 * share
+            );
         }
         for (stage, seconds) in stages {
             let _ = writeln!(text, "  will {stage}: about {seconds:.1} seconds");
@@ -72,4 +116,42 @@ impl CheckReport {
         }
         text
     }
+}
+
+fn describe(shows: &Shows) -> String {
+    match shows {
+        Shows::PhysicalCaustic => "the physical caustic".to_owned(),
+        Shows::Image(image) => format!("the picture {}", image.file),
+        Shows::Points(points) => format!("the points of {}", points.file),
+    }
+}
+
+/// The caustics that a few photons show, and a note on each named one of which there is none.
+fn cast(
+    prepared: &Prepared,
+    tracer: &Tracer,
+    notes: &mut Vec<String>,
+    progress: &Progress,
+) -> Result<Vec<CastCaustic>> {
+    let Some(scene) = &prepared.scene else { return Ok(Vec::new()) };
+    let grouping = prepared.supplies.grouping();
+    let (photons, _) = tracer.trace(0, PILOT, progress)?;
+    let total = photons.total_flux().element_sum();
+    let mut watts = BTreeMap::<(u16, u16), f64>::new();
+    for ((&light, &mesh), flux) in photons.light.iter().zip(&photons.mesh).zip(&photons.flux) {
+        *watts.entry((light, mesh)).or_default() += flux.as_dvec3().element_sum();
+    }
+    let caustic = |((light, mesh), watts): ((u16, u16), f64)| CastCaustic {
+        light: scene.lights()[usize::from(light)].name().to_owned(),
+        mesh: scene.meshes()[usize::from(mesh)].name.clone(),
+        name: grouping.name(grouping.group_of(light, mesh)).map(str::to_owned),
+        share: watts / total,
+        watts,
+    };
+    let mut caustics: Vec<_> = watts.into_iter().map(caustic).collect();
+    caustics.sort_by(|a, b| b.watts.total_cmp(&a.watts));
+    let shares = grouping.split(photons);
+    let lights = shares.iter().map(|share| (share.positions.len(), share.total));
+    notes.extend(notes_on_dark(&grouping.lights(lights)));
+    Ok(caustics)
 }

@@ -5,12 +5,15 @@
 
 mod batch;
 mod check;
+mod drawn;
 mod finish;
+mod grouping;
 mod meter;
 mod motion;
 mod passes;
 mod plan;
 mod quality;
+mod ride;
 mod slots;
 mod stage;
 mod summary;
@@ -22,7 +25,8 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-pub use check::CheckReport;
+pub use check::{CastCaustic, CheckReport};
+pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;
 pub use plan::{LeftOut, Plan};
@@ -171,13 +175,17 @@ impl Pipeline {
         motion::first_move(batch, project, prepared.extent, progress)
     }
 
-    /// What would be done and what it would cost. Opens every file the project names.
+    /// What would be done and what it would cost. Opens every file the project names, and traces a few photons to see which
+    /// caustics there are.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn check(&mut self, project: &Project) -> Result<CheckReport> {
-        let prepared = self.prepare(project, &mut Meter::default())?;
-        Ok(CheckReport::new(project, &prepared))
+        let mut meter = Meter::default();
+        let prepared = self.prepare(project, &mut meter)?;
+        let progress = Progress::new();
+        let tracer = learn(&prepared, project, &mut meter, &progress)?;
+        CheckReport::new(project, &prepared, tracer.as_ref(), &progress)
     }
 
     fn prepare(&mut self, project: &Project, meter: &mut Meter) -> Result<Prepared> {
@@ -199,8 +207,9 @@ impl Pipeline {
                 }
             };
             let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
-            let supplies = Supplies::load(project, extent, &assets)?;
+            let supplies = Supplies::load(project, scene.as_deref(), extent, &assets)?;
             notes.extend(supplies.notes());
+            notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
             notes.extend(stretch_note(project.flow.grid, extent));
             notes.extend(swirl_note(&project.flow).filter(|_| project.keys.len() > 1));
             let slots = Slots::new(&project.keys, &frames);
@@ -257,7 +266,7 @@ impl Pipeline {
         meter: &mut Meter,
         progress: &Progress,
     ) -> Result<Arc<Motion>> {
-        let input = MotionInput::new(project, prepared.plan.photons);
+        let input = MotionInput::new(project, prepared.extent, prepared.plan.photons);
         self.motion.get(input, |_| {
             let batch = prepared.start(project, tracer, 0, progress)?;
             motion::fit(batch, project, prepared.extent, meter, progress).map(Arc::new)
@@ -274,7 +283,8 @@ impl Prepared {
         pass: u64,
         progress: &Progress,
     ) -> Result<Batch<'a>> {
-        Batch::start(&self.supplies, tracer, project.matching, pass, self.plan.photons, &progress.inner())
+        let photons = (pass, self.plan.photons);
+        Batch::start(&self.supplies, tracer, project.matching, self.extent, photons, &progress.inner())
     }
 }
 
@@ -303,14 +313,14 @@ fn swirl_note(flow: &FlowSettings) -> Option<String> {
     })
 }
 
-/// Learns where the lights must aim, where a key shows the physical caustic.
+/// Learns where the lights must aim, where photons must be traced.
 fn learn<'a>(
     prepared: &'a Prepared,
     project: &Project,
     meter: &mut Meter,
     progress: &Progress,
 ) -> Result<Option<Tracer<'a>>> {
-    let Some(scene) = prepared.scene.as_deref().filter(|_| prepared.supplies.shows_physical()) else {
+    let Some(scene) = prepared.scene.as_deref().filter(|_| prepared.supplies.traces()) else {
         return Ok(None);
     };
     meter.measure("trace", || Tracer::new(scene, project.seed, progress).map(Some))

@@ -7,9 +7,9 @@ use glam::{Vec2, Vec3};
 
 use super::batch::Batch;
 use super::motion::Segment;
+use super::ride::Ride;
 use super::slots::Slots;
-use super::supply::KeyPhotons;
-use crate::flow::{Carrier, flux};
+use crate::flow::flux;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Progress, Result};
 
@@ -28,20 +28,10 @@ pub(super) struct Exposer<'a> {
 pub(super) struct Account {
     /// Most photons of one frame that flowed beyond the texture.
     pub(super) outside: usize,
-    /// Flux of the photons over that of the source, the frame farthest from 1.
+    /// Flux of the photons over that of the source, as bright as its caustics are asked to be; the frame farthest from 1.
     pub(super) flux_ratio: Option<f64>,
     /// Flux in the texture over flux of the photons on it, the frame farthest from 1.
     pub(super) texture_ratio: Option<f64>,
-}
-
-/// What one segment of a pass is carried from and to.
-struct Leg<'a> {
-    from: &'a KeyPhotons,
-    to: &'a KeyPhotons,
-    segment: &'a Segment,
-    /// Flux of the photons at the first key, in watts.
-    source: f64,
-    pass: usize,
 }
 
 impl<'a> Exposer<'a> {
@@ -64,49 +54,51 @@ impl<'a> Exposer<'a> {
         pass: usize,
         progress: &Progress,
     ) -> Result<()> {
-        let source = total(&batch.at.flux);
         if segments.is_empty() {
-            self.positions.clone_from(&batch.at.positions);
-            self.flux.clone_from(&batch.at.flux);
-            self.expose(0, pass, source)?;
+            let at = || batch.at.iter();
+            self.positions = at().flat_map(|group| &group.positions).copied().collect();
+            self.flux = at().flat_map(|group| &group.flux).copied().collect();
+            self.expose(0, pass, batch.asked())?;
             progress.advance(1);
         }
         for (i, segment) in segments.iter().enumerate() {
-            let next = batch.pair(batch.next_points(), segment.map.as_ref(), &progress.inner())?;
-            let leg = Leg { from: &batch.at, to: &next, segment, source, pass };
-            self.carry(&leg, slots.of_segment(i), progress)?;
+            let next = batch.next(&segment.maps, &progress.inner())?;
+            let ride = Ride::new(segment, &batch.at, &next);
+            let asked = [batch.asked(), batch.asked_next()];
+            self.carry(ride, asked, pass, slots.of_segment(i), progress)?;
             batch.arrive(next);
         }
         Ok(())
     }
 
-    /// Carries the photons through the moments of one segment.
+    /// Carries the photons through the moments of one segment; `asked` is the flux they should have at its ends.
     fn carry(
         &mut self,
-        leg: &Leg,
+        mut ride: Ride,
+        asked: [f64; 2],
+        pass: usize,
         moments: impl Iterator<Item = (usize, f64)>,
         progress: &Progress,
     ) -> Result<()> {
-        let mut carrier = Carrier::new(&leg.segment.fields, &leg.from.positions, &leg.to.positions);
-        self.positions.resize(leg.from.positions.len(), Vec2::ZERO);
-        self.flux.resize(leg.from.flux.len(), Vec3::ZERO);
+        self.positions.resize(ride.len(), Vec2::ZERO);
+        self.flux.resize(ride.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            carrier.positions_at(time, &mut self.positions, &progress.inner())?;
-            flux::blend(&leg.from.flux, &leg.to.flux, time as f32, &mut self.flux);
-            self.expose(slot, leg.pass, leg.source)?;
+            ride.positions_at(time, &mut self.positions, &progress.inner())?;
+            ride.flux_at(time, &mut self.flux);
+            self.expose(slot, pass, between(asked, time))?;
             progress.advance(1);
             progress.check()?;
         }
         Ok(())
     }
 
-    /// Adds the photons as they stand to the frame of `slot`.
-    fn expose(&mut self, slot: usize, pass: usize, source: f64) -> Result<()> {
+    /// Adds the photons as they stand to the frame of `slot`; `asked` is the flux they should have, watts.
+    fn expose(&mut self, slot: usize, pass: usize, asked: f64) -> Result<()> {
         let outside = self.render.add(slot, pass, &self.positions, &self.flux, &mut self.work)?;
         let flux = total(&self.flux);
         let account = &mut self.account;
         account.outside = account.outside.max(outside.photons);
-        account.keep_flux_ratio(flux, source);
+        account.keep_flux_ratio(flux, asked);
         let inside = flux - outside.flux.element_sum();
         farther(&mut account.texture_ratio, self.work.texture().total().element_sum(), inside);
         Ok(())
@@ -114,9 +106,9 @@ impl<'a> Exposer<'a> {
 }
 
 impl Account {
-    /// Notes the flux of one frame's photons against that of the source, both in watts.
-    pub(super) fn keep_flux_ratio(&mut self, flux: f64, source: f64) {
-        farther(&mut self.flux_ratio, flux, source);
+    /// Notes the flux of one frame's photons against what is asked for, both in watts.
+    pub(super) fn keep_flux_ratio(&mut self, flux: f64, asked: f64) {
+        farther(&mut self.flux_ratio, flux, asked);
     }
 }
 
@@ -126,6 +118,11 @@ fn farther(kept: &mut Option<f64>, part: f64, whole: f64) {
     if whole > 0.0 && kept.is_none_or(|k| (ratio - 1.0).abs() > (k - 1.0).abs()) {
         *kept = Some(ratio);
     }
+}
+
+/// Between the values at the ends of a segment at time `t`, as the flux goes.
+pub(super) fn between([from, to]: [f64; 2], t: f64) -> f64 {
+    from * (1.0 - t) + to * t
 }
 
 /// Sum over photons and colours, in watts.

@@ -94,7 +94,6 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
             left.push(LeftOut { what, why });
         }
     };
-    let physical = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
     let still = project.keys.len() < 2;
     let given = project.matching == Method::Given;
     leave(
@@ -103,9 +102,23 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
         "the project has no scene; the plane is seen straight on",
     );
     leave(project.scene.is_none(), "photon tracing", "the project has no scene");
-    leave(project.scene.is_some() && !physical, "photon tracing", "no key shows the physical caustic");
+    leave(
+        project.scene.is_some() && !project.traces(),
+        "photon tracing",
+        "no key shows the physical caustic",
+    );
     leave(still, "matching, fit and advection", "there is one key frame, so nothing moves");
+    leave(
+        project.caustics.is_empty(),
+        "grouping by caustics",
+        "no caustic is named, so all light moves as one",
+    );
     leave(!still && given, "transport map", "the rows of the point files are paired as given");
+    leave(
+        (1..project.keys.len()).any(|key| layers(project, key) == 0),
+        "matching and fit of a segment",
+        "all light is the physical caustic before and after",
+    );
     leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
     leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
     leave(!still && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0");
@@ -126,11 +139,12 @@ fn texels(project: &Project, extent: Vec2) -> f64 {
 
 fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
     let render = &project.render;
-    let segments = project.keys.len().saturating_sub(1) as f64;
+    let layers: Vec<usize> = (1..project.keys.len()).map(|key| layers(project, key)).collect();
+    let segments = layers.iter().filter(|layers| **layers > 0).count() as f64;
     let (photons, passes) = (plan.photons as f64, plan.passes as f64);
     let pixels = f64::from(render.width) * f64::from(render.height);
     let steps = segments * f64::from(project.flow.steps);
-    let traced = project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
+    let traced = project.traces();
     let trace = if traced { photons / pace::TRACE } else { 0.0 };
     let mut stages = Vec::new();
     stages.push(("visible", pixels * f64::from(render.camera_samples) / pace::LOOKS));
@@ -140,9 +154,10 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     if traced {
         stages.push(("trace", trace));
     }
-    for _ in 1..project.keys.len() {
-        stages.push(("match", photons / pace::MATCH));
-        stages.push(("fit", f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT)));
+    for layers in layers {
+        stages.push(("match", if layers > 0 { photons / pace::MATCH } else { 0.0 }));
+        let fit = f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT);
+        stages.extend((0..layers).map(|_| ("fit", fit)));
     }
     // Each noise grid is asked for a velocity as the fitted field is.
     let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
@@ -160,6 +175,18 @@ fn swirls(project: &Project) -> Option<&TurbulenceSettings> {
     project.flow.turbulence.as_ref().filter(|turbulence| turbulence.is_on())
 }
 
+/// Fields that carry light to key `key`: one that all share, and one for each caustic that flows by itself; what is
+/// physical before and after needs none.
+fn layers(project: &Project, key: usize) -> usize {
+    let (before, after) = (&project.keys[key - 1], &project.keys[key]);
+    let moves = |caustic: Option<&str>| {
+        [before, after].iter().any(|key| *key.shown_by(caustic) != Shows::PhysicalCaustic)
+    };
+    let (own, shared): (Vec<_>, Vec<_>) =
+        project.caustics.iter().filter(|c| moves(Some(&c.name))).partition(|c| c.own_flow);
+    own.len() + usize::from(moves(None) || !shared.is_empty())
+}
+
 /// Unknowns of one linear system.
 fn unknowns(project: &Project, extent: Vec2) -> f64 {
     let nodes: f64 = project.flow.grid.cells(extent).iter().map(|cells| f64::from(*cells) + 3.0).product();
@@ -171,8 +198,8 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let moving = project.keys.len() > 1;
     // Two keys' positions and flux, the pairing, the carrier's copy.
     let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
-    let fields =
-        if moving { 8.0 * unknowns(project, extent) * f64::from(project.flow.steps + 1) } else { 0.0 };
+    let layers: usize = (1..project.keys.len()).map(|key| layers(project, key)).sum();
+    let fields = 8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1);
     let noises = match swirls(project) {
         Some(turbulence) => project.keys.len().saturating_sub(1) as f64 * turbulence.bytes(extent) as f64,
         None => 0.0,

@@ -39,7 +39,12 @@ mod tests {
 
     #[test]
     fn frames_at_rest_share_a_moment_and_times_rise() {
-        let key = |frame| KeyFrame { frame, shows: Shows::PhysicalCaustic, ease: Ease::Linear };
+        let key = |frame| KeyFrame {
+            frame,
+            shows: Shows::PhysicalCaustic,
+            caustics: Default::default(),
+            ease: Ease::Linear,
+        };
         let slots = Slots::new(&[key(1), key(3), key(5)], &[9, 4, 2, 0, 1, 7]);
         let times: Vec<_> = slots.moments.iter().map(|m| (m.segment, m.time)).collect();
         assert_eq!(times, [(0, 0.0), (0, 0.5), (1, 0.5), (1, 1.0)]);

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::Prepared;
+use super::grouping::{CausticLight, notes_on_dark};
 use super::meter::{Meter, StageCost};
 use super::motion::Motion;
 use super::passes::Account;
@@ -21,7 +22,7 @@ pub struct FlowNumbers {
     pub flow: FlowReport,
     /// Mean squared distance of the matching over a lower bound of the optimum; absent where rows are paired as given.
     pub transport_cost_ratio: Option<f64>,
-    /// Flux of all photons over that of the source, the frame farthest from 1.
+    /// Flux of all photons over that of the source, times the colour and brightness asked for; the frame farthest from 1.
     pub flux_ratio: f64,
 }
 
@@ -83,6 +84,10 @@ pub struct Summary {
     /// The flow; absent where nothing moves.
     #[serde(flatten)]
     pub flow: Option<FlowNumbers>,
+    /// The light of each named caustic, and of the rest: their photons follow each other in the tracks. Absent where none
+    /// is named.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub caustics: Vec<CausticLight>,
     /// Where the light went.
     pub energy: Energy,
     /// Replaced values.
@@ -125,6 +130,8 @@ impl Summary {
         let flow =
             flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
         let stages = meter.costs().to_vec();
+        let mut notes = prepared.notes;
+        notes.extend(notes_on_dark(&done.motion.caustics));
         Self {
             command: done.command,
             project: project.name.clone(),
@@ -135,12 +142,13 @@ impl Summary {
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             flow,
+            caustics: done.motion.caustics.clone(),
             energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
             stages,
             left_out: prepared.plan.left_out,
-            notes: prepared.notes,
+            notes,
         }
     }
 

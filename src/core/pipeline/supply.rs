@@ -1,24 +1,30 @@
 //! What the key frames show, ready to give the photons of any pass.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec2, Vec3};
 
+use super::grouping::{CausticLight, Grouping};
 use crate::flow::flux;
 use crate::matching::Method;
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project, Shows};
+use crate::scene::Scene;
 use crate::target::{PictureSampler, Points, load_points};
 use crate::{Error, Progress, Result};
 
-/// The photons of one pass at one key frame: columns of equal length.
+/// The photons of one group in one pass at one key frame: columns of equal length.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeyPhotons {
     /// Plane coordinates.
     pub(super) positions: Vec<Vec2>,
     /// RGB flux in watts.
     pub(super) flux: Vec<Vec3>,
+    /// Which traced photon each is, where they shall stay in place until the next key; else empty.
+    origin: Vec<u32>,
 }
 
-/// One key frame, resolved.
+/// What a group shows at a key frame, resolved.
 enum Supply {
     Physical,
     Picture(PictureSampler),
@@ -27,47 +33,77 @@ enum Supply {
 
 /// All key frames of a project, resolved.
 pub(super) struct Supplies {
-    keys: Vec<Supply>,
+    /// By key, then by group.
+    shown: Vec<Vec<Arc<Supply>>>,
+    /// Factor on the light, by key, then by group.
+    gains: Vec<Vec<Vec3>>,
+    grouping: Grouping,
+    traces: bool,
+    notes: Vec<String>,
     seed: u64,
     rho: f32,
     watts: f32,
 }
 
-/// The light of one pass: the traced caustic where a key shows it, and the flux the other keys share out.
-pub(super) struct PassLight {
+/// The light of one group in one pass.
+struct GroupLight {
+    /// The traced photons where a key shows them.
     physical: Option<KeyPhotons>,
-    /// Flux of all photons of the pass, watts.
+    /// Flux of all its photons, watts, which the other keys share out.
     total: DVec3,
+    /// How many they are.
+    count: usize,
+}
+
+/// The light of one pass, group by group.
+pub(super) struct PassLight {
+    groups: Vec<GroupLight>,
 }
 
 impl Supplies {
-    /// Opens the pictures and point files of a project.
-    pub(super) fn load(project: &Project, extent: Vec2, assets: &AssetFolder) -> Result<Self> {
-        let open = |(i, shows): (usize, &Shows)| -> Result<Supply> {
-            Ok(match shows {
-                Shows::PhysicalCaustic => Supply::Physical,
-                Shows::Image(image) => {
-                    let place = format!("keys[{i}].shows.image");
-                    let path = assets.resolve(&image.file, &format!("{place}.file"))?;
-                    Supply::Picture(PictureSampler::load(&path, image, extent, &place)?)
-                }
-                Shows::Points(points) => {
-                    let path = assets.resolve(&points.file, &format!("keys[{i}].shows.points.file"))?;
-                    Supply::Points(load_points(&path)?)
-                }
-            })
+    /// Opens the pictures and point files of a project, and finds its caustics in the scene.
+    pub(super) fn load(
+        project: &Project,
+        scene: Option<&Scene>,
+        extent: Vec2,
+        assets: &AssetFolder,
+    ) -> Result<Self> {
+        let grouping = Grouping::resolve(project, scene)?;
+        let mut notes = Vec::new();
+        let mut open = |shows: &Shows, place: String| -> Result<Arc<Supply>> {
+            let supply = open(shows, &place, extent, assets)?;
+            if let Supply::Picture(picture) = &supply {
+                notes.extend(picture.notes().iter().cloned());
+            }
+            Ok(Arc::new(supply))
         };
-        let keys = project.keys.iter().map(|key| &key.shows).enumerate().map(open).collect::<Result<_>>()?;
-        Ok(Self { keys, seed: project.seed, rho: project.flow.rho, watts: project.plane.watts })
+        let mut shown = Vec::new();
+        for (i, key) in project.keys.iter().enumerate() {
+            let mut groups = vec![open(&key.shows, format!("keys[{i}].shows"))?; grouping.count()];
+            for (group, of_group) in groups.iter_mut().enumerate() {
+                let own = grouping.name(group).and_then(|name| Some((name, key.caustics.get(name)?)));
+                if let Some((name, Some(shows))) = own.map(|(name, own)| (name, &own.shows)) {
+                    *of_group = open(shows, format!("keys[{i}].caustics.{name}.shows"))?;
+                }
+            }
+            shown.push(groups);
+        }
+        let gains = (0..project.keys.len()).map(|key| grouping.gains(project, key)).collect();
+        Ok(Self {
+            shown,
+            gains,
+            grouping,
+            traces: project.traces(),
+            notes,
+            seed: project.seed,
+            rho: project.flow.rho,
+            watts: project.plane.watts,
+        })
     }
 
     /// What was odd about a picture, such as pixels that were not finite.
     pub(super) fn notes(&self) -> Vec<String> {
-        let pictures = self.keys.iter().filter_map(|key| match key {
-            Supply::Picture(picture) => Some(picture),
-            _ => None,
-        });
-        pictures.flat_map(|picture| picture.notes().iter().cloned()).collect()
+        self.notes.clone()
     }
 
     /// The seed of all random numbers.
@@ -75,16 +111,25 @@ impl Supplies {
         self.seed
     }
 
+    /// The groups of photons.
+    pub(super) fn grouping(&self) -> &Grouping {
+        &self.grouping
+    }
+
     /// Whether `count` photons show all there is, so that another pass would bring nothing new.
     pub(super) fn is_fixed(&self, count: usize) -> bool {
-        self.keys.iter().all(|key| matches!(key, Supply::Points(points) if points.positions.len() <= count))
+        let is_fixed = |supply: &Arc<Supply>| match &**supply {
+            Supply::Points(points) => points.positions.len() <= count,
+            Supply::Physical | Supply::Picture(_) => false,
+        };
+        self.grouping.count() == 1 && self.shown.iter().flatten().all(is_fixed)
     }
 
     /// The rows of the point files where rows are paired as given: all files must have the same number.
     pub(super) fn given_rows(&self, method: Method) -> Result<Option<usize>> {
         let mut rows = None;
-        for (i, key) in self.keys.iter().enumerate() {
-            let (Supply::Points(points), Method::Given) = (key, method) else { continue };
+        for (i, key) in self.shown.iter().enumerate() {
+            let (Supply::Points(points), Method::Given) = (&*key[0], method) else { continue };
             let count = points.positions.len();
             match rows {
                 Some(first) if first != count => {
@@ -99,7 +144,7 @@ impl Supplies {
         Ok(rows)
     }
 
-    /// Traces the physical caustic of `pass` where a key shows it.
+    /// Traces the photons of `pass`, where a key shows them or caustics are told apart.
     pub(super) fn light(
         &self,
         tracer: Option<&Tracer>,
@@ -107,40 +152,117 @@ impl Supplies {
         count: usize,
         progress: &Progress,
     ) -> Result<PassLight> {
-        let Some(tracer) = tracer.filter(|_| self.shows_physical()) else {
-            return Ok(PassLight { physical: None, total: DVec3::splat(f64::from(self.watts) / 3.0) });
+        let Some(tracer) = tracer.filter(|_| self.traces) else {
+            let total = DVec3::splat(f64::from(self.watts) / 3.0);
+            return Ok(PassLight { groups: vec![GroupLight { physical: None, total, count }] });
         };
         let (photons, _) = tracer.trace(pass, count, progress)?;
-        let total = photons.total_flux();
-        Ok(PassLight {
-            physical: Some(KeyPhotons { positions: photons.positions, flux: photons.flux }),
-            total,
-        })
+        let shares = self.grouping.split(photons).into_iter().enumerate();
+        let groups = shares.map(|(group, share)| GroupLight {
+            total: share.total,
+            count: share.positions.len(),
+            physical: self.shows_physical(group).then_some(KeyPhotons {
+                positions: share.positions,
+                flux: share.flux,
+                origin: Vec::new(),
+            }),
+        });
+        Ok(PassLight { groups: groups.collect() })
     }
 
-    /// Whether a key shows the physical caustic.
-    pub(super) fn shows_physical(&self) -> bool {
-        self.keys.iter().any(|key| matches!(key, Supply::Physical))
+    /// Whether photons must be traced.
+    pub(super) fn traces(&self) -> bool {
+        self.traces
     }
 
-    /// The photons of key `key` in `pass`, `count` of them.
+    fn shows_physical(&self, group: usize) -> bool {
+        self.shown.iter().any(|key| matches!(*key[group], Supply::Physical))
+    }
+
+    /// Whether the photons of a group stay in place from key `key` to the next: it is the physical caustic at both.
+    pub(super) fn rests(&self, key: usize, group: usize) -> bool {
+        let physical =
+            |key: usize| self.shown.get(key).is_some_and(|k| matches!(*k[group], Supply::Physical));
+        physical(key) && physical(key + 1)
+    }
+
+    /// The photons of a group at key `key` in `pass`.
     ///
-    /// Pictures and points share the flux of the pass evenly (Sec. 3, "Flux Blending"), times rho except at the first
-    /// key, times their own relative colours.
-    pub(super) fn key(&self, key: usize, light: &PassLight, pass: u64, count: usize) -> KeyPhotons {
-        // Keys draw from seeds of their own, so that two keys with one picture are not the same points.
-        let seed = self.seed ^ ((key as u64) << 40);
-        let rho = if key == 0 { 1.0 } else { self.rho };
-        let points = match &self.keys[key] {
+    /// Pictures and points share the flux of the group evenly (Sec. 3, "Flux Blending"), times rho except at the first
+    /// key, times the caustic's colour and brightness, times their own relative colours.
+    pub(super) fn key(&self, key: usize, group: usize, light: &PassLight, pass: u64) -> KeyPhotons {
+        let GroupLight { physical, total, count } = &light.groups[group];
+        // Keys and caustics draw from seeds of their own, so that two with one picture are not the same points.
+        let number = (group + 1) as u64 % self.grouping.count() as u64;
+        let seed = self.seed ^ ((key as u64) << 40) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let gain = self.gains[key][group] * if key == 0 { 1.0 } else { self.rho };
+        let points = match &*self.shown[key][group] {
             Supply::Physical => {
-                let mut photons = light.physical.clone().unwrap_or_default();
-                photons.flux.iter_mut().for_each(|flux| *flux *= rho);
+                let mut photons = physical.clone().unwrap_or_default();
+                photons.flux.iter_mut().for_each(|flux| *flux *= gain);
+                if self.rests(key, group) {
+                    photons.origin = (0..photons.positions.len() as u32).collect();
+                }
                 return photons;
             }
-            Supply::Picture(picture) => picture.sample(seed, pass, count),
-            Supply::Points(points) => points.resampled(count, seed, pass),
+            Supply::Picture(picture) => picture.sample(seed, pass, *count),
+            Supply::Points(points) => points.resampled(*count, seed, pass),
         };
-        let flux = flux::share_out(light.total * f64::from(rho), &points.colours, count);
-        KeyPhotons { positions: points.positions, flux }
+        let flux = flux::share_out(*total * gain.as_dvec3(), &points.colours, *count);
+        KeyPhotons { positions: points.positions, flux, origin: Vec::new() }
+    }
+
+    /// The flux that the photons of a pass should have at key `key`, watts; rho does not count.
+    pub(super) fn asked(&self, key: usize, light: &PassLight) -> f64 {
+        let gains = self.gains[key].iter().map(|gain| gain.as_dvec3());
+        light.groups.iter().zip(gains).map(|(group, gain)| (group.total * gain).element_sum()).sum()
+    }
+
+    /// How the light of a pass falls to the caustics; empty where none is named.
+    pub(super) fn caustics(&self, light: &PassLight) -> Vec<CausticLight> {
+        self.grouping.lights(light.groups.iter().map(|group| (group.count, group.total)))
+    }
+}
+
+fn open(shows: &Shows, place: &str, extent: Vec2, assets: &AssetFolder) -> Result<Supply> {
+    Ok(match shows {
+        Shows::PhysicalCaustic => Supply::Physical,
+        Shows::Image(image) => {
+            let place = format!("{place}.image");
+            let path = assets.resolve(&image.file, &format!("{place}.file"))?;
+            Supply::Picture(PictureSampler::load(&path, image, extent, &place)?)
+        }
+        Shows::Points(points) => {
+            let path = assets.resolve(&points.file, &format!("{place}.points.file"))?;
+            Supply::Points(load_points(&path)?)
+        }
+    })
+}
+
+impl PassLight {
+    /// Groups of photons.
+    pub(super) fn groups(&self) -> usize {
+        self.groups.len()
+    }
+}
+
+impl KeyPhotons {
+    /// Row k of the result is row `order[k]` of this.
+    pub(super) fn permuted(&self, order: &[u32]) -> Self {
+        let origin = if self.origin.is_empty() {
+            Vec::new()
+        } else {
+            order.iter().map(|&i| self.origin[i as usize]).collect()
+        };
+        Self {
+            positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
+            flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
+            origin,
+        }
+    }
+
+    /// The traced photons `next`, each in the row in which it stands here.
+    pub(super) fn in_place(&self, next: &Self) -> Self {
+        next.permuted(&self.origin)
     }
 }

@@ -7,12 +7,14 @@ use glam::{Vec2, Vec3};
 use npyz::WriterBuilder as _;
 
 use super::batch::Batch;
+use super::grouping::Grouping;
 use super::motion::Motion;
-use super::passes::{Account, total};
+use super::passes::{Account, between, total};
+use super::ride::Ride;
 use super::supply::KeyPhotons;
 use crate::files::write_atomic;
+use crate::flow::Fields;
 use crate::flow::field::Field;
-use crate::flow::{Carrier, Fields, flux};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -25,7 +27,9 @@ pub(super) fn with_guides_alone(project: &Project) -> Project {
 
 /// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and `fields.npz` into `out`.
 ///
-/// The steps of all segments follow each other; the end of one segment is the start of the next and stands once.
+/// The steps of all segments follow each other; the end of one segment is the start of the next and stands once. The photons
+/// of each named caustic follow each other too, in the order of the project, and the rest comes last: `summary.json` has
+/// their numbers.
 pub(super) fn write(
     batch: Batch,
     motion: &Motion,
@@ -34,6 +38,7 @@ pub(super) fn write(
     progress: &Progress,
     saved: &(dyn Fn(&Path) + Sync),
 ) -> Result<Account> {
+    let grouping = batch.supplies().grouping();
     let stops = stops(batch, motion, progress)?;
     progress.begin("write", 3);
     let steps = project.flow.steps as usize;
@@ -47,25 +52,33 @@ pub(super) fn write(
     saved(&flux);
     progress.advance(1);
     let fields = out.join("fields.npz");
-    write_fields(&fields, motion)?;
+    write_fields(&fields, motion, grouping)?;
     saved(&fields);
     progress.advance(1);
     Ok(account)
 }
 
-/// The photons at every key, row k always being photon k.
-fn stops(mut batch: Batch, motion: &Motion, progress: &Progress) -> Result<Vec<KeyPhotons>> {
-    let mut stops = vec![batch.at.clone()];
+/// The photons at one key, group by group.
+struct Stop {
+    at: Vec<KeyPhotons>,
+    /// The flux they should have, watts.
+    asked: f64,
+}
+
+/// The photons at every key, row k of a group always being its photon k.
+fn stops(mut batch: Batch, motion: &Motion, progress: &Progress) -> Result<Vec<Stop>> {
+    let mut stops = Vec::new();
     for segment in &motion.segments {
-        let next = batch.pair(batch.next_points(), segment.map.as_ref(), &progress.inner())?;
-        stops.push(next.clone());
+        let next = batch.next(&segment.maps, &progress.inner())?;
+        stops.push(Stop { at: batch.at.clone(), asked: batch.asked() });
         batch.arrive(next);
     }
+    stops.push(Stop { asked: batch.asked(), at: batch.at });
     Ok(stops)
 }
 
 struct Table<'a> {
-    stops: &'a [KeyPhotons],
+    stops: &'a [Stop],
     motion: &'a Motion,
     steps: usize,
 }
@@ -75,6 +88,15 @@ impl Table<'_> {
         (self.motion.segments.len() * self.steps + 1) as u64
     }
 
+    /// The photons' way through segment `i`.
+    fn ride(&self, i: usize) -> Ride<'_> {
+        Ride::new(&self.motion.segments[i], &self.stops[i].at, &self.stops[i + 1].at)
+    }
+
+    fn photons(&self) -> usize {
+        self.stops[0].at.iter().map(|group| group.positions.len()).sum()
+    }
+
     /// The flow's times of the rows that segment `segment` adds.
     fn times(&self, segment: usize) -> impl Iterator<Item = f64> + use<> {
         let steps = self.steps;
@@ -82,17 +104,16 @@ impl Table<'_> {
     }
 
     fn write_tracks(&self, path: &Path, progress: &Progress) -> Result<()> {
-        let photons = self.stops[0].positions.len();
+        let photons = self.photons();
         let mut failure = None;
         let written = write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 2];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut positions = vec![Vec2::ZERO; photons];
-            for (i, segment) in self.motion.segments.iter().enumerate() {
-                let (from, to) = (&self.stops[i].positions, &self.stops[i + 1].positions);
-                let mut carrier = Carrier::new(&segment.fields, from, to);
+            for i in 0..self.motion.segments.len() {
+                let mut ride = self.ride(i);
                 for time in self.times(i) {
-                    if let Err(error) = carrier.positions_at(time, &mut positions, &progress.inner()) {
+                    if let Err(error) = ride.positions_at(time, &mut positions, &progress.inner()) {
                         failure = Some(error);
                         return Err(io::Error::other("the advection failed"));
                     }
@@ -105,17 +126,17 @@ impl Table<'_> {
     }
 
     fn write_flux(&self, path: &Path) -> Result<Account> {
-        let photons = self.stops[0].flux.len();
+        let photons = self.photons();
         let mut account = Account::default();
-        let source = total(&self.stops[0].flux);
         write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 3];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut now = vec![Vec3::ZERO; photons];
             for i in 0..self.motion.segments.len() {
+                let (ride, asked) = (self.ride(i), [i, i + 1].map(|stop| self.stops[stop].asked));
                 for time in self.times(i) {
-                    flux::blend(&self.stops[i].flux, &self.stops[i + 1].flux, time as f32, &mut now);
-                    account.keep_flux_ratio(total(&now), source);
+                    ride.flux_at(time, &mut now);
+                    account.keep_flux_ratio(total(&now), between(asked, time));
                     npy.extend(now.iter().flat_map(|f| f.to_array()))?;
                 }
             }
@@ -128,38 +149,31 @@ impl Table<'_> {
 /// Writes the coefficients of all fields: for segment i `psi_i` and `phi_i` of shape (steps, N + 3, M + 3) for M x N
 /// cells, each fitted at the time in `times_i`; and `grid` (M, N) and `extent` of the plane. u = J grad psi + grad phi.
 /// Each grid of the turbulence adds its own J grad psi at these times: `noise_i_C` for C cells along the longer side,
-/// square ones, so that the last may reach beyond the plane.
-fn write_fields(path: &Path, motion: &Motion) -> Result<()> {
+/// square ones, so that the last may reach beyond the plane. The own flow of caustic number c in the project, from 0,
+/// adds `psi_i_c` and so on.
+fn write_fields(path: &Path, motion: &Motion, grouping: &Grouping) -> Result<()> {
     write_atomic(path, |file| {
         let mut npz = npyz::npz::NpzWriter::new(file);
+        let mut described = false;
         for (i, segment) in motion.segments.iter().enumerate() {
-            let fields = &segment.fields;
-            let Some(grid) = fields.nodes().first().map(|field| field.grid()) else { continue };
-            let [columns, rows] = grid.nodes().map(|n| n as u64);
-            let shape = [fields.nodes().len() as u64, rows, columns];
-            for (name, pick) in [("psi", 0), ("phi", 1)] {
-                let potentials = fields.nodes().iter().flat_map(|field| {
-                    let (psi, phi) = field.potentials();
-                    [psi, phi].into_iter().nth(pick).unwrap_or_default()
-                });
-                array(&mut npz, &format!("{name}_{i}"), &shape, potentials)?;
-            }
-            write_noises(&mut npz, i, fields)?;
-            let times = (0..fields.nodes().len()).map(|n| n as f32 / fields.steps() as f32);
-            array(&mut npz, &format!("times_{i}"), &shape[..1], times)?;
-            if i == 0 {
-                array(&mut npz, "grid", &[2], grid.cells.map(|n| n as f32).into_iter())?;
-                array(&mut npz, "extent", &[2], grid.extent.to_array().into_iter())?;
+            for (own, fields) in segment.fields(grouping) {
+                let Some(grid) = fields.nodes().first().map(|field| field.grid()) else { continue };
+                let name = own.map_or_else(|| i.to_string(), |caustic| format!("{i}_{caustic}"));
+                write_layer(&mut npz, &name, fields)?;
+                if !std::mem::replace(&mut described, true) {
+                    array(&mut npz, "grid", &[2], grid.cells.map(|n| n as f32).into_iter())?;
+                    array(&mut npz, "extent", &[2], grid.extent.to_array().into_iter())?;
+                }
             }
         }
         npz.zip_writer().flush()
     })
 }
 
-/// Writes psi of each grid of segment `i`'s turbulence at the times of the fits, where there is any.
+/// Writes psi of each grid of a layer's turbulence at the times of the fits, where there is any.
 fn write_noises<W: io::Write + io::Seek>(
     npz: &mut npyz::npz::NpzWriter<W>,
-    i: usize,
+    layer: &str,
     fields: &Fields,
 ) -> io::Result<()> {
     let times = 0..fields.nodes().len();
@@ -168,9 +182,29 @@ fn write_noises<W: io::Write + io::Seek>(
         let [columns, rows] = noise.grid().nodes().map(|n| n as u64);
         let psi = noises.iter().flat_map(|at_one_time| at_one_time[k].potentials().0);
         let cells = noise.grid().cells.into_iter().max().unwrap_or_default();
-        array(npz, &format!("noise_{i}_{cells}"), &[noises.len() as u64, rows, columns], psi)?;
+        array(npz, &format!("noise_{layer}_{cells}"), &[noises.len() as u64, rows, columns], psi)?;
     }
     Ok(())
+}
+
+/// Writes one sequence of fields.
+fn write_layer<W: io::Write + io::Seek>(
+    npz: &mut npyz::npz::NpzWriter<W>,
+    layer: &str,
+    fields: &Fields,
+) -> io::Result<()> {
+    let [columns, rows] = fields.nodes()[0].grid().nodes().map(|n| n as u64);
+    let shape = [fields.nodes().len() as u64, rows, columns];
+    for (name, pick) in [("psi", 0), ("phi", 1)] {
+        let potentials = fields.nodes().iter().flat_map(|field| {
+            let (psi, phi) = field.potentials();
+            [psi, phi].into_iter().nth(pick).unwrap_or_default()
+        });
+        array(npz, &format!("{name}_{layer}"), &shape, potentials)?;
+    }
+    write_noises(npz, layer, fields)?;
+    let times = (0..fields.nodes().len()).map(|n| n as f32 / fields.steps() as f32);
+    array(npz, &format!("times_{layer}"), &shape[..1], times)
 }
 
 /// Writes one array of float32 into an NPZ file.
@@ -180,7 +214,9 @@ fn array<W: io::Write + io::Seek>(
     shape: &[u64],
     values: impl Iterator<Item = f32>,
 ) -> io::Result<()> {
-    let options = npyz::zip::write::FileOptions::default();
+    // The same fields are the same bytes, whenever they are written.
+    let time = npyz::zip::DateTime::default();
+    let options = npyz::zip::write::FileOptions::default().last_modified_time(time);
     let mut npy = npz.array(name, options)?.default_dtype().shape(shape).begin_nd()?;
     npy.extend(values)?;
     npy.finish()

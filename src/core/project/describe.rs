@@ -22,6 +22,10 @@ fn child<'a>(schema: &'a Value, node: &'a Value, name: &str) -> Option<&'a Value
     if let Some(found) = node.get("properties").and_then(|p| p.get(name)) {
         return Some(found);
     }
+    // A map: any name has the same form.
+    if let Some(found) = node.get("additionalProperties").filter(|form| form.is_object()) {
+        return Some(found);
+    }
     let forms = ["oneOf", "anyOf", "allOf"].iter().filter_map(|key| node.get(key)?.as_array()).flatten();
     forms.into_iter().find_map(|form| child(schema, form, name))
 }

@@ -1,8 +1,11 @@
 //! Key frames: what the light shows, and when.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::CausticKey;
 use crate::target::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
@@ -14,6 +17,9 @@ pub struct KeyFrame {
     pub frame: i32,
     /// What the light shows at this frame.
     pub shows: Shows,
+    /// What single caustics do otherwise at this frame, by the names in `caustics` of the project. Default: nothing.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub caustics: BTreeMap<String, CausticKey>,
     /// How the time runs from this key to the next: "smooth" (default), "linear", "in" or "out".
     #[serde(default)]
     pub ease: Ease,
@@ -113,13 +119,20 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
                 "a physical caustic needs a scene and this project has none; add \"scene\", or show an image or points",
             ));
         }
-        match &key.shows {
-            Shows::PhysicalCaustic => {}
-            Shows::Image(image) => image.check(&format!("keys[{i}].shows.image"))?,
-            Shows::Points(points) => points.check(&format!("keys[{i}].shows.points"))?,
-        }
+        key.shows.check(&format!("keys[{i}].shows"))?;
     }
     Ok(())
+}
+
+impl Shows {
+    /// Refuses what is out of range, naming its place under `place`.
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        match self {
+            Self::PhysicalCaustic => Ok(()),
+            Self::Image(image) => image.check(&format!("{place}.image")),
+            Self::Points(points) => points.check(&format!("{place}.points")),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +142,12 @@ mod tests {
     fn keys(frames: &[i32]) -> Vec<KeyFrame> {
         frames
             .iter()
-            .map(|&frame| KeyFrame { frame, shows: Shows::PhysicalCaustic, ease: Ease::Linear })
+            .map(|&frame| KeyFrame {
+                frame,
+                shows: Shows::PhysicalCaustic,
+                caustics: BTreeMap::new(),
+                ease: Ease::Linear,
+            })
             .collect()
     }
 

@@ -9,6 +9,7 @@
 //! ```
 
 mod asset_path;
+mod caustic;
 mod describe;
 pub mod frames;
 mod keyframe;
@@ -23,9 +24,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use asset_path::AssetFolder;
+pub(crate) use caustic::unknown;
+pub use caustic::{CausticDesc, CausticKey};
 pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
+use crate::constraint::Constraint;
 use crate::flow::FlowSettings;
 use crate::matching::Method;
 use crate::render::RenderSettings;
@@ -56,11 +60,18 @@ pub struct Project {
     /// The plane of a project without scene.
     #[serde(default)]
     pub plane: PlaneSettings,
+    /// The caustics that the key frames tell apart, at most 1000. Default none: all light moves as one. Light of no named
+    /// caustic forms the rest.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub caustics: Vec<CausticDesc>,
     /// The key frames, in rising order.
     pub keys: Vec<KeyFrame>,
     /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
     #[serde(default)]
     pub matching: Method,
+    /// What the artist drew: directed lines and walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constraints: Vec<Constraint>,
     /// The vector field and the way along it.
     #[serde(default)]
     pub flow: FlowSettings,
@@ -144,7 +155,11 @@ impl Project {
         }
         self.plane.check("plane")?;
         keyframe::check(&self.keys, self.scene.is_some())?;
+        caustic::check(self)?;
         self.check_given()?;
+        for (i, constraint) in self.constraints.iter().enumerate() {
+            constraint.check(&format!("constraints[{i}]"))?;
+        }
         self.flow.check("flow")?;
         self.render.check("render")?;
         self.output.check("output")
@@ -152,19 +167,35 @@ impl Project {
 
     /// Pairing row with row means something only where every key is a file of points.
     fn check_given(&self) -> Result<()> {
-        let all_points = self.keys.iter().all(|key| matches!(key.shows, Shows::Points(_)));
+        let all_points = self.shown().all(|shows| matches!(shows, Shows::Points(_)));
         if self.matching == Method::Given && !all_points {
             let what =
                 "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
             return Err(Error::value("matching", what));
         }
+        if self.matching == Method::Given && !self.caustics.is_empty() {
+            let what = "\"given\" pairs the rows of point files, which know no caustics; use \"transport\"";
+            return Err(Error::value("matching", what));
+        }
         Ok(())
+    }
+
+    /// Everything that is shown: by the keys, and by single caustics.
+    fn shown(&self) -> impl Iterator<Item = &Shows> {
+        self.keys.iter().flat_map(|key| {
+            std::iter::once(&key.shows).chain(key.caustics.values().filter_map(|c| c.shows.as_ref()))
+        })
+    }
+
+    /// Whether photons must be traced: a key shows the physical caustic, or caustics are told apart.
+    pub fn traces(&self) -> bool {
+        !self.caustics.is_empty() || self.shown().any(|shows| *shows == Shows::PhysicalCaustic)
     }
 
     /// The files that the project names, as written.
     pub fn files(&self) -> Vec<&str> {
         let meshes = self.scene.iter().flat_map(|scene| scene.meshes.iter().map(|mesh| mesh.file.as_str()));
-        let shown = self.keys.iter().filter_map(|key| match &key.shows {
+        let shown = self.shown().filter_map(|shows| match shows {
             Shows::PhysicalCaustic => None,
             Shows::Image(image) => Some(image.file.as_str()),
             Shows::Points(points) => Some(points.file.as_str()),

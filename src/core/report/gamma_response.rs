@@ -80,8 +80,8 @@ pub fn gamma_response(
 }
 
 fn respond(photons: &FirstMove, settings: &FlowSettings, progress: &Progress) -> Result<Response> {
-    let FirstMove { source, target, extent, number } = photons;
-    let course = Course { source, target, extent: *extent, settings, number: *number };
+    let FirstMove { source, target, extent, lines, walls, number } = photons;
+    let course = Course { source, target, extent: *extent, settings, lines, walls, number: *number };
     let (fields, report) = fit_segment(&course, progress, None)?;
     let first = fields.nodes().first().map(|field| metric::divergence_and_curl_rms(&[field], source));
     let [divergence_first, curl_first] = first.unwrap_or_default();

@@ -1,0 +1,101 @@
+//! Closes the gaps that are narrower than a wall is thick: light does not squeeze through where two walls, drawn to
+//! scale, overlap.
+
+use glam::Vec2;
+
+use crate::constraint::stroke;
+use crate::constraint::wall::ActiveWall;
+
+/// How far beyond the border a wall goes on that ends there, plane units: light that flowed off the receiver does not
+/// come back on the other side.
+const BEYOND: f32 = 0.5;
+/// How far a bridge overlaps the walls that it joins: more than rounding, far less than a cell.
+const OVERLAP: f32 = 1e-5;
+/// A wall's own ends meet its other parts only from this many clearances along it; nearer parts are just its bend.
+const OWN_BEND: f32 = 8.0;
+
+/// Pieces that close the gaps, and what to tell of them.
+pub(super) fn bridges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<String>) {
+    let mut bridges = Vec::new();
+    let mut notes = Vec::new();
+    let coarse: Vec<Vec<Vec2>> =
+        walls.iter().map(|wall| stroke::simplify(&wall.points, 0.1 * wall.clearance)).collect();
+    for (i, wall) in walls.iter().enumerate() {
+        for (j, other) in walls.iter().enumerate().filter(|(j, _)| *j != i) {
+            let reach = wall.clearance + other.clearance;
+            let close: Vec<_> = coarse[i]
+                .iter()
+                .filter_map(|&p| {
+                    let nearest = nearest_on(p, &other.points);
+                    (p.distance(nearest) < reach).then(|| bridge(p, nearest, &other.points))
+                })
+                .collect();
+            if !close.is_empty() && i < j {
+                notes.push(format!("walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"));
+            }
+            bridges.extend(close);
+        }
+        bridges.extend(own_gaps(wall));
+        let outward = border_pieces(wall, extent);
+        if outward.len() == 2 {
+            notes.push(format!(
+                "wall {i} (in their order) reaches the border at both ends: no way leads around it"
+            ));
+        }
+        bridges.extend(outward);
+    }
+    (bridges, notes)
+}
+
+/// Between the ends of a wall and its other parts, such as the two ends of a loop that was not quite closed.
+fn own_gaps(wall: &ActiveWall) -> Vec<[Vec2; 2]> {
+    let mut gaps = Vec::new();
+    let reversed: Vec<Vec2> = wall.points.iter().rev().copied().collect();
+    for points in [&wall.points, &reversed] {
+        let end = points[0];
+        let (mut walked, mut best) = (0.0, (2.0 * wall.clearance, None));
+        for pair in points.windows(2) {
+            let nearest = stroke::nearest_on_segment(end, pair[0], pair[1]);
+            let far_along = walked + pair[0].distance(nearest) >= OWN_BEND * wall.clearance;
+            let gap = end.distance(nearest);
+            if far_along && gap < best.0 {
+                best = (gap, Some(nearest));
+            }
+            walked += pair[0].distance(pair[1]);
+        }
+        gaps.extend(best.1.filter(|nearest| *nearest != end).map(|nearest| bridge(end, nearest, points)));
+    }
+    gaps
+}
+
+/// From the ends that reach the border, outwards.
+fn border_pieces(wall: &ActiveWall, extent: Vec2) -> Vec<[Vec2; 2]> {
+    let ends = [wall.points[0], wall.points[wall.points.len() - 1]];
+    ends.iter()
+        .filter_map(|&end| {
+            let sides = [
+                (end.x, Vec2::NEG_X),
+                (end.y, Vec2::NEG_Y),
+                (extent.x - end.x, Vec2::X),
+                (extent.y - end.y, Vec2::Y),
+            ];
+            let (gap, outward) = sides.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+            (gap < wall.clearance).then(|| [end, end + outward * (gap.max(0.0) + BEYOND)])
+        })
+        .collect()
+}
+
+/// From `p` to a little beyond `nearest`, which lies on `points` but for rounding.
+fn bridge(p: Vec2, nearest: Vec2, points: &[Vec2]) -> [Vec2; 2] {
+    let across = (nearest - p).try_normalize().unwrap_or_else(|| {
+        let on = |pair: &&[Vec2]| stroke::distance_to_segment(p, pair[0], pair[1]);
+        let touched = points.windows(2).min_by(|a, b| on(a).total_cmp(&on(b)));
+        touched.map_or(Vec2::X, |pair| (pair[1] - pair[0]).perp().normalize_or(Vec2::X))
+    });
+    [p - across * OVERLAP, nearest + across * OVERLAP]
+}
+
+fn nearest_on(p: Vec2, points: &[Vec2]) -> Vec2 {
+    let pieces = points.windows(2).map(|pair| stroke::nearest_on_segment(p, pair[0], pair[1]));
+    pieces.min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p))).unwrap_or(p)
+}

@@ -1,0 +1,167 @@
+//! A directed line: flow here, this way. Term (6).
+//!
+//! The line asks the field for its own direction, along itself and, ever less, up to `width` beside it; how strongly is
+//! beta times its weight. Its speed is that of the photons around it, times a factor, so that it steers and does not
+//! hurry. Artists know the idea from Houdini's POP Curve Incompressible Flow, which is gamma 0.
+
+use glam::Vec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Span, Window, enabled, stroke};
+use crate::{Error, Result};
+
+/// Distance of the samples along a line, plane units: half a cell of the default grid.
+const SPACING: f32 = 1.0 / 256.0;
+/// Most samples along one line.
+const MOST_SAMPLES: usize = 2000;
+/// Samples across a line.
+const ACROSS: usize = 9;
+
+/// A line that the light shall follow, from its first point to its last.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DirectedLine {
+    /// The artist's name for it.
+    #[serde(default)]
+    pub name: String,
+    /// Points in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
+    /// 10000 points.
+    pub points: Vec<[f32; 2]>,
+    /// How strongly it pulls, 0 to 1000: a factor on `flow.beta`. Default 1.
+    #[serde(default = "one")]
+    pub weight: f32,
+    /// Its speed over that of the light around it, 0 to 100. Default 1.
+    #[serde(default = "one")]
+    pub speed: f32,
+    /// How far beside the line it pulls, ever less, in plane units, 0.001 to 1. Default 0.05.
+    #[serde(default = "default_width")]
+    pub width: f32,
+    /// The frames during which it pulls (default: all).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span: Option<Span>,
+    /// Whether it pulls at all (default true).
+    #[serde(default = "enabled")]
+    pub enabled: bool,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+fn default_width() -> f32 {
+    0.05
+}
+
+/// A line in one segment of the animation: the places where it pulls, and which way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActiveLine {
+    /// Places along and beside the line, d_p of Term (6), plane units. One that pulls less stands for fewer places.
+    pub positions: Vec<Vec2>,
+    /// Directions, of length 1.
+    pub directions: Vec<Vec2>,
+    /// Factor on beta.
+    pub weight: f32,
+    /// Factor on the speed of the photons around it.
+    pub speed: f32,
+    /// How far it pulls, plane units.
+    pub width: f32,
+    /// When it pulls, in the segment's flow time.
+    pub window: Window,
+}
+
+impl DirectedLine {
+    /// A line of default strength and width that always pulls.
+    pub fn new(points: Vec<[f32; 2]>) -> Self {
+        Self {
+            name: String::new(),
+            points,
+            weight: 1.0,
+            speed: 1.0,
+            width: default_width(),
+            span: None,
+            enabled: true,
+        }
+    }
+
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        stroke::check(&self.points, place)?;
+        let check = |name: &str, value: f32, low: f32, high: f32| {
+            if (low..=high).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
+        };
+        check("weight", self.weight, 0.0, 1000.0)?;
+        check("speed", self.speed, 0.0, 100.0)?;
+        check("width", self.width, 0.001, 1.0)?;
+        self.span.as_ref().map_or(Ok(()), |span| span.check(place))
+    }
+
+    /// The line as the fit sees it, on the rectangle `extent`; none where it does not pull, is but a dot, or lies off
+    /// the receiver.
+    pub fn active(&self, window: Window, extent: Vec2) -> Option<ActiveLine> {
+        if !self.enabled || self.weight == 0.0 {
+            return None;
+        }
+        let points = stroke::clean(&self.points);
+        let (mut positions, mut directions) = (Vec::new(), Vec::new());
+        for (place, direction) in stroke::resample(&points, SPACING, MOST_SAMPLES) {
+            for i in 0..ACROSS {
+                let beside = quantile((i as f32 + 0.5) / ACROSS as f32) * self.width;
+                let position = place + direction.perp() * beside;
+                if position.cmpge(Vec2::ZERO).all() && position.cmple(extent).all() {
+                    positions.push(position);
+                    directions.push(direction);
+                }
+            }
+        }
+        (!positions.is_empty()).then_some(ActiveLine {
+            positions,
+            directions,
+            weight: self.weight,
+            speed: self.speed,
+            width: self.width,
+            window,
+        })
+    }
+}
+
+/// Where the share `p` of the pull lies to the left: the inverse distribution function of the pull (1 - x^2)^2 over
+/// -1..=1, whose integral is (15 x - 10 x^3 + 3 x^5) / 16 + 1/2.
+fn quantile(p: f32) -> f32 {
+    let below = |x: f32| (15.0 * x - 10.0 * x.powi(3) + 3.0 * x.powi(5)) / 16.0 + 0.5;
+    let (mut low, mut high) = (-1.0, 1.0);
+    for _ in 0..24 {
+        let middle = 0.5 * (low + high);
+        if below(middle) < p { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_pulls_along_itself_most_and_not_beyond_its_width() {
+        let line = DirectedLine { width: 0.1, ..DirectedLine::new(vec![[0.2, 0.5], [0.8, 0.5]]) };
+        let active = line.active(Window::ALWAYS, Vec2::ONE).unwrap();
+        assert!(active.directions.iter().all(|d| *d == Vec2::X));
+        let beside: Vec<f32> = active.positions.iter().map(|p| (p.y - 0.5).abs()).collect();
+        assert!(beside.iter().all(|b| *b < 0.1));
+        let near = beside.iter().filter(|b| **b < 0.05).count();
+        // Of (1 - x^2)^2, 79 % lie within half the width; nine samples across tell that to one of them.
+        assert!((near as f32 / beside.len() as f32 - 0.79).abs() < 0.12);
+    }
+
+    #[test]
+    fn dots_lines_off_the_receiver_and_lines_switched_off_do_not_pull() {
+        let active = |line: DirectedLine| line.active(Window::ALWAYS, Vec2::ONE);
+        assert!(active(DirectedLine::new(vec![])).is_none());
+        assert!(active(DirectedLine::new(vec![[0.5, 0.5]; 4])).is_none());
+        assert!(active(DirectedLine::new(vec![[2.0, 2.0], [3.0, 2.0]])).is_none());
+        let off = DirectedLine { enabled: false, ..DirectedLine::new(vec![[0.2, 0.5], [0.8, 0.5]]) };
+        assert!(active(off).is_none());
+    }
+}

@@ -1,0 +1,74 @@
+//! A wall: not through here.
+//!
+//! No photon ever crosses the wall's line. Ways around it keep half its thickness away from it, so the light does not
+//! scrape along. Gaps narrower than the thickness, between two walls, between a wall's two ends, or between a wall and
+//! the border of the receiver, count as closed. Light whose target no way reaches goes straight, and is counted.
+
+use glam::Vec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Span, Window, enabled, stroke};
+use crate::{Error, Result};
+
+/// A line that no light crosses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// The artist's name for it.
+    #[serde(default)]
+    pub name: String,
+    /// The line in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
+    /// 10000 points. A loop ends where it begins.
+    pub points: Vec<[f32; 2]>,
+    /// Thickness in plane units, 0.0001 to 0.5. Default 0.0234, three cells of the default grid.
+    #[serde(default = "default_thickness")]
+    pub thickness: f32,
+    /// The frames during which it stands (default: all). Light that it holds back meanwhile goes on afterwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span: Option<Span>,
+    /// Whether it stands at all (default true).
+    #[serde(default = "enabled")]
+    pub enabled: bool,
+}
+
+fn default_thickness() -> f32 {
+    3.0 / 128.0
+}
+
+/// A wall in one segment of the animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActiveWall {
+    /// Its line, at least two points, plane units.
+    pub points: Vec<Vec2>,
+    /// Half its thickness: how far ways keep away from the line, plane units.
+    pub clearance: f32,
+    /// When it stands, in the segment's flow time.
+    pub window: Window,
+}
+
+impl Wall {
+    /// A wall of default thickness that always stands.
+    pub fn new(points: Vec<[f32; 2]>) -> Self {
+        Self { name: String::new(), points, thickness: default_thickness(), span: None, enabled: true }
+    }
+
+    pub(super) fn check(&self, place: &str) -> Result<()> {
+        stroke::check(&self.points, place)?;
+        if !(1e-4..=0.5).contains(&self.thickness) {
+            let what = format!("is {}, must be 0.0001 to 0.5 plane units", self.thickness);
+            return Err(Error::value(format!("{place}.thickness"), what));
+        }
+        self.span.as_ref().map_or(Ok(()), |span| span.check(place))
+    }
+
+    /// The wall as the flow sees it; none where it does not stand, or is but a dot.
+    pub fn active(&self, window: Window) -> Option<ActiveWall> {
+        let points = stroke::clean(&self.points);
+        (self.enabled && !points.is_empty()).then(|| ActiveWall {
+            points,
+            clearance: 0.5 * self.thickness,
+            window,
+        })
+    }
+}

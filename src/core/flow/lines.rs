@@ -1,0 +1,105 @@
+//! What directed lines ask of the fit at each step, Term (6): their direction, at the speed of the photons around them.
+
+use glam::Vec2;
+
+use super::assembly::Rows;
+use crate::constraint::ActiveLine;
+
+/// Cells along the longer side in which the photons' speeds are averaged.
+const CELLS: f32 = 64.0;
+
+/// The lines of a segment.
+pub(super) struct Lines<'a> {
+    lines: &'a [ActiveLine],
+    beta: f64,
+    /// Places of all lines, P of Term (6).
+    places: usize,
+    size: [usize; 2],
+    /// For each line the velocities it asks for.
+    wanted: Vec<Vec<Vec2>>,
+}
+
+/// Sum of the speeds of photons, and their number.
+#[derive(Clone, Copy, Default)]
+struct Speeds {
+    sum: f32,
+    count: f32,
+}
+
+impl<'a> Lines<'a> {
+    /// Lines that pull by `beta`, on the rectangle `extent`.
+    pub(super) fn new(lines: &'a [ActiveLine], beta: f32, extent: Vec2) -> Self {
+        let size = (extent * CELLS).ceil().max(Vec2::ONE);
+        Self {
+            lines: if beta > 0.0 { lines } else { &[] },
+            beta: beta.into(),
+            places: lines.iter().map(|line| line.positions.len()).sum(),
+            size: [size.x as usize, size.y as usize],
+            wanted: Vec::new(),
+        }
+    }
+
+    /// The rows of Term (6) at time `t`, from the photons' guidance there. None where no line pulls.
+    pub(super) fn rows(&mut self, t: f64, positions: &[Vec2], guidance: &[Vec2]) -> Vec<Rows<'_>> {
+        let pulls = |line: &ActiveLine| line.window.at(t);
+        if !self.lines.iter().any(|line| pulls(line) > 0.0) {
+            return Vec::new();
+        }
+        let (cells, all) = self.speeds(positions, guidance);
+        self.wanted = self.lines.iter().map(|line| self.velocities(line, &cells, all)).collect();
+        let per_place = self.beta / self.places as f64;
+        let rows = self.lines.iter().zip(&self.wanted).map(|(line, velocities)| Rows {
+            positions: &line.positions,
+            velocities,
+            weight: per_place * f64::from(line.weight) * pulls(line),
+        });
+        rows.filter(|rows| rows.weight > 0.0).collect()
+    }
+
+    /// The photons' speeds, cell by cell, and all together.
+    fn speeds(&self, positions: &[Vec2], guidance: &[Vec2]) -> (Vec<Speeds>, Speeds) {
+        let [width, height] = self.size;
+        let mut cells = vec![Speeds::default(); width * height];
+        let mut all = Speeds::default();
+        for (&p, v) in positions.iter().zip(guidance) {
+            let at = (p * CELLS).floor();
+            let speed = v.length();
+            all.add(speed, 1.0);
+            if at.x >= 0.0 && at.y >= 0.0 && at.x < width as f32 && at.y < height as f32 {
+                cells[at.y as usize * width + at.x as usize].add(speed, 1.0);
+            }
+        }
+        (cells, all)
+    }
+
+    /// The velocities a line asks for: its directions at the mean speed of the photons within its width, or of all
+    /// photons where there are none.
+    fn velocities(&self, line: &ActiveLine, cells: &[Speeds], all: Speeds) -> Vec<Vec2> {
+        let [width, height] = self.size;
+        let reach = (line.width * CELLS).ceil() as isize;
+        let speed = |p: Vec2| {
+            let (x, y) = ((p.x * CELLS) as isize, (p.y * CELLS) as isize);
+            let mut near = Speeds::default();
+            for row in (y - reach).max(0)..=(y + reach).min(height as isize - 1) {
+                for column in (x - reach).max(0)..=(x + reach).min(width as isize - 1) {
+                    let cell = cells[row as usize * width + column as usize];
+                    near.add(cell.sum, cell.count);
+                }
+            }
+            near.mean().or(all.mean()).unwrap_or(0.0)
+        };
+        let places = line.positions.iter().zip(&line.directions);
+        places.map(|(&p, &direction)| direction * (line.speed * speed(p))).collect()
+    }
+}
+
+impl Speeds {
+    fn add(&mut self, sum: f32, count: f32) {
+        self.sum += sum;
+        self.count += count;
+    }
+
+    fn mean(self) -> Option<f32> {
+        (self.count > 0.0).then(|| self.sum / self.count)
+    }
+}

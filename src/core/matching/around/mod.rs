@@ -1,0 +1,187 @@
+//! The continuous map where walls stand: the cost of a pair is the squared length of its way around them.
+//!
+//! The back-and-forth method knows straight ways only. Here both sets are cut into a thousand cells of equal numbers;
+//! the cells are assigned to each other exactly, by the ways around the walls; and the map interpolates that
+//! assignment: near each anchor it is affine, fitted to the neighbours that go the same way, and it tears only where
+//! neighbours part ways.
+
+mod assignment;
+mod cells;
+
+use glam::{Mat2, Vec2};
+use rayon::prelude::*;
+
+use super::transport_map::require_points;
+use crate::constraint::{Barriers, Detour};
+use crate::{Progress, Result};
+
+/// Most anchors.
+const ANCHORS: usize = 1024;
+/// Photons that an anchor stands for, at least.
+const PER_ANCHOR: usize = 4;
+/// Neighbours that an anchor looks at.
+const NEIGHBOURS: usize = 10;
+/// Neighbours go the same way while the map stretches their distance by no more than this.
+const STRETCH: f32 = 4.0;
+/// Anchors that a point asks for the nearest one that it sees.
+const CANDIDATES: usize = 8;
+/// Price of a pair that no way connects: more than any way is long, so that as few as possible remain.
+const SHUT_OFF: f64 = 100.0;
+
+/// Where a photon of any pass goes if walls stand in the way.
+#[derive(Clone, Debug)]
+pub struct AroundMap {
+    anchors: Vec<Anchor>,
+    /// Anchors sorted into square cells along rows, to find those near a point.
+    buckets: Buckets,
+}
+
+/// A place where the map is known, and how it goes on around it.
+#[derive(Clone, Debug)]
+struct Anchor {
+    from: Vec2,
+    to: Vec2,
+    slope: Mat2,
+    /// Distance to its neighbours, root mean square.
+    spacing: f32,
+    /// Neighbours that go the same way.
+    kin: Vec<u32>,
+}
+
+#[derive(Clone, Debug)]
+struct Buckets {
+    low: Vec2,
+    per_plane: f32,
+    size: [usize; 2],
+    items: Vec<Vec<u32>>,
+}
+
+impl AroundMap {
+    /// The map from the points `source` to the points `target`, plane units, around the walls of `detour`.
+    /// Deterministic.
+    ///
+    /// # Errors
+    /// `Value` when a set is empty or holds a point that is not finite; `Cancelled`.
+    pub fn new(source: &[Vec2], target: &[Vec2], detour: &Detour, progress: &Progress) -> Result<Self> {
+        require_points("source", source)?;
+        require_points("target", target)?;
+        let photons = source.len().min(target.len());
+        let most = (photons / PER_ANCHOR).clamp(1, ANCHORS);
+        let count = if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 };
+        let (from, to) = (cells::representatives(source, count), cells::representatives(target, count));
+        let lengths = detour.lengths(&from, &to, progress)?;
+        let costs: Vec<f64> = lengths
+            .iter()
+            .map(|&length| if length.is_finite() { f64::from(length).powi(2) } else { SHUT_OFF })
+            .collect();
+        let columns = assignment::assign(&costs, count, progress)?;
+        let to: Vec<Vec2> = columns.into_iter().map(|column| to[column]).collect();
+        let buckets = Buckets::new(&from);
+        let anchors = (0..count)
+            .into_par_iter()
+            .map(|i| Anchor::new(i, &from, &to, &buckets, detour.barriers()))
+            .collect();
+        Ok(Self { anchors, buckets })
+    }
+
+    /// Where `point` goes: the same way as the nearest anchor that it sees.
+    pub fn apply(&self, point: Vec2, barriers: &Barriers) -> Vec2 {
+        let near = self.buckets.nearest(point, CANDIDATES, |i| self.anchors[i as usize].from);
+        let seen = near.iter().find(|&&i| !barriers.blocks(point, self.anchors[i as usize].from));
+        let Some(&first) = seen.or(near.first()) else { return point };
+        let first = &self.anchors[first as usize];
+        let (mut sum, mut weights) = (Vec2::ZERO, 0.0);
+        let kin = first.kin.iter().map(|&i| &self.anchors[i as usize]);
+        for anchor in std::iter::once(first).chain(kin) {
+            let apart = point - anchor.from;
+            let weight = (-2.0 * apart.length_squared() / first.spacing.powi(2).max(1e-12)).exp().max(1e-20);
+            sum += weight * (anchor.to + anchor.slope * apart);
+            weights += weight;
+        }
+        sum / weights
+    }
+}
+
+impl Anchor {
+    fn new(i: usize, from: &[Vec2], to: &[Vec2], buckets: &Buckets, barriers: &Barriers) -> Self {
+        let mut near = buckets.nearest(from[i], NEIGHBOURS + 1, |k| from[k as usize]);
+        near.retain(|&k| k as usize != i);
+        let square = |k: &u32| from[i].distance_squared(from[*k as usize]);
+        let spacing = (near.iter().map(square).sum::<f32>() / near.len().max(1) as f32).sqrt();
+        let kin: Vec<u32> = near
+            .into_iter()
+            .filter(|&k| {
+                let k = k as usize;
+                let stretched = to[i].distance(to[k]);
+                stretched <= STRETCH * from[i].distance(from[k]).max(0.5 * spacing)
+                    && !barriers.blocks(from[i], from[k])
+                    && !barriers.blocks(to[i], to[k])
+            })
+            .collect();
+        let slope = slope(kin.iter().map(|&k| (from[k as usize] - from[i], to[k as usize] - to[i])), spacing);
+        Self { from: from[i], to: to[i], slope, spacing, kin }
+    }
+}
+
+/// The matrix J that least misses b = J a over all pairs (a, b), drawn a little towards the identity.
+fn slope(pairs: impl Iterator<Item = (Vec2, Vec2)>, spacing: f32) -> Mat2 {
+    let ridge = 0.5 * spacing * spacing + 1e-12;
+    let outer = |b: Vec2, a: Vec2| Mat2::from_cols(b * a.x, b * a.y);
+    let (mut ba, mut aa) = (Mat2::IDENTITY * ridge, Mat2::IDENTITY * ridge);
+    for (a, b) in pairs {
+        ba += outer(b, a);
+        aa += outer(a, a);
+    }
+    ba * aa.inverse()
+}
+
+impl Buckets {
+    fn new(points: &[Vec2]) -> Self {
+        let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+        for &point in points {
+            (low, high) = (low.min(point), high.max(point));
+        }
+        let side = (points.len() as f32 / 2.0).sqrt().max(1.0);
+        let per_plane = side / (high - low).max_element().max(1e-6);
+        let size = ((high - low) * per_plane).to_array().map(|cells| cells as usize + 1);
+        let mut buckets = Self { low, per_plane, size, items: vec![Vec::new(); size[0] * size[1]] };
+        for (&point, i) in points.iter().zip(0..) {
+            let [x, y] = buckets.cell(point);
+            buckets.items[y * size[0] + x].push(i);
+        }
+        buckets
+    }
+
+    fn cell(&self, p: Vec2) -> [usize; 2] {
+        let at = ((p - self.low) * self.per_plane).max(Vec2::ZERO);
+        [(at.x as usize).min(self.size[0] - 1), (at.y as usize).min(self.size[1] - 1)]
+    }
+
+    /// The `count` nearest points, nearest first, equally near ones by number. `place` tells where each is.
+    fn nearest(&self, p: Vec2, count: usize, place: impl Fn(u32) -> Vec2) -> Vec<u32> {
+        let [x, y] = self.cell(p);
+        let far = self.size[0].max(self.size[1]);
+        let mut found: Vec<(f32, u32)> = Vec::with_capacity(4 * count);
+        let (mut ring, mut last) = (0, far);
+        while ring <= last.min(far) {
+            let rows = y.saturating_sub(ring)..=(y + ring).min(self.size[1] - 1);
+            for row in rows {
+                let edge = row.abs_diff(y) == ring;
+                for column in x.saturating_sub(ring)..=(x + ring).min(self.size[0] - 1) {
+                    if edge || column.abs_diff(x) == ring {
+                        let items = &self.items[row * self.size[0] + column];
+                        found.extend(items.iter().map(|&i| (p.distance_squared(place(i)), i)));
+                    }
+                }
+            }
+            // What lies in the next ring may still be nearer than the corners of this one.
+            if found.len() >= count && last == far {
+                last = ring + 2 + ring / 2;
+            }
+            ring += 1;
+        }
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.truncate(count);
+        found.into_iter().map(|(_, i)| i).collect()
+    }
+}

@@ -1,0 +1,138 @@
+//! Caustics by name: which light through which glass, and what each does at a key frame.
+
+use std::collections::BTreeSet;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{KeyFrame, Project, Shows};
+use crate::{Error, Result};
+
+/// Most caustics of a project.
+const MOST: usize = 1000;
+
+/// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CausticDesc {
+    /// By what the key frames call it; not empty, each name once.
+    pub name: String,
+    /// Name of the light that casts it. Default: any light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub light: Option<String>,
+    /// Name of the mesh that the light met last: that of `scene.meshes`, or "name/material" for one part of a file of
+    /// several materials. Default: any mesh. What fits several caustics belongs to the first in the list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<String>,
+    /// Whether it flows by a field of its own and never mixes with the others (default false: all that move share one
+    /// field).
+    #[serde(default)]
+    pub own_flow: bool,
+}
+
+/// What one caustic does at a key frame, where it differs from the others.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CausticKey {
+    /// What it shows. Default: what the key shows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shows: Option<Shows>,
+    /// Factor on its light at this frame, linear Rec.709, each 0 to 1000. Default [1, 1, 1]: the light's own colour.
+    pub colour: [f32; 3],
+    /// Factor on its light at this frame, 0 to 1000. Default 1, which keeps the energy.
+    pub brightness: f32,
+}
+
+impl Default for CausticKey {
+    fn default() -> Self {
+        Self { shows: None, colour: [1.0; 3], brightness: 1.0 }
+    }
+}
+
+impl CausticKey {
+    /// The factor on each channel of its light.
+    pub fn gain(&self) -> [f32; 3] {
+        self.colour.map(|channel| channel * self.brightness)
+    }
+
+    fn check(&self, place: &str) -> Result<()> {
+        let in_range = |name: &str, value: f32| {
+            if (0.0..=1000.0).contains(&value) {
+                return Ok(());
+            }
+            Err(Error::value(format!("{place}.{name}"), format!("{value} is out of range; give 0 to 1000")))
+        };
+        self.colour.iter().try_for_each(|&channel| in_range("colour", channel))?;
+        in_range("brightness", self.brightness)?;
+        self.shows.as_ref().map_or(Ok(()), |shows| shows.check(&format!("{place}.shows")))
+    }
+}
+
+impl KeyFrame {
+    /// What a caustic shows here; those without a name, and those that the key does not mention, show what the key shows.
+    pub fn shown_by(&self, caustic: Option<&str>) -> &Shows {
+        let own = caustic.and_then(|name| self.caustics.get(name)?.shows.as_ref());
+        own.unwrap_or(&self.shows)
+    }
+}
+
+/// The named caustics, and what the keys say of them.
+pub(super) fn check(project: &Project) -> Result<()> {
+    let caustics = &project.caustics;
+    if caustics.len() > MOST {
+        let what = format!("names {} caustics, at most {MOST} can be told apart; join some", caustics.len());
+        return Err(Error::Limit { place: "caustics".into(), what });
+    }
+    if !caustics.is_empty() && project.scene.is_none() {
+        return Err(Error::value(
+            "caustics",
+            "caustics are cast by the lights of a scene and this project has none; add \"scene\"",
+        ));
+    }
+    let mut names = BTreeSet::new();
+    for (i, CausticDesc { name, .. }) in caustics.iter().enumerate() {
+        let place = || format!("caustics[{i}].name");
+        if name.is_empty() {
+            return Err(Error::value(place(), "is empty; give the caustic a name"));
+        }
+        if !names.insert(name.as_str()) {
+            return Err(Error::value(place(), format!("'{name}' stands twice; give each its own name")));
+        }
+    }
+    for (i, key) in project.keys.iter().enumerate() {
+        for (name, caustic) in &key.caustics {
+            let place = format!("keys[{i}].caustics.{name}");
+            if !names.contains(name.as_str()) {
+                return Err(Error::value(place, unknown("caustic", name, names.iter().copied())));
+            }
+            caustic.check(&place)?;
+        }
+    }
+    Ok(())
+}
+
+/// What to say of a name that nothing bears.
+pub(crate) fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    let known: Vec<_> = known.map(|name| format!("'{name}'")).collect();
+    if known.is_empty() {
+        return format!("there is no {kind} '{name}', and no other");
+    }
+    format!("there is no {kind} '{name}'; there is {}", known.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_without_a_word_on_a_caustic_shows_the_same_by_all() {
+        let text = r#"{ "frame": 1, "shows": "physical_caustic",
+            "caustics": { "red": { "shows": { "points": { "file": "a.csv" } } }, "blue": { "brightness": 0.5 } } }"#;
+        let key: KeyFrame = serde_json::from_str(text).expect("a good key");
+        assert!(matches!(key.shown_by(Some("red")), Shows::Points(_)));
+        for other in [Some("blue"), Some("green"), None] {
+            assert_eq!(*key.shown_by(other), Shows::PhysicalCaustic);
+        }
+        assert_eq!(key.caustics["blue"].gain(), [0.5; 3]);
+    }
+}
