@@ -9,8 +9,8 @@ use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
 use glam::Vec3;
 use half::f16;
 use lightloom_core::export::{
-    Frame, FrameFormat, FramePattern, Metadata, PngDepth, Repairs, evenly_chosen, write_contact_sheet,
-    write_frame,
+    Frame, FrameFormat, FramePattern, Metadata, Overlay, PngDepth, Repairs, evenly_chosen,
+    write_contact_sheet, write_frame,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::{Image, View, ViewSettings, ViewTransform};
@@ -271,11 +271,11 @@ fn the_contact_sheet_holds_every_picture() {
             (90 + 5 * i, image)
         })
         .collect();
-    write_contact_sheet(&path, &pictures, 3).unwrap();
+    write_contact_sheet(&path, &pictures, 3, Overlay::NONE).unwrap();
     let read = image::open(&path).unwrap().to_rgb8();
     for i in 0..5_u8 {
         let shown = read.pixels().filter(|p| p.0[2] == 255 && p.0[1] == 51 * i).count();
         assert_eq!(shown, 40 * 30, "picture {i}");
     }
-    write_contact_sheet(&path, &[], 3).unwrap();
+    write_contact_sheet(&path, &[], 3, Overlay::NONE).unwrap();
 }

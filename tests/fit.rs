@@ -5,7 +5,7 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::flow::assembly::{Assembly, Rows};
+use lightloom_core::flow::assembly::{Assembly, Rows, WallRows};
 use lightloom_core::flow::field::{Field, Grid};
 use lightloom_core::flow::fit::{Blend, FitReport, FitSettings, Fitter, energy};
 use lightloom_core::math::rng::{Purpose, Stream};
@@ -172,6 +172,59 @@ fn the_fit_agrees_with_a_sparse_cholesky_of_independent_rows() {
         let largest = |f: &Field| points(f.grid()).map(|p| f.velocity(p).length()).fold(0.0, f32::max);
         // In units of 1e-6 of the velocity: the solver stops at 1e-10, the condition number does the rest.
         assert!(largest(&apart) < largest(&field), "{cells:?} {gamma} {alpha}: {} e-6", largest(&apart));
+    }
+}
+
+/// The walls' own term from velocities alone, so that it shares nothing with its assembly.
+#[test]
+fn with_walls_the_energy_has_its_minimum_at_the_fit_too() {
+    for (gamma, blend) in
+        [(0.0, Blend::Joint), (0.4, Blend::Joint), (1.0, Blend::Joint), (0.0, Blend::Separate)]
+    {
+        let settings = FitSettings { blend, ..settings([12, 10], gamma, 1e-3) };
+        let (positions, velocities) = photons(500, settings.grid.extent);
+        let places: Vec<Vec2> = (0..40).map(|i| Vec2::new(0.2 + 0.015 * i as f32, 0.3)).collect();
+        let normals: Vec<Vec2> = (0..40).map(|i| Vec2::from_angle(0.15 * i as f32)).collect();
+        let weight = 0.05;
+        let mut fitter = Fitter::new(settings).unwrap();
+        fitter.set_walls(Some(WallRows { positions: &places, normals: &normals, weight }));
+        let (field, report) = fitter.fit(&positions, &velocities, &Progress::new()).unwrap();
+        assert!(report.residual <= 1e-10);
+        let at = |potentials: &[Vec<f32>; 2]| {
+            let field = Field::from_potentials(settings.grid, &potentials[0], &potentials[1]);
+            let through = |(p, n): (&Vec2, &Vec2)| {
+                let [x, y] = field.velocity_f64([f64::from(p.x), f64::from(p.y)]);
+                (x * f64::from(n.x) + y * f64::from(n.y)).powi(2)
+            };
+            let walls: f64 = places.iter().zip(&normals).map(through).sum();
+            energy(&field, &settings, &positions, &velocities) + 0.5 * weight * walls
+        };
+        let (psi, phi) = field.potentials();
+        let fitted = [psi, phi];
+        let base = at(&fitted);
+        let active: &[usize] = if gamma == 0.0 {
+            &[0]
+        } else if gamma == 1.0 {
+            &[1]
+        } else {
+            &[0, 1]
+        };
+        for (&potential, i) in
+            active.iter().flat_map(|p| (0..fitted[0].len()).step_by(7).map(move |i| (p, i)))
+        {
+            let moved = |by: f32| {
+                let mut both = fitted.clone();
+                both[potential][i] += by;
+                at(&both)
+            };
+            let (up, down) = (moved(0.125), moved(-0.125));
+            let (slope, curvature) = ((up - down) / 0.25, (up + down - 2.0 * base) / 0.015625);
+            // As without walls: the rounding of f32 coefficients near 1.
+            assert!(
+                slope.abs() < 1e-6 * curvature,
+                "gamma {gamma}, {i}: slope {slope}, curvature {curvature}"
+            );
+        }
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) enum Command {
     Render(RenderArgs),
     /// Fit the flow without rendering: photon tracks, flux and fields as NPY and NPZ.
     Fit(FitArgs),
+    /// Render a project by the vector field, by the method of 2016 and by straight lines, side by side on one sheet.
+    Compare(CompareArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
     /// Measure what gamma does to a project's flow, at preview size: a plot and a table.
@@ -52,7 +54,17 @@ pub(super) struct FitArgs {
 pub(super) struct ReportArgs {
     #[command(flatten)]
     pub(super) project: ProjectArgs,
-    /// Folder for gamma.svg and gamma.csv; made if it is not there.
+    /// Folder for gamma.svg, gamma.csv and gamma.json; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct CompareArgs {
+    /// Without --frames, six frames are compared.
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// Folder for compare.png, compare.json and a folder of frames for each method; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(super) out: PathBuf,
 }
@@ -71,7 +83,7 @@ pub(super) struct ProjectArgs {
     pub(super) path: PathBuf,
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
     #[arg(long, allow_hyphen_values = true)]
-    frames: Option<String>,
+    pub(super) frames: Option<String>,
     /// Picture size, such as 1280x720.
     #[arg(long, value_name = "WxH")]
     size: Option<String>,

@@ -3,8 +3,10 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use lightloom_core::pipeline::{Pipeline, Summary};
+use lightloom_core::flow::Movement;
+use lightloom_core::pipeline::{Comparison, Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::report::GammaResponse;
 use lightloom_core::{Error, Progress, Result};
 
 use super::args::ProjectArgs;
@@ -13,19 +15,53 @@ use super::progress::{Display, Lines};
 /// Told of each file that is complete.
 type Saved<'a> = &'a (dyn Fn(&Path) + Sync);
 
-/// Loads the project, shows how far `work` is, then writes and prints its summary.
-pub(super) fn run(
-    args: &ProjectArgs,
-    out: &Path,
-    work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<Summary>,
-) -> Result<Summary> {
-    let summary = self::work(args, out, work)?;
-    conclude(&summary, out, args.json)?;
-    Ok(summary)
+/// What a command leaves in words.
+pub(super) trait Outcome {
+    /// The file for it in the output folder.
+    const FILE: &'static str;
+    /// Folders below the output folder that get frames, too.
+    fn folders() -> Vec<&'static str> {
+        Vec::new()
+    }
+    fn to_json(&self) -> String;
+    fn to_text(&self) -> String;
 }
 
-/// Loads the project and shows how far `work` is.
-pub(super) fn work<T>(
+impl Outcome for Summary {
+    const FILE: &'static str = "summary.json";
+    fn to_json(&self) -> String {
+        self.to_json()
+    }
+    fn to_text(&self) -> String {
+        self.to_text()
+    }
+}
+
+impl Outcome for Comparison {
+    const FILE: &'static str = "compare.json";
+    fn folders() -> Vec<&'static str> {
+        Movement::ALL.map(Movement::name).to_vec()
+    }
+    fn to_json(&self) -> String {
+        self.to_json()
+    }
+    fn to_text(&self) -> String {
+        self.to_text()
+    }
+}
+
+impl Outcome for GammaResponse {
+    const FILE: &'static str = "gamma.json";
+    fn to_json(&self) -> String {
+        self.to_json()
+    }
+    fn to_text(&self) -> String {
+        self.to_text()
+    }
+}
+
+/// Loads the project, shows how far `work` is, then writes and prints its summary.
+pub(super) fn run<T: Outcome>(
     args: &ProjectArgs,
     out: &Path,
     work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<T>,
@@ -34,12 +70,18 @@ pub(super) fn work<T>(
     let project = args.load()?;
     let assets = AssetFolder::new(&args.path, args.allow_external)?;
     prepare_folder(out, &args.path, &project)?;
+    for folder in T::folders() {
+        prepare_folder(&out.join(folder), &args.path, &project)?;
+    }
     let progress = Progress::new();
     stop_on_interrupt(&progress);
 
     let display = Display::start(&progress, Lines::beside(args.json));
     let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
-    work(&mut Pipeline::new(assets), &project, &progress, &saved)
+    let summary = work(&mut Pipeline::new(assets), &project, &progress, &saved)?;
+    drop(display);
+    conclude(&summary, out, args.json)?;
+    Ok(summary)
 }
 
 /// Ctrl-C asks the work to stop; a second one leaves at once.
@@ -82,13 +124,23 @@ fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<
 }
 
 /// What stands in an output folder beside the frames.
-const OUTPUTS: [&str; 7] =
-    ["summary.json", "contact_sheet.png", "tracks.npy", "flux.npy", "fields.npz", "gamma.svg", "gamma.csv"];
+const OUTPUTS: [&str; 10] = [
+    "summary.json",
+    "contact_sheet.png",
+    "tracks.npy",
+    "flux.npy",
+    "fields.npz",
+    "compare.png",
+    "compare.json",
+    "gamma.svg",
+    "gamma.csv",
+    "gamma.json",
+];
 
-/// Writes summary.json, and prints it as JSON or as a few lines.
-fn conclude(summary: &Summary, dir: &Path, json: bool) -> Result<()> {
+/// Writes the summary as JSON, and prints it so or as a few lines.
+fn conclude<T: Outcome>(summary: &T, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
-    let path = dir.join("summary.json");
+    let path = dir.join(T::FILE);
     lightloom_core::files::write_atomic(&path, |file| file.write_all(text.as_bytes()))?;
     let shown = if json { text } else { summary.to_text() };
     Lines::Out.say(shown.trim_end());

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod fit;
 mod job;
 mod progress;
@@ -32,6 +33,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Render(args) => render::run(args),
         Command::Fit(args) => fit::run(args),
+        Command::Compare(args) => compare::run(args),
         Command::Check(args) => check::run(args),
         Command::Report(args) => report::run(args),
         Command::Schema => schema(),

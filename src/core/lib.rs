@@ -18,6 +18,7 @@
 //! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
 //! | synthetic turbulence | `flow/turbulence` |
 //! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
+//! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path.rs`, `pipeline/compare.rs` |
 //!
 //! # What is absent
 //!

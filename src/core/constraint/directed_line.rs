@@ -1,7 +1,7 @@
 //! A directed line: flow here, this way. Term (6).
 //!
 //! The line asks the field for its own direction, along itself and, ever less, up to `width` beside it; how strongly is
-//! beta times its weight. Its speed is that of the photons around it, times a factor, so that it steers and does not
+//! beta times its weight; beyond three widths it changes nothing. Its speed is that of the photons around it, times a factor, so that it steers and does not
 //! hurry. Artists know the idea from Houdini's POP Curve Incompressible Flow, which is gamma 0.
 
 use glam::Vec2;
@@ -58,6 +58,8 @@ fn default_width() -> f32 {
 pub struct ActiveLine {
     /// Places along and beside the line, d_p of Term (6), plane units. One that pulls less stands for fewer places.
     pub positions: Vec<Vec2>,
+    /// The line itself, at least two points.
+    pub points: Vec<Vec2>,
     /// Directions, of length 1.
     pub directions: Vec<Vec2>,
     /// Factor on beta.
@@ -117,6 +119,7 @@ impl DirectedLine {
             }
         }
         (!positions.is_empty()).then_some(ActiveLine {
+            points: stroke::simplify(&points, 0.02 * self.width),
             positions,
             directions,
             weight: self.weight,
@@ -141,6 +144,7 @@ fn quantile(p: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -77,6 +77,11 @@ impl Window {
         ramp(self.rise, t) * (1.0 - ramp_after(self.fall, t))
     }
 
+    /// Share of the segment in which it acts at all, 0..=1.
+    pub fn duration(&self) -> f64 {
+        (self.fall[1].min(1.0) - self.rise[0].max(0.0)).max(0.0)
+    }
+
     /// Whether it acts at any time from `start` to `end`.
     pub fn touches(&self, start: f64, end: f64) -> bool {
         self.rise[0] <= end && self.fall[1] >= start
@@ -111,6 +116,7 @@ fn smooth(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn linear(share: f64) -> f64 {

@@ -103,12 +103,14 @@ pub fn nearest_on_segment(p: Vec2, a: Vec2, b: Vec2) -> Vec2 {
     a + way * ((p - a).dot(way) / squared).clamp(0.0, 1.0)
 }
 
-pub(super) fn distance_to_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
+/// Distance of `p` from the segment from `a` to `b`.
+pub fn distance_to_segment(p: Vec2, a: Vec2, b: Vec2) -> f32 {
     p.distance(nearest_on_segment(p, a, b))
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -65,7 +65,7 @@ impl Wall {
     /// The wall as the flow sees it; none where it does not stand, or is but a dot.
     pub fn active(&self, window: Window) -> Option<ActiveWall> {
         let points = stroke::clean(&self.points);
-        (self.enabled && !points.is_empty()).then(|| ActiveWall {
+        (self.enabled && !points.is_empty()).then_some(ActiveWall {
             points,
             clearance: 0.5 * self.thickness,
             window,

@@ -1,16 +1,22 @@
 //! Picture files. A new format is a file here, a variant of [`FrameFormat`] and its arms.
 
+pub mod comparison;
 pub mod exr;
+pub mod overlay;
 pub mod pattern;
 pub mod png;
 pub mod sheet;
+
+mod text;
 
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use comparison::{Comparison, Row, write_comparison};
 pub use exr::Metadata;
+pub use overlay::{Drawn, MAGENTA, ORANGE, Overlay};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};

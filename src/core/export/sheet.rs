@@ -4,18 +4,22 @@ use std::path::Path;
 
 use glam::Vec3;
 
+use super::overlay::Overlay;
 use super::png::{self, PngDepth};
+use super::text;
 use crate::Result;
 use crate::render::image::Image;
 
 /// Surround and gap, a dark neutral grey in screen values.
-const SURROUND: Vec3 = Vec3::splat(0.11);
-const INK: Vec3 = Vec3::splat(0.62);
-const GAP: usize = 12;
+pub(super) const SURROUND: Vec3 = Vec3::splat(0.11);
+/// Captions, screen values.
+pub(super) const INK: Vec3 = Vec3::splat(0.72);
+/// Between pictures and around them, pixels.
+pub(super) const GAP: usize = 12;
 /// Height of the line with the frame number.
-const CAPTION: usize = 24;
-/// Side of one dot of a digit.
-const DOT: usize = 2;
+const CAPTION: usize = 26;
+/// Height of its letters' line.
+const LETTERS: f32 = 20.0;
 
 /// At most `count` of `frames`, evenly chosen, the first and the last among them.
 pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
@@ -25,16 +29,22 @@ pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
     (0..count).map(|i| frames[(i * (frames.len() - 1) + steps / 2) / steps]).collect()
 }
 
-/// Writes a PNG with the given pictures (screen values, all of one size) row by row, each with its number below.
+/// Writes a PNG with the given pictures (screen values, all of one size) row by row, each with its number below and the
+/// overlay above.
 ///
 /// # Panics
 /// If the pictures differ in size.
-pub fn write_contact_sheet(path: &Path, pictures: &[(i32, Image)], columns: usize) -> Result<()> {
-    png::write(path, &arrange(pictures, columns), PngDepth::Eight)
+pub fn write_contact_sheet(
+    path: &Path,
+    pictures: &[(i32, Image)],
+    columns: usize,
+    overlay: Overlay,
+) -> Result<()> {
+    png::write(path, &arrange(pictures, columns, overlay), PngDepth::Eight)
 }
 
 /// The page itself, in screen values.
-fn arrange(pictures: &[(i32, Image)], columns: usize) -> Image {
+fn arrange(pictures: &[(i32, Image)], columns: usize, overlay: Overlay) -> Image {
     let columns = columns.clamp(1, pictures.len().max(1));
     let rows = pictures.len().div_ceil(columns);
     let (width, height) = pictures.first().map_or((1, 1), |(_, p)| (p.width, p.height));
@@ -44,40 +54,19 @@ fn arrange(pictures: &[(i32, Image)], columns: usize) -> Image {
     for (i, (number, picture)) in pictures.iter().enumerate() {
         assert_eq!((picture.width, picture.height), (width, height), "pictures of one size");
         let (left, top) = (GAP + i % columns * cell.0, GAP + i / columns * cell.1);
-        for (y, row) in picture.pixels.chunks_exact(width).enumerate() {
-            let start = (top + y) * page.width + left;
-            page.pixels[start..start + width].copy_from_slice(row);
-        }
-        draw_number(&mut page, *number, left, top + height + (CAPTION - 7 * DOT) / 2);
+        paste(&mut page, picture, left, top, overlay);
+        let place = [left as f32, (top + height) as f32 + 0.5 * (CAPTION as f32 - LETTERS)];
+        text::draw(&mut page, &number.to_string(), place, LETTERS, INK);
     }
     page
 }
 
-/// Draws a number with its upper left corner at a pixel; what would lie beside the page is left out.
-fn draw_number(page: &mut Image, number: i32, left: usize, top: usize) {
-    for (i, character) in number.to_string().bytes().enumerate() {
-        let rows = if character == b'-' { MINUS } else { DIGITS[usize::from(character - b'0')] };
-        for (y, x) in (0..7 * DOT).flat_map(|y| (0..5 * DOT).map(move |x| (y, x))) {
-            let (px, py) = (left + i * 6 * DOT + x, top + y);
-            if rows[y / DOT] >> (4 - x / DOT) & 1 == 1 && px < page.width && py < page.height {
-                page.pixels[py * page.width + px] = INK;
-            }
-        }
+/// Copies a picture with the overlay upon it onto the page, which must have room for it.
+pub(super) fn paste(page: &mut Image, picture: &Image, left: usize, top: usize, overlay: Overlay) {
+    let mut picture = picture.clone();
+    overlay.draw(&mut picture);
+    for (y, row) in picture.pixels.chunks_exact(picture.width.max(1)).enumerate() {
+        let start = (top + y) * page.width + left;
+        page.pixels[start..start + picture.width].copy_from_slice(row);
     }
 }
-
-const MINUS: [u8; 7] = [0, 0, 0, 0b11110, 0, 0, 0];
-
-/// Digits of 5 by 7 dots, a row per byte.
-const DIGITS: [[u8; 7]; 10] = [
-    [0b01110, 0b10001, 0b10011, 0b10101, 0b11001, 0b10001, 0b01110],
-    [0b00100, 0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110],
-    [0b01110, 0b10001, 0b00001, 0b00010, 0b00100, 0b01000, 0b11111],
-    [0b11111, 0b00010, 0b00100, 0b00010, 0b00001, 0b10001, 0b01110],
-    [0b00010, 0b00110, 0b01010, 0b10010, 0b11111, 0b00010, 0b00010],
-    [0b11111, 0b10000, 0b11110, 0b00001, 0b00001, 0b10001, 0b01110],
-    [0b00110, 0b01000, 0b10000, 0b11110, 0b10001, 0b10001, 0b01110],
-    [0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b01000, 0b01000],
-    [0b01110, 0b10001, 0b10001, 0b01110, 0b10001, 0b10001, 0b01110],
-    [0b01110, 0b10001, 0b10001, 0b01111, 0b00001, 0b00010, 0b01100],
-];

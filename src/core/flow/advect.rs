@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::fade::{Fade, ease};
 use super::guidance::position;
 use super::obstacles::Obstacles;
+use super::report::Moving;
 use super::stage::Stage;
 use super::trajectory::Astray;
 use super::walled::{Columns, Walled};
@@ -143,15 +144,6 @@ impl<'a> Swarm<'a> {
             .try_reduce(|| 0, |a, b| Ok(a + b))
     }
 
-    /// Positions at `t`, which lies in the current step.
-    pub(super) fn positions(&self, t: f64, out: &mut [Vec2]) {
-        let x = self.place_in_step(t);
-        let place = |i| self.walled.as_ref().and_then(|walled| walled.place(i, x));
-        self.each(out, |i, target, v0, [k0, k1, k2]| {
-            place(i).unwrap_or_else(|| position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32))
-        });
-    }
-
     /// Guidance v of Eq. (2) at `t`, which lies in the current step; where walls stand, at its end.
     pub(super) fn guidance(&self, t: f64, out: &mut [Vec2]) {
         if let Some(walled) = &self.walled {
@@ -159,19 +151,6 @@ impl<'a> Swarm<'a> {
         }
         let x = self.place_in_step(t);
         self.each(out, |_, _, v0, [k0, k1, k2]| v0 + x * (k0 + x * (k1 + x * k2)));
-    }
-
-    /// Velocities c' = v - (1-t) v' at `t`, which lies in the current step.
-    pub(super) fn velocities(&self, t: f64, out: &mut [Vec2]) {
-        let x = self.place_in_step(t);
-        let slope = if self.length > 0.0 { ((1.0 - t) / self.length) as f32 } else { 0.0 };
-        let per_length = if self.length > 0.0 { (1.0 / self.length) as f32 } else { 0.0 };
-        let line = |i| self.walled.as_ref().and_then(|walled| walled.line(i));
-        self.each(out, |i, _, v0, [k0, k1, k2]| {
-            let v = v0 + x * (k0 + x * (k1 + x * k2));
-            let curved = v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)));
-            line(i).map_or(curved, |way| way * per_length)
-        });
     }
 
     /// Share of the field, 1 - s, of each photon with guidance `v`, where `share` is that of the time.
@@ -194,6 +173,29 @@ impl<'a> Swarm<'a> {
             for i in 0..out.len() {
                 out[i] = value(chunk * CHUNK + i, targets[i], guidance[i], curve[i]);
             }
+        });
+    }
+}
+
+impl Moving for Swarm<'_> {
+    fn positions(&self, t: f64, out: &mut [Vec2]) {
+        let x = self.place_in_step(t);
+        let place = |i| self.walled.as_ref().and_then(|walled| walled.place(i, x));
+        self.each(out, |i, target, v0, [k0, k1, k2]| {
+            place(i).unwrap_or_else(|| position(target, v0 + x * (k0 + x * (k1 + x * k2)), t as f32))
+        });
+    }
+
+    /// c' = v - (1-t) v'.
+    fn velocities(&self, t: f64, out: &mut [Vec2]) {
+        let x = self.place_in_step(t);
+        let slope = if self.length > 0.0 { ((1.0 - t) / self.length) as f32 } else { 0.0 };
+        let per_length = if self.length > 0.0 { (1.0 / self.length) as f32 } else { 0.0 };
+        let line = |i| self.walled.as_ref().and_then(|walled| walled.line(i));
+        self.each(out, |i, _, v0, [k0, k1, k2]| {
+            let v = v0 + x * (k0 + x * (k1 + x * k2));
+            let curved = v - slope * (k0 + x * (2.0 * k1 + x * (3.0 * k2)));
+            line(i).map_or(curved, |way| way * per_length)
         });
     }
 }

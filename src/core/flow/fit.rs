@@ -10,6 +10,7 @@ use glam::Vec2;
 use super::assembly::{Assembly, Rows, WallRows};
 use super::bending::bending;
 use super::field::{Field, Grid};
+use super::local;
 use crate::math::cg::{ConjugateGradients, LinearSystem, Solved};
 use crate::math::multigrid::Multigrid;
 use crate::math::null_space::NullSpace;
@@ -64,6 +65,18 @@ pub struct Fitter {
     right: GridVector<f64>,
     systems: Vec<System>,
     walls: Walls,
+    /// Whether directed lines had a say in the last fit.
+    steered: bool,
+}
+
+/// What directed lines ask of a fit, Term (6).
+#[derive(Clone, Copy)]
+pub struct Steering<'a> {
+    /// Velocities that each line asks for.
+    pub rows: &'a [Rows<'a>],
+    /// How much the lines count at each node, 0 to 1, (N+3) rows of M+3 from y = 0 upwards: where it is 0, the field is as
+    /// without them.
+    pub mask: &'a [f64],
 }
 
 /// Points on walls.
@@ -80,6 +93,8 @@ struct System {
     null: NullSpace,
     null_vectors: Vec<GridVector<f64>>,
     solution: GridVector<f64>,
+    /// With directed lines, and both blended.
+    steered: Option<[GridVector<f64>; 2]>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -113,6 +128,7 @@ impl Fitter {
             right: zero,
             systems,
             walls: Walls::default(),
+            steered: false,
         })
     }
 
@@ -136,36 +152,59 @@ impl Fitter {
         velocities: &[Vec2],
         progress: &Progress,
     ) -> Result<(Field, FitReport)> {
-        self.fit_with(positions, velocities, &[], progress)
+        self.fit_with(positions, velocities, None, progress)
     }
 
-    /// As [`Self::fit`], with what directed lines ask for besides, Term (6).
+    /// As [`Self::fit`], with what directed lines ask for besides.
     ///
     /// # Errors
     /// As [`Self::fit`].
+    ///
+    /// # Panics
+    /// When the mask has not one value for each node.
     pub fn fit_with(
         &mut self,
         positions: &[Vec2],
         velocities: &[Vec2],
-        lines: &[Rows],
+        lines: Option<Steering>,
         progress: &Progress,
     ) -> Result<(Field, FitReport)> {
         check_columns(positions, velocities)?;
-        for line in lines {
-            check_columns(line.positions, line.velocities)?;
+        for rows in lines.iter().flat_map(|lines| lines.rows) {
+            check_columns(rows.positions, rows.velocities)?;
         }
         let photons = Rows { positions, velocities, weight: 1.0 / positions.len().max(1) as f64 };
         // Inside the thread pool the many small parallel loops need not wake it up each time.
         rayon::scope(|_| self.fit_rows(photons, lines, progress))
     }
 
-    fn fit_rows(&mut self, photons: Rows, lines: &[Rows], progress: &Progress) -> Result<(Field, FitReport)> {
+    fn fit_rows(
+        &mut self,
+        photons: Rows,
+        lines: Option<Steering>,
+        progress: &Progress,
+    ) -> Result<(Field, FitReport)> {
         self.assembly.clear();
-        for &rows in std::iter::once(&photons).chain(lines) {
-            progress.check()?;
-            self.assembly.add(rows);
-        }
+        self.assembly.add(photons);
         self.add_walls();
+        self.steered = lines.is_some();
+        let mut report = self.solve(|system| &mut system.solution, progress)?;
+        if let Some(lines) = lines {
+            let [nx, ny] = self.settings.grid.nodes();
+            assert_eq!(lines.mask.len(), nx * ny, "one value for each node");
+            lines.rows.iter().for_each(|&rows| self.assembly.add(rows));
+            report = report.worst(self.solve(System::steered, progress)?);
+            self.systems.iter_mut().for_each(|system| system.blend(lines.mask));
+        }
+        Ok((self.field(), report))
+    }
+
+    /// Solves all systems for the sums of the assembly, from what `unknowns` shows and into it.
+    fn solve(
+        &mut self,
+        unknowns: impl Fn(&mut System) -> &mut GridVector<f64>,
+        progress: &Progress,
+    ) -> Result<FitReport> {
         let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0 };
         for (i, system) in self.systems.iter_mut().enumerate() {
             progress.check()?;
@@ -176,20 +215,24 @@ impl Fitter {
             }
             system.set_right(&self.settings, &self.assembly.right, &mut self.right);
             let limits = (self.settings.tolerance, self.settings.max_iterations);
+            let null = std::mem::take(&mut system.null_vectors);
             let linear = LinearSystem {
                 operator: &self.operator,
                 preconditioner: &mut self.multigrid,
-                null: &system.null_vectors,
+                null: &null,
                 right: &self.right,
             };
-            let solved = self.solver.solve(linear, &mut system.solution, limits, progress)?;
-            system.finish(solved)?;
-            report.iterations = report.iterations.max(solved.iterations);
-            report.residual = report.residual.max(solved.residual);
+            let solution = unknowns(system);
+            let solved = self.solver.solve(linear, solution, limits, progress);
+            let finished = solved.and_then(|solved| finish(solution, &null, solved));
+            system.null_vectors = null;
+            let solved = finished?;
             let [nx, ny] = self.settings.grid.nodes();
-            report.unknowns += system.solution.components * nx * ny;
+            let unknowns = report.unknowns + system.solution.components * nx * ny;
+            let this = FitReport { iterations: solved.iterations, residual: solved.residual, unknowns };
+            report = report.worst(this);
         }
-        Ok((self.field(), report))
+        Ok(report)
     }
 
     /// The half of the walls' term that has no direction.
@@ -203,7 +246,10 @@ impl Fitter {
 
     /// Forgets the last solution: the next fit starts from zero.
     pub fn reset(&mut self) {
-        self.systems.iter_mut().for_each(|system| system.solution.clear());
+        for system in &mut self.systems {
+            system.solution.clear();
+            system.steered = None;
+        }
     }
 
     /// The field of the solutions, in single precision.
@@ -231,11 +277,15 @@ impl Fitter {
             }
         };
         for system in &self.systems {
+            let shown = match &system.steered {
+                Some([_, blended]) if self.steered => blended,
+                _ => &system.solution,
+            };
             if system.unknown != Unknown::Phi {
-                copy(&mut psi, psi_weight, &system.solution, 0);
+                copy(&mut psi, psi_weight, shown, 0);
             }
             if system.unknown != Unknown::Psi {
-                copy(&mut phi, phi_weight, &system.solution, system.solution.components - 1);
+                copy(&mut phi, phi_weight, shown, shown.components - 1);
             }
         }
         (psi, phi)
@@ -258,7 +308,8 @@ impl System {
             (weights, NullSpace::new(1, Vec::new()))
         };
         let null_vectors = null.vectors(layout, grid.cell_size());
-        Self { unknown, weights, solution: GridVector::zero(layout, null.components()), null, null_vectors }
+        let solution = GridVector::zero(layout, null.components());
+        Self { unknown, weights, solution, steered: None, null, null_vectors }
     }
 
     /// The right side, from the sums over the points.
@@ -274,16 +325,40 @@ impl System {
         }
     }
 
-    /// Takes the null space out of the solution, and refuses one that is not finite.
-    fn finish(&mut self, solved: Solved) -> Result<()> {
-        self.solution.remove(&self.null_vectors);
-        if solved.residual.is_finite() && self.solution.dot(&self.solution).is_finite() {
-            return Ok(());
-        }
-        self.solution.clear();
-        let what = format!("no solution after {} iterations; choose a larger alpha", solved.iterations);
-        Err(Error::Numeric { stage: "fit", what })
+    /// The unknowns with directed lines; at first those without.
+    fn steered(&mut self) -> &mut GridVector<f64> {
+        let [solution, _] =
+            self.steered.get_or_insert_with(|| [self.solution.clone(), self.solution.clone()]);
+        solution
     }
+
+    fn blend(&mut self, mask: &[f64]) {
+        if let Some([steered, blended]) = &mut self.steered {
+            local::blend(&self.solution, steered, mask, &self.null_vectors, blended);
+        }
+    }
+}
+
+impl FitReport {
+    /// The worse of two solves; the unknowns of the larger.
+    fn worst(self, other: Self) -> Self {
+        Self {
+            iterations: self.iterations.max(other.iterations),
+            residual: self.residual.max(other.residual),
+            unknowns: self.unknowns.max(other.unknowns),
+        }
+    }
+}
+
+/// Takes the null space out of the solution, and refuses one that is not finite.
+fn finish(solution: &mut GridVector<f64>, null: &[GridVector<f64>], solved: Solved) -> Result<Solved> {
+    solution.remove(null);
+    if solved.residual.is_finite() && solution.dot(solution).is_finite() {
+        return Ok(solved);
+    }
+    solution.clear();
+    let what = format!("no solution after {} iterations; choose a larger alpha", solved.iterations);
+    Err(Error::Numeric { stage: "fit", what })
 }
 
 /// The energy E of a field, Terms (3) to (5): `alpha` and `gamma` of the settings, points and velocities as in a fit.

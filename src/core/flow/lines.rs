@@ -1,8 +1,11 @@
 //! What directed lines ask of the fit at each step, Term (6): their direction, at the speed of the photons around them.
 
 use glam::Vec2;
+use rayon::prelude::*;
 
 use super::assembly::Rows;
+use super::field::Grid;
+use super::local;
 use crate::constraint::ActiveLine;
 
 /// Cells along the longer side in which the photons' speeds are averaged.
@@ -17,6 +20,10 @@ pub(super) struct Lines<'a> {
     size: [usize; 2],
     /// For each line the velocities it asks for.
     wanted: Vec<Vec<Vec2>>,
+    /// For each line where it counts, see [`local::mask`].
+    masks: Vec<Vec<f64>>,
+    /// Where any of those counts that pull now.
+    mask: Vec<f64>,
 }
 
 /// Sum of the speeds of photons, and their number.
@@ -27,33 +34,45 @@ struct Speeds {
 }
 
 impl<'a> Lines<'a> {
-    /// Lines that pull by `beta`, on the rectangle `extent`.
-    pub(super) fn new(lines: &'a [ActiveLine], beta: f32, extent: Vec2) -> Self {
-        let size = (extent * CELLS).ceil().max(Vec2::ONE);
+    /// Lines that pull by `beta` at a field on `grid`.
+    pub(super) fn new(lines: &'a [ActiveLine], beta: f32, grid: Grid) -> Self {
+        let size = (grid.extent * CELLS).ceil().max(Vec2::ONE);
+        let lines = if beta > 0.0 { lines } else { &[] };
         Self {
-            lines: if beta > 0.0 { lines } else { &[] },
+            lines,
             beta: beta.into(),
             places: lines.iter().map(|line| line.positions.len()).sum(),
             size: [size.x as usize, size.y as usize],
             wanted: Vec::new(),
+            masks: lines.par_iter().map(|line| local::mask(line, grid)).collect(),
+            mask: Vec::new(),
         }
     }
 
-    /// The rows of Term (6) at time `t`, from the photons' guidance there. None where no line pulls.
-    pub(super) fn rows(&mut self, t: f64, positions: &[Vec2], guidance: &[Vec2]) -> Vec<Rows<'_>> {
-        let pulls = |line: &ActiveLine| line.window.at(t);
-        if !self.lines.iter().any(|line| pulls(line) > 0.0) {
-            return Vec::new();
-        }
+    /// Whether any line pulls at time `t`.
+    pub(super) fn pull(&self, t: f64) -> bool {
+        self.lines.iter().any(|line| line.window.at(t) > 0.0)
+    }
+
+    /// The rows of Term (6) at time `t`, from the photons' guidance there, and where they count.
+    pub(super) fn rows(&mut self, t: f64, positions: &[Vec2], guidance: &[Vec2]) -> (Vec<Rows<'_>>, &[f64]) {
         let (cells, all) = self.speeds(positions, guidance);
         self.wanted = self.lines.iter().map(|line| self.velocities(line, &cells, all)).collect();
+        self.mask.clear();
+        let pulls = |line: &ActiveLine| line.window.at(t);
+        for (mask, _) in self.masks.iter().zip(self.lines).filter(|(_, line)| pulls(line) > 0.0) {
+            if self.mask.is_empty() {
+                self.mask.clone_from(mask);
+            }
+            self.mask.iter_mut().zip(mask).for_each(|(sum, value)| *sum = sum.max(*value));
+        }
         let per_place = self.beta / self.places as f64;
         let rows = self.lines.iter().zip(&self.wanted).map(|(line, velocities)| Rows {
             positions: &line.positions,
             velocities,
             weight: per_place * f64::from(line.weight) * pulls(line),
         });
-        rows.filter(|rows| rows.weight > 0.0).collect()
+        (rows.filter(|rows| rows.weight > 0.0).collect(), &self.mask)
     }
 
     /// The photons' speeds, cell by cell, and all together.

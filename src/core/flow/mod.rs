@@ -2,7 +2,8 @@
 //!
 //! At each time step the field is fitted to the directions in which the photons should go (`guidance`, `fit`), then
 //! carries them on (`advect`); a `fade` lets them leave it so that each arrives exactly. The fields are kept
-//! (`trajectory`), and carry the photons of all later passes.
+//! (`trajectory`), and carry the photons of all later passes. Methods to compare with need no field: [`Movement`] names
+//! them, `path` holds their ways, and [`Mover`] is either.
 //!
 //! # The fade, measured
 //!
@@ -35,11 +36,15 @@ pub mod fit;
 pub mod flux;
 pub mod guidance;
 pub mod metric;
+pub mod movement;
+pub mod path;
 pub mod settings;
 pub mod turbulence;
 
 mod advect;
 mod lines;
+mod local;
+mod mover;
 mod obstacles;
 mod report;
 mod stage;
@@ -52,7 +57,10 @@ use std::sync::Arc;
 use glam::Vec2;
 
 pub use fade::Fade;
+pub use movement::Movement;
+pub use mover::{Carriage, Mover};
 pub use obstacles::Obstacles;
+pub use path::{Paths, watch_paths};
 pub use report::FlowReport;
 pub use settings::{FitKind, FlowSettings, GridSize};
 pub use trajectory::{Astray, Carrier, Fields, spatial_order};
@@ -60,9 +68,9 @@ pub use turbulence::{Turbulence, TurbulenceSettings};
 
 use self::advect::Swarm;
 use self::field::Grid;
-use self::fit::{Blend, FitSettings, Fitter};
+use self::fit::{Blend, FitSettings, Fitter, Steering};
 use self::lines::Lines;
-use self::report::Observer;
+use self::report::{Moving as _, Observer};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::{Error, Progress, Result};
 
@@ -127,7 +135,7 @@ pub fn fit_segment(
     let fit_settings = fit_settings(settings, extent);
     let grid = fit_settings.grid;
     let mut fitter = Fitter::new(fit_settings)?;
-    let mut lines = Lines::new(lines, settings.beta, extent);
+    let mut lines = Lines::new(lines, settings.beta, grid);
     let mut swarm = Swarm::new(&source, &target, (settings.fade, fields.pace()), obstacles.as_deref());
     swarm.set_out(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
@@ -144,14 +152,20 @@ pub fn fit_segment(
             if let Some(obstacles) = obstacles.as_ref().filter(|obstacles| obstacles.changes(n)) {
                 obstacles.wall_in(n, &mut fitter, grid);
             }
-            let rows = lines.rows(t, &positions, &directions);
-            let (field, fit) = fitter.fit_with(&positions, &directions, &rows, progress)?;
+            let (field, fit) = if lines.pull(t) {
+                let (rows, mask) = lines.rows(t, &positions, &directions);
+                let steering = Steering { rows: &rows, mask };
+                fitter.fit_with(&positions, &directions, Some(steering), progress)?
+            } else {
+                fitter.fit(&positions, &directions, progress)?
+            };
             observer.fitted((&field, &fields.noise(t)), &fit, &positions, &directions);
             fields.push(field);
         }
         let step = fields.step(n);
         swarm.advance(&step, progress)?;
-        observer.stepped(&swarm, &step, &settings.fade);
+        observer.stepped(&swarm, step.start, step.length);
+        observer.steered(&swarm, step.start, &settings.fade);
         let end = fields.time(n + 1);
         swarm.positions(end, &mut positions);
         swarm.guidance(end, &mut directions);

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use serde::Serialize;
 
-use super::advect::{Step, Swarm};
+use super::advect::Swarm;
 use super::fade::Fade;
 use super::field::Field;
 use super::fit::FitReport;
@@ -88,6 +88,14 @@ impl FlowReport {
     }
 }
 
+/// Photons on their way, as the observer sees them.
+pub(super) trait Moving {
+    /// Positions at `t`, which lies in the current step.
+    fn positions(&self, t: f64, out: &mut [Vec2]);
+    /// Velocities at `t`, which lies in the current step.
+    fn velocities(&self, t: f64, out: &mut [Vec2]);
+}
+
 /// Gathers the report while the photons move.
 pub(super) struct Observer<'a> {
     source: &'a [Vec2],
@@ -158,18 +166,17 @@ impl<'a> Observer<'a> {
     }
 
     /// The photons were carried through a step.
-    pub(super) fn stepped(&mut self, swarm: &Swarm, step: &Step, fade: &Fade) {
-        let end = step.start + step.length;
+    pub(super) fn stepped(&mut self, photons: &impl Moving, start: f64, length: f64) {
+        let end = start + length;
         for (index, &t) in CROSSING_TIMES.iter().enumerate() {
-            if (step.start..end).contains(&t) {
-                self.report.crossing_index[index] = self.variance(swarm, t).crossing_index();
+            if (start..end).contains(&t) {
+                self.report.crossing_index[index] = self.variance(photons, t).crossing_index();
             }
         }
-        self.speeds(swarm, step.start + 0.5 * step.length);
-        self.at(swarm, step.start);
-        self.share(swarm, step.start, fade);
+        self.speeds(photons, start + 0.5 * length);
+        self.at(photons, start);
         if end >= 1.0 {
-            self.at(swarm, 1.0);
+            self.at(photons, 1.0);
         }
     }
 
@@ -198,9 +205,9 @@ impl<'a> Observer<'a> {
     }
 
     /// Speeds, dispersion and distance from the straight ways at `t`.
-    fn at(&mut self, swarm: &Swarm, t: f64) {
-        self.speeds(swarm, t);
-        let dispersion = self.variance(swarm, t).dispersion();
+    fn at(&mut self, photons: &impl Moving, t: f64) {
+        self.speeds(photons, t);
+        let dispersion = self.variance(photons, t).dispersion();
         self.dispersion_sum += dispersion;
         self.dispersions += 1;
         self.report.dispersion_max = self.report.dispersion_max.max(dispersion);
@@ -210,21 +217,21 @@ impl<'a> Observer<'a> {
         self.report.wander = self.report.wander.max(wander);
     }
 
-    fn speeds(&mut self, swarm: &Swarm, t: f64) {
-        swarm.velocities(t, &mut self.velocities);
+    fn speeds(&mut self, photons: &impl Moving, t: f64) {
+        photons.velocities(t, &mut self.velocities);
         for (fastest, v) in self.fastest.iter_mut().zip(&self.velocities) {
             *fastest = fastest.max(v.length());
         }
     }
 
-    fn variance(&mut self, swarm: &Swarm, t: f64) -> NeighbourVariance {
-        swarm.positions(t, &mut self.positions);
-        swarm.velocities(t, &mut self.velocities);
+    fn variance(&mut self, photons: &impl Moving, t: f64) -> NeighbourVariance {
+        photons.positions(t, &mut self.positions);
+        photons.velocities(t, &mut self.velocities);
         NeighbourVariance::new(&self.positions, &self.velocities, self.extent)
     }
 
-    /// Which part of the motion at `t` is the field's: c' - s v = (1-s) u.
-    fn share(&mut self, swarm: &Swarm, t: f64, fade: &Fade) {
+    /// Which part of the motion at `t`, in the current step, is the field's: c' - s v = (1-s) u.
+    pub(super) fn steered(&mut self, swarm: &Swarm, t: f64, fade: &Fade) {
         swarm.velocities(t, &mut self.velocities);
         swarm.guidance(t, &mut self.guidance);
         let shares = swarm.shares(fade.share(t) as f32, &self.guidance);

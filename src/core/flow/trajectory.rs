@@ -8,6 +8,7 @@ use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
 use super::obstacles::Obstacles;
+use super::report::Moving as _;
 use super::stage::Stage;
 use super::turbulence::Turbulence;
 use crate::{Progress, Result};
@@ -130,6 +131,16 @@ pub struct Astray {
     pub unreachable: usize,
     /// That crossed a wall though a way leads around it; 0 unless the program is wrong.
     pub crossings: usize,
+}
+
+impl Astray {
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            unreachable: self.unreachable + other.unreachable,
+            crossings: self.crossings + other.crossings,
+        }
+    }
 }
 
 /// Photons of one pass on their way along the fields. Its memory is 36 bytes a photon, whatever the number of frames.

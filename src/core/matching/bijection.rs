@@ -142,7 +142,7 @@ fn halved(
         .collect()
 }
 
-fn require_equal_counts(source: usize, target: usize) -> Result<()> {
+pub(super) fn require_equal_counts(source: usize, target: usize) -> Result<()> {
     if source == target && u32::try_from(source).is_ok() {
         return Ok(());
     }

@@ -5,11 +5,14 @@
 //! 1. [`TransportMap`]: the optimal (Brenier) map between the two *densities*, once per segment, by the back-and-forth method.
 //! 2. [`Matching`]: an exact bijection between the *points* of one pass, near that map: equal halves, then local swaps.
 //!
+//! Beside it stands the method before this one, [`StylizedMap`], to compare with; [`ContinuousMap`] is either.
+//!
 //! Cost is squared distance throughout: its optimum never lets two straight paths collide, which is what ghosting is made of.
 
 mod around;
 mod back_and_forth;
 mod bijection;
+mod continuous_map;
 mod dual;
 mod halves;
 mod lattice;
@@ -17,11 +20,14 @@ mod legendre;
 mod poisson;
 mod push_forward;
 mod settings;
+mod stylized;
 mod swap;
 mod transport_map;
 
 pub use around::AroundMap;
 pub use bijection::{Matching, mean_square_distance};
+pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;
 pub use settings::Method;
+pub use stylized::StylizedMap;
 pub use transport_map::{TransportMap, transport_map};

@@ -4,6 +4,7 @@ pub mod bspline;
 pub mod cg;
 pub mod cholesky;
 pub mod colour;
+pub mod dense;
 pub mod distribution;
 pub mod hilbert;
 pub mod kronecker;

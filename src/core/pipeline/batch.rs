@@ -2,10 +2,12 @@
 
 use glam::Vec2;
 
+use super::mover;
 use super::supply::{KeyPhotons, PassLight, Supplies};
 use crate::flow::spatial_order;
-use crate::matching::{Matching, Method, TransportMap, transport_map};
+use crate::matching::{ContinuousMap, Method};
 use crate::photon::Tracer;
+use crate::project::Project;
 use crate::{Progress, Result};
 
 /// The photons of one pass: where they are now, and the light they share.
@@ -13,7 +15,7 @@ pub(super) struct Batch<'a> {
     supplies: &'a Supplies,
     light: PassLight,
     pass: u64,
-    method: Method,
+    project: &'a Project,
     extent: Vec2,
     key: usize,
     /// The photons of each group at the key they stand at.
@@ -25,7 +27,7 @@ impl<'a> Batch<'a> {
     pub(super) fn start(
         supplies: &'a Supplies,
         tracer: Option<&Tracer>,
-        method: Method,
+        project: &'a Project,
         extent: Vec2,
         (pass, count): (u64, usize),
         progress: &Progress,
@@ -33,14 +35,14 @@ impl<'a> Batch<'a> {
         let light = supplies.light(tracer, pass, count, progress)?;
         let first = |group| {
             let at = supplies.key(0, group, &light, pass);
-            match method {
+            match project.matching {
                 // Neighbours on the plane become neighbours in memory: a step reads each coefficient of the field once.
                 Method::Transport => at.permuted(&spatial_order(&at.positions)),
                 Method::Given => at,
             }
         };
         let at = (0..light.groups()).map(first).collect();
-        Ok(Self { supplies, light, pass, method, extent, key: 0, at })
+        Ok(Self { supplies, light, pass, project, extent, key: 0, at })
     }
 
     /// What the photons of the pass are made from.
@@ -73,8 +75,27 @@ impl<'a> Batch<'a> {
         self.supplies.key(self.key + 1, group, &self.light, self.pass)
     }
 
+    /// Where the light of a group goes that shows `points` at the next key; none where rows are paired as given, where the
+    /// group rests, and where there is no photon of it.
+    pub(super) fn map(
+        &self,
+        group: usize,
+        points: &[Vec2],
+        progress: &Progress,
+    ) -> Result<Option<ContinuousMap>> {
+        let from = &self.at[group].positions;
+        if self.rests(group) || from.is_empty() {
+            return Ok(None);
+        }
+        mover::continuous_map(self.project, self.key, (from, points), self.extent, progress)
+    }
+
     /// Where the photons of all groups shall go: row k of each is where photon k goes.
-    pub(super) fn next(&self, maps: &[Option<TransportMap>], progress: &Progress) -> Result<Vec<KeyPhotons>> {
+    pub(super) fn next(
+        &self,
+        maps: &[Option<ContinuousMap>],
+        progress: &Progress,
+    ) -> Result<Vec<KeyPhotons>> {
         let next = |group: usize| self.pair(group, self.next_points(group), maps[group].as_ref(), progress);
         (0..self.at.len()).map(next).collect()
     }
@@ -85,24 +106,26 @@ impl<'a> Batch<'a> {
         &self,
         group: usize,
         next: KeyPhotons,
-        map: Option<&TransportMap>,
+        map: Option<&ContinuousMap>,
         progress: &Progress,
     ) -> Result<KeyPhotons> {
         let at = &self.at[group];
         if self.rests(group) {
             return Ok(at.in_place(&next));
         }
-        if self.method == Method::Given || at.positions.is_empty() {
+        if at.positions.is_empty() {
             return Ok(next);
         }
-        let (from, to) = (&at.positions, &next.positions);
         let own = match map {
             Some(_) => None,
-            None => Some(transport_map(from, to, self.extent, progress)?),
+            None => self.map(group, &next.positions, progress)?,
         };
         let Some(map) = map.or(own.as_ref()) else { return Ok(next) };
-        let matching = Matching::new(from, to, map, self.supplies.seed(), self.pass, progress)?;
-        Ok(next.permuted(&matching.target_of))
+        let seed = self.supplies.seed();
+        let paired = map.pair(&at.positions, &next.positions, seed, self.pass, progress)?;
+        let mut next = next.permuted(&paired.matching.target_of);
+        next.bows = paired.bows;
+        Ok(next)
     }
 
     /// Moves on: the photons stand at the next key now.

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 
 use super::slots::Slots;
 use super::summary::BadValues;
-use crate::export::{Frame, FramePattern, Metadata, Repairs, sheet, write_frame};
+use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, sheet, write_frame};
+use crate::flow::Movement;
 use crate::project::Project;
-use crate::render::{Image, ProgressiveRender, View, Visible};
+use crate::render::{Image, PlaneView, ProgressiveRender, View, Visible};
 use crate::{Progress, Result};
 
 /// Pictures on the contact sheet.
@@ -19,6 +20,9 @@ const SHEET_COLUMNS: usize = 4;
 /// Width of one of its pictures in pixels.
 const SHEET_WIDTH: usize = 480;
 
+/// Small pictures in screen values with the numbers of their frames.
+pub(super) type Thumbnails = Vec<(i32, Image)>;
+
 /// What every frame of a run is made with.
 pub(super) struct Finisher<'a> {
     pub(super) project: &'a Project,
@@ -26,13 +30,17 @@ pub(super) struct Finisher<'a> {
     pub(super) visible: &'a Visible,
     pub(super) background: &'a Image,
     pub(super) out: &'a Path,
+    /// What the artist drew, for the sheet.
+    pub(super) drawn: &'a [Drawn],
+    pub(super) plane: PlaneView,
     /// Told of each file as it is complete.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
 impl Finisher<'_> {
-    /// Writes all frames and the contact sheet; returns what had to be replaced in them.
-    pub(super) fn run(&self, slots: &Slots, progress: &Progress) -> Result<BadValues> {
+    /// Writes all frames and the contact sheet; returns what had to be replaced in them, and the pictures on the sheet
+    /// with their numbers.
+    pub(super) fn run(&self, slots: &Slots, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
         progress.begin("write", slots.frames.len() as u64);
         let numbers: Vec<i32> = slots.frames.iter().map(|(frame, _)| *frame).collect();
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
@@ -55,9 +63,12 @@ impl Finisher<'_> {
         let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
         let path = self.out.join("contact_sheet.png");
-        sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS)?;
+        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
+        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
+        let overlay = Overlay { drawn: self.drawn, pixel_from_plane: &pixel_from_plane };
+        sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay)?;
         (self.saved)(&path);
-        Ok(BadValues::sum(&repairs))
+        Ok((BadValues::sum(&repairs), thumbnails))
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
@@ -78,19 +89,23 @@ impl Finisher<'_> {
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {
-        let Project { name, seed, flow, render, output, .. } = self.project;
+        let Project { name, seed, method, flow, render, output, .. } = self.project;
         // Plain numbers and strings: writing them as JSON has nothing to fail on.
         let json = |value: serde_json::Result<String>| value.unwrap_or_default();
+        let mut settings = vec![
+            ("project".into(), name.clone()),
+            ("flow".into(), json(serde_json::to_string(flow))),
+            ("render".into(), json(serde_json::to_string(render))),
+        ];
+        if *method != Movement::Flow {
+            settings.push(("method".into(), method.name().into()));
+        }
         Metadata {
             frame,
             frames_per_second: (output.fps[0] as i32, output.fps[1]),
             seed: *seed,
             passes: passes as u32,
-            settings: vec![
-                ("project".into(), name.clone()),
-                ("flow".into(), json(serde_json::to_string(flow))),
-                ("render".into(), json(serde_json::to_string(render))),
-            ],
+            settings,
         }
     }
 }

@@ -3,13 +3,15 @@
 //! Each stage remembers the input it was made from: a new gamma refits and traces nothing; a new camera renders anew
 //! and fits nothing. Preview and final are the same code at two [`Quality`] values.
 
+mod acting;
 mod batch;
 mod check;
-mod drawn;
+mod compare;
 mod finish;
 mod grouping;
 mod meter;
 mod motion;
+mod mover;
 mod passes;
 mod plan;
 mod quality;
@@ -26,6 +28,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 pub use check::{CastCaustic, CheckReport};
+pub use compare::{Compared, Comparison};
 pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;
@@ -38,12 +41,12 @@ use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Image, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
+    Image, PlaneView, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
 };
 use crate::scene::{Scene, SceneDesc};
 use crate::{Error, Progress, Result};
 use batch::Batch;
-use finish::Finisher;
+use finish::{Finisher, Thumbnails};
 use meter::Meter;
 use motion::{Motion, MotionInput};
 use passes::{Account, Exposer};
@@ -84,6 +87,14 @@ struct Prepared {
     notes: Vec<String>,
 }
 
+/// A finished render, with what a comparison asks of it.
+struct Rendered {
+    summary: Summary,
+    motion: Arc<Motion>,
+    thumbnails: Thumbnails,
+    plane: PlaneView,
+}
+
 impl Pipeline {
     /// A pipeline that has done nothing yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
@@ -114,6 +125,19 @@ impl Pipeline {
         let prepared = self.prepare(project, &mut meter)?;
         prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
+        self.frames(project, prepared, meter, out, progress, saved).map(|rendered| rendered.summary)
+    }
+
+    /// All stages of a render after the first look at the project.
+    fn frames(
+        &mut self,
+        project: &Project,
+        prepared: Prepared,
+        mut meter: Meter,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Rendered> {
         let (visible, background) = self.look(project, &prepared, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
@@ -123,11 +147,23 @@ impl Pipeline {
         let (passes, account) = meter.measure("render", || {
             render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress)
         })?;
-        let finisher =
-            Finisher { project, render: &render, visible: &visible, background: &background, out, saved };
-        let bad_values = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
+        let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
+        let (visible, background) = (&*visible, &*background);
+        let drawn = &acting::shown(project);
+        let finisher = Finisher {
+            project,
+            render: &render,
+            visible,
+            background,
+            out,
+            drawn,
+            plane: plane.clone(),
+            saved,
+        };
+        let (bad_values, thumbnails) = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
         let done = Done { command: "render", passes, motion: &motion, account, bad_values };
-        Ok(Summary::new(project, prepared, done, &meter))
+        let summary = Summary::new(project, prepared, done, &meter);
+        Ok(Rendered { summary, motion, thumbnails, plane })
     }
 
     /// Fits the flow and writes `tracks.npy`, `flux.npy` and `fields.npz` into the folder `out`.
@@ -211,7 +247,8 @@ impl Pipeline {
             notes.extend(supplies.notes());
             notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
             notes.extend(stretch_note(project.flow.grid, extent));
-            notes.extend(swirl_note(&project.flow).filter(|_| project.keys.len() > 1));
+            notes.extend(acting::notes(project, extent));
+            notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
             let slots = Slots::new(&project.keys, &frames);
             let plan = plan::plan(
                 project,
@@ -278,13 +315,13 @@ impl Prepared {
     /// The photons of one pass at the first key.
     fn start<'a>(
         &'a self,
-        project: &Project,
+        project: &'a Project,
         tracer: Option<&Tracer>,
         pass: u64,
         progress: &Progress,
     ) -> Result<Batch<'a>> {
         let photons = (pass, self.plan.photons);
-        Batch::start(&self.supplies, tracer, project.matching, self.extent, photons, &progress.inner())
+        Batch::start(&self.supplies, tracer, project, self.extent, photons, &progress.inner())
     }
 }
 

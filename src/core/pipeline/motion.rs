@@ -5,16 +5,17 @@ use std::borrow::Cow;
 
 use glam::Vec2;
 
+use super::acting::{Acting, all_acting};
 use super::batch::Batch;
-use super::drawn::{Drawn, all_drawn};
 use super::grouping::{CausticLight, Grouping};
 use super::meter::Meter;
+use super::mover;
 use super::summary::FlowNumbers;
 use super::supply::KeyPhotons;
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
-use crate::flow::{Course, Fields, FlowSettings, fit_segment};
-use crate::matching::{Method, TransportMap, dual_bound, mean_square_distance, transport_map};
+use crate::flow::{Course, Fields, FlowSettings, Movement, Mover};
+use crate::matching::{ContinuousMap, Method, mean_square_distance};
 use crate::project::{CausticDesc, CausticKey, KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
 use crate::{Error, Progress, Result};
@@ -23,15 +24,17 @@ use crate::{Error, Progress, Result};
 pub(super) struct Segment {
     /// Where the light of each group goes at the next key; absent where rows are paired as given, where the group rests,
     /// and where there was no photon of it.
-    pub(super) maps: Vec<Option<TransportMap>>,
+    pub(super) maps: Vec<Option<ContinuousMap>>,
     layers: Vec<Layer>,
+    /// What the pairing of pass 0 costs.
+    pub(super) cost: Cost,
 }
 
 /// Groups that flow together.
 struct Layer {
     groups: Vec<usize>,
-    /// Their vector field, step by step.
-    fields: Fields,
+    /// What moves their photons.
+    mover: Mover,
 }
 
 /// How the light of a project moves; no segments where there is one key.
@@ -44,16 +47,17 @@ pub(super) struct Motion {
 }
 
 impl Segment {
-    /// What carries a group; nothing where it rests, or where there was no photon of it.
-    pub(super) fn fields_of(&self, group: usize) -> Option<&Fields> {
-        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.fields)
+    /// What moves a group; nothing where it rests, or where there was no photon of it.
+    pub(super) fn mover_of(&self, group: usize) -> Option<&Mover> {
+        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.mover)
     }
 
-    /// The fields of the segment: those that the caustics share, with `None`, and own ones with the number of the caustic.
+    /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with
+    /// the number of the caustic.
     pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &Fields)> {
-        self.layers.iter().map(|layer| {
+        self.layers.iter().filter_map(|layer| {
             let own = layer.groups.iter().copied().find(|&group| grouping.own_flow(group));
-            (own, &layer.fields)
+            Some((own, layer.mover.fields()?))
         })
     }
 }
@@ -66,8 +70,9 @@ pub(super) struct MotionInput {
     caustics: Vec<CausticDesc>,
     keys: Vec<KeyFrame>,
     matching: Method,
+    method: Movement,
     flow: FlowSettings,
-    drawn: Vec<Drawn>,
+    acting: Vec<Acting>,
     seed: u64,
     photons: usize,
 }
@@ -93,8 +98,9 @@ impl MotionInput {
             caustics: project.caustics.clone(),
             keys: project.keys.iter().map(plain).collect(),
             matching: project.matching,
+            method: project.method,
             flow: project.flow.clone(),
-            drawn: all_drawn(project, extent),
+            acting: all_acting(project, extent),
             seed: project.seed,
             photons,
         }
@@ -111,25 +117,26 @@ pub(super) fn fit(
 ) -> Result<Motion> {
     let caustics = batch.supplies().caustics(batch.light());
     let mut motion = Motion { segments: Vec::new(), numbers: None, caustics };
-    for (number, drawn) in all_drawn(project, extent).iter().enumerate() {
+    for (number, acting) in all_acting(project, extent).iter().enumerate() {
         progress.begin("match", 1);
-        let paired = meter.measure("match", || match_next(&batch, project.matching, extent, progress))?;
-        let mut segment = Segment { maps: paired.maps, layers: Vec::new() };
+        let Paired { maps, next, cost } = meter.measure("match", || match_next(&batch, progress))?;
+        let mut segment = Segment { maps, layers: Vec::new(), cost };
         for groups in layers(&batch) {
-            let (source, target) = (&*column(&batch.at, &groups), &*column(&paired.next, &groups));
-            let (settings, Drawn { lines, walls }) = (&project.flow, drawn);
+            let source = &*column(&batch.at, &groups, |at| &at.positions);
+            let target = &*column(&next, &groups, |next| &next.positions);
+            let bows = &*column(&next, &groups, |next| &next.bows);
+            let (settings, Acting { lines, walls }) = (&project.flow, acting);
             let course = Course { source, target, extent, settings, lines, walls, number };
-            let (fields, report) = meter.measure("fit", || fit_segment(&course, progress, None))?;
-            let numbers =
-                FlowNumbers { flow: report, transport_cost_ratio: paired.cost_ratio, flux_ratio: 1.0 };
+            let (mover, flow) = mover::mover(project.method, &course, bows, meter, progress)?;
+            let numbers = FlowNumbers::new(flow, &cost);
             motion.numbers = Some(match motion.numbers.take() {
                 Some(sum) => sum.worst(numbers),
                 None => numbers,
             });
-            segment.layers.push(Layer { groups, fields });
+            segment.layers.push(Layer { groups, mover });
         }
         motion.segments.push(segment);
-        batch.arrive(paired.next);
+        batch.arrive(next);
     }
     Ok(motion)
 }
@@ -157,11 +164,12 @@ pub(super) fn first_move(
     extent: Vec2,
     progress: &Progress,
 ) -> Result<FirstMove> {
-    for (number, Drawn { lines, walls }) in all_drawn(project, extent).into_iter().enumerate() {
+    for (number, Acting { lines, walls }) in all_acting(project, extent).into_iter().enumerate() {
         progress.begin("match", 1);
-        let next = match_next(&batch, project.matching, extent, progress)?.next;
+        let next = match_next(&batch, progress)?.next;
         for groups in layers(&batch) {
-            let [source, target] = [&batch.at, &next].map(|photons| column(photons, &groups));
+            let [source, target] =
+                [&batch.at, &next].map(|photons| column(photons, &groups, |at| &at.positions));
             if mean_straight(&source, &target) > 0.0 {
                 let (source, target) = (source.into_owned(), target.into_owned());
                 return Ok(FirstMove { source, target, extent, lines, walls, number });
@@ -183,45 +191,73 @@ fn layers(batch: &Batch) -> Vec<Vec<usize>> {
     shared.into_iter().chain(own.into_iter().map(|group| vec![group])).collect()
 }
 
-/// The positions of several groups after each other; borrowed where it is but one.
-fn column<'a>(photons: &'a [KeyPhotons], groups: &[usize]) -> Cow<'a, [Vec2]> {
+/// One column of several groups, one after the other; borrowed where it is but one.
+fn column<'a>(
+    photons: &'a [KeyPhotons],
+    groups: &[usize],
+    pick: impl Fn(&'a KeyPhotons) -> &'a [Vec2],
+) -> Cow<'a, [Vec2]> {
     match groups {
-        [group] => Cow::Borrowed(&photons[*group].positions),
-        _ => groups.iter().flat_map(|&group| &photons[group].positions).copied().collect(),
+        [group] => Cow::Borrowed(pick(&photons[*group])),
+        _ => groups.iter().flat_map(|&group| pick(&photons[group])).copied().collect(),
     }
 }
 
 /// The photons' targets at the next key, group by group.
 struct Paired {
-    maps: Vec<Option<TransportMap>>,
+    maps: Vec<Option<ContinuousMap>>,
     next: Vec<KeyPhotons>,
-    /// Cost over a lower bound of the optimum; absent where rows are paired as given and where nothing moves.
-    cost_ratio: Option<f64>,
+    cost: Cost,
 }
 
-fn match_next(batch: &Batch, method: Method, extent: Vec2, progress: &Progress) -> Result<Paired> {
-    let mut paired = Paired { maps: Vec::new(), next: Vec::new(), cost_ratio: None };
-    // Sums over the photons of all groups.
-    let (mut cost, mut bound) = (0.0, 0.0);
+/// What the pairing of all groups costs, in squared plane units.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cost {
+    /// Photons that were paired; those that rest are not.
+    photons: f64,
+    /// Sum of the squared distances of the pairs.
+    sum: f64,
+    /// A lower bound of that of any pairing; absent where the method has none to tell.
+    pub(super) bound: Option<f64>,
+}
+
+impl Cost {
+    /// Counts `photons` more, with their mean squared distance and a lower bound of it.
+    fn add(&mut self, photons: usize, mean: f64, bound: Option<f64>) {
+        let (before, more) = (Some(0.0).filter(|_| self.photons == 0.0).or(self.bound), photons as f64);
+        self.photons += more;
+        self.sum += more * mean;
+        self.bound = before.zip(bound).map(|(before, bound)| before + more * bound);
+    }
+
+    /// Mean squared distance of the pairs.
+    pub(super) fn mean(&self) -> f64 {
+        self.sum / self.photons.max(1.0)
+    }
+
+    /// Over the bound, or over that of another method on the same points.
+    pub(super) fn ratio(&self, bound: Option<f64>) -> Option<f64> {
+        // Nothing to move costs nothing, which is the optimum.
+        bound.map(|bound| if bound > 0.0 { self.sum / bound } else { 1.0 })
+    }
+}
+
+fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
+    let mut paired = Paired { maps: Vec::new(), next: Vec::new(), cost: Cost::default() };
     for (group, at) in batch.at.iter().enumerate() {
-        let points = batch.next_points(group);
-        let from = &at.positions;
-        let map = if method == Method::Given || batch.rests(group) || from.is_empty() {
-            None
-        } else {
-            Some(transport_map(from, &points.positions, extent, &progress.inner())?)
-        };
-        let least = match &map {
-            Some(map) => Some(dual_bound(map, from, &points.positions, progress)?),
+        let (from, points) = (&at.positions, batch.next_points(group));
+        let map = batch.map(group, &points.positions, &progress.inner())?;
+        let bound = match &map {
+            Some(map) => map.lower_bound(from, &points.positions, progress)?,
             None => None,
         };
         let next = batch.pair(group, points, map.as_ref(), &progress.inner())?;
-        if let Some(least) = least {
-            let photons = from.len() as f64;
-            cost += photons * mean_square_distance(from, next.positions.iter().copied());
-            bound += photons * least;
-            // Nothing to move costs nothing, which is the optimum.
-            paired.cost_ratio = Some(if bound > 0.0 { cost / bound } else { 1.0 });
+        if !batch.rests(group) && !from.is_empty() {
+            let mean = match &map {
+                Some(map) => map.cost(from, &next.positions),
+                None => mean_square_distance(from, next.positions.iter().copied()),
+            };
+            paired.cost.add(from.len(), mean, bound);
         }
         paired.maps.push(map);
         paired.next.push(next);

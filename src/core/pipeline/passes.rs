@@ -9,7 +9,7 @@ use super::batch::Batch;
 use super::motion::Segment;
 use super::ride::Ride;
 use super::slots::Slots;
-use crate::flow::flux;
+use crate::flow::{Astray, flux};
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Progress, Result};
 
@@ -32,6 +32,10 @@ pub(super) struct Account {
     pub(super) flux_ratio: Option<f64>,
     /// Flux in the texture over flux of the photons on it, the frame farthest from 1.
     pub(super) texture_ratio: Option<f64>,
+    /// Photons of all passes that crossed a wall though a way leads around it.
+    pub(super) crossings: usize,
+    /// Most photons of one pass and segment whose target no way reaches.
+    pub(super) unreachable: usize,
 }
 
 impl<'a> Exposer<'a> {
@@ -89,6 +93,7 @@ impl<'a> Exposer<'a> {
             progress.advance(1);
             progress.check()?;
         }
+        self.account.keep_astray(ride.astray());
         Ok(())
     }
 
@@ -106,6 +111,12 @@ impl<'a> Exposer<'a> {
 }
 
 impl Account {
+    /// Notes the photons of one segment that walls did not keep.
+    pub(super) fn keep_astray(&mut self, astray: Astray) {
+        self.crossings += astray.crossings;
+        self.unreachable = self.unreachable.max(astray.unreachable);
+    }
+
     /// Notes the flux of one frame's photons against what is asked for, both in watts.
     pub(super) fn keep_flux_ratio(&mut self, flux: f64, asked: f64) {
         farther(&mut self.flux_ratio, flux, asked);

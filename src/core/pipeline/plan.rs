@@ -3,7 +3,8 @@
 use glam::Vec2;
 use serde::Serialize;
 
-use crate::flow::TurbulenceSettings;
+use crate::constraint::Constraint;
+use crate::flow::{Movement, TurbulenceSettings};
 use crate::matching::Method;
 use crate::project::{Project, Shows};
 use crate::render::frames::FrameStore;
@@ -45,6 +46,8 @@ mod pace {
     pub(super) const MATCH: f64 = 0.25e6;
     /// Points sent through a known map and made a bijection, per second.
     pub(super) const REMATCH: f64 = 1.2e6;
+    /// Points paired per second by the method of 2016.
+    pub(super) const STYLIZED: f64 = 0.2e6;
     /// Unknowns solved per second in one step of the fit.
     pub(super) const FIT: f64 = 1.0e6;
     /// Photons carried over one step, per second.
@@ -87,47 +90,57 @@ pub(super) fn plan(
     plan
 }
 
+/// Whether a part is not needed, which part, and why not.
+type Unneeded = (bool, &'static str, &'static str);
+
 fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
-    let mut left = Vec::new();
-    let mut leave = |unneeded: bool, what, why| {
-        if unneeded {
-            left.push(LeftOut { what, why });
-        }
-    };
     let still = project.keys.len() < 2;
-    let given = project.matching == Method::Given;
-    leave(
-        project.scene.is_none(),
-        "background and camera",
-        "the project has no scene; the plane is seen straight on",
-    );
-    leave(project.scene.is_none(), "photon tracing", "the project has no scene");
-    leave(
-        project.scene.is_some() && !project.traces(),
-        "photon tracing",
-        "no key shows the physical caustic",
-    );
-    leave(still, "matching, fit and advection", "there is one key frame, so nothing moves");
-    leave(
-        project.caustics.is_empty(),
-        "grouping by caustics",
-        "no caustic is named, so all light moves as one",
-    );
-    leave(!still && given, "transport map", "the rows of the point files are paired as given");
-    leave(
-        (1..project.keys.len()).any(|key| layers(project, key) == 0),
-        "matching and fit of a segment",
-        "all light is the physical caustic before and after",
-    );
-    leave(!still && project.flow.gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns");
-    leave(!still && project.flow.gamma == 1.0, "stream function", "gamma is 1: half the unknowns");
-    leave(!still && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0");
-    leave(
-        fixed && project.render.passes > 1,
+    let (scene, traces) = (project.scene.is_some(), project.traces());
+    let mut parts: Vec<Unneeded> = vec![
+        (!scene, "background and camera", "the project has no scene; the plane is seen straight on"),
+        (!scene, "photon tracing", "the project has no scene"),
+        (scene && !traces, "photon tracing", "no key shows the physical caustic"),
+        (still, "matching, fit and advection", "there is one key frame, so nothing moves"),
+        (
+            project.caustics.is_empty(),
+            "grouping by caustics",
+            "no caustic is named, so all light moves as one",
+        ),
+    ];
+    if !still {
+        parts.extend(unneeded_in_motion(project));
+    }
+    let repeats = fixed && project.render.passes > 1;
+    parts.push((
+        repeats,
         "passes after the first",
         "every key is a file of points, and one pass shows them all",
-    );
-    left
+    ));
+    parts.into_iter().filter(|part| part.0).map(|(_, what, why)| LeftOut { what, why }).collect()
+}
+
+/// What lies between matching and arrival, where light moves.
+fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
+    let (flow, given) = (project.fits(), project.matching == Method::Given);
+    let [linear, stylized] = [Movement::Linear, Movement::Stylized].map(|method| project.method == method);
+    let rests = (1..project.keys.len()).any(|key| layers(project, key) == 0);
+    let gamma = project.flow.gamma;
+    let drawn = || project.constraints.iter().filter(|constraint| constraint.is_enabled());
+    let walls = drawn().any(|constraint| matches!(constraint, Constraint::Wall(_)));
+    let lines = drawn().any(|constraint| matches!(constraint, Constraint::DirectedLine(_)));
+    [
+        (given, "transport map", "the rows of the point files are paired as given"),
+        (stylized, "transport map", "the method is stylized: a thin-plate warp takes its place"),
+        (linear, "fit and advection", "the method is linear: photons go straight"),
+        (stylized, "fit and advection", "the method is stylized: each photon has a cubic way of its own"),
+        (!flow, "turbulence, directed lines and walls", "only the flow heeds them"),
+        (rests, "matching and fit of a segment", "all light is the physical caustic before and after"),
+        (flow && gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns"),
+        (flow && gamma == 1.0, "stream function", "gamma is 1: half the unknowns"),
+        (flow && !walls, "ways around walls", "no wall is drawn"),
+        (flow && !lines, "fit to directed lines", "none is drawn"),
+        (flow && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0"),
+    ]
 }
 
 /// About the texels of the receiver texture; its real size follows from the camera.
@@ -154,25 +167,48 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     if traced {
         stages.push(("trace", trace));
     }
-    for layers in layers {
-        stages.push(("match", if layers > 0 { photons / pace::MATCH } else { 0.0 }));
-        let fit = f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT);
-        stages.extend((0..layers).map(|_| ("fit", fit)));
-    }
+    stages.extend(motion_stages(project, extent, photons, &layers));
     // Each noise grid is asked for a velocity as the fitted field is.
     let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
     let per_pass = trace
-        + segments * photons / pace::REMATCH
-        + steps * photons * fields_asked / pace::ADVECT
+        + segments * photons / match_pace(project.method)[1]
+        + if project.fits() { steps * photons * fields_asked / pace::ADVECT } else { 0.0 }
         + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
 }
 
+/// Matching and fit of each segment, whose fields are counted by `layers`.
+fn motion_stages(
+    project: &Project,
+    extent: Vec2,
+    photons: f64,
+    layers: &[usize],
+) -> Vec<(&'static str, f64)> {
+    let fit = f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT);
+    let mut stages = Vec::new();
+    for &layers in layers {
+        let moving = if layers > 0 { photons } else { 0.0 };
+        stages.push(("match", moving / match_pace(project.method)[0]));
+        if project.fits() {
+            stages.extend((0..layers).map(|_| ("fit", fit)));
+        }
+    }
+    stages
+}
+
+/// Points paired per second by the first pass, and by each later one.
+fn match_pace(method: Movement) -> [f64; 2] {
+    match method {
+        Movement::Flow | Movement::Linear => [pace::MATCH, pace::REMATCH],
+        Movement::Stylized => [pace::STYLIZED; 2],
+    }
+}
+
 /// The turbulence, where it is not left out.
 fn swirls(project: &Project) -> Option<&TurbulenceSettings> {
-    project.flow.turbulence.as_ref().filter(|turbulence| turbulence.is_on())
+    project.flow.turbulence.as_ref().filter(|turbulence| project.fits() && turbulence.is_on())
 }
 
 /// Fields that carry light to key `key`: one that all share, and one for each caustic that flows by itself; what is
@@ -199,7 +235,11 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     // Two keys' positions and flux, the pairing, the carrier's copy.
     let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
     let layers: usize = (1..project.keys.len()).map(|key| layers(project, key)).sum();
-    let fields = 8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1);
+    let fields = if project.fits() {
+        8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1)
+    } else {
+        0.0
+    };
     let noises = match swirls(project) {
         Some(turbulence) => project.keys.len().saturating_sub(1) as f64 * turbulence.bytes(extent) as f64,
         None => 0.0,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::motion::Segment;
 use super::supply::KeyPhotons;
-use crate::flow::{Carrier, flux};
+use crate::flow::{Astray, Carriage, flux};
 use crate::{Progress, Result};
 
 /// All groups from one key to the next. Their rows follow each other in the columns that are filled.
@@ -20,7 +20,7 @@ struct Group<'a> {
     to: &'a KeyPhotons,
     rows: Range<usize>,
     /// Absent where the group rests, or where the fit saw no photon of it: then all go straight.
-    carrier: Option<Carrier<'a>>,
+    carriage: Option<Carriage<'a>>,
 }
 
 impl<'a> Ride<'a> {
@@ -30,9 +30,9 @@ impl<'a> Ride<'a> {
         let group = |(group, (from, to)): (usize, (&'a KeyPhotons, &'a KeyPhotons))| {
             let rows = end..end + from.positions.len();
             end = rows.end;
-            let fields = segment.fields_of(group).filter(|_| !rows.is_empty());
-            let carrier = fields.map(|fields| Carrier::new(fields, &from.positions, &to.positions));
-            Group { from, to, rows, carrier }
+            let mover = segment.mover_of(group).filter(|_| !rows.is_empty());
+            let carriage = mover.map(|mover| mover.carry(&from.positions, &to.positions, &to.bows));
+            Group { from, to, rows, carriage }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }
     }
@@ -50,14 +50,20 @@ impl<'a> Ride<'a> {
     /// # Panics
     /// When `out` has not one place for each photon.
     pub(super) fn positions_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
-        for Group { from, to, rows, carrier } in &mut self.groups {
+        for Group { from, to, rows, carriage } in &mut self.groups {
             let out = &mut out[rows.clone()];
-            match carrier {
-                Some(carrier) => carrier.positions_at(t, out, progress)?,
+            match carriage {
+                Some(carriage) => carriage.positions_at(t, out, progress)?,
                 None => straight(&from.positions, &to.positions, t as f32, out),
             }
         }
         Ok(())
+    }
+
+    /// Photons that walls did not keep, so far.
+    pub(super) fn astray(&self) -> Astray {
+        let carriages = self.groups.iter().filter_map(|group| group.carriage.as_ref());
+        carriages.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
     }
 
     /// RGB flux of all photons at time `t`, 0..=1, watts.

@@ -7,9 +7,10 @@ use serde::Serialize;
 use super::Prepared;
 use super::grouping::{CausticLight, notes_on_dark};
 use super::meter::{Meter, StageCost};
-use super::motion::Motion;
+use super::motion::{Cost, Motion};
 use super::passes::Account;
 use super::plan::LeftOut;
+use crate::constraint::Constraint;
 use crate::export::Repairs;
 use crate::flow::FlowReport;
 use crate::project::Project;
@@ -20,18 +21,28 @@ pub struct FlowNumbers {
     /// What was seen while the fields were fitted.
     #[serde(flatten)]
     pub flow: FlowReport,
-    /// Mean squared distance of the matching over a lower bound of the optimum; absent where rows are paired as given.
+    /// Mean squared distance of the matching, plane units squared.
+    pub transport_cost: f64,
+    /// The same over a lower bound of the optimum; absent where rows are paired as given, and where the method has no
+    /// transport map to tell one (a comparison takes that of the other methods).
     pub transport_cost_ratio: Option<f64>,
     /// Flux of all photons over that of the source, times the colour and brightness asked for; the frame farthest from 1.
     pub flux_ratio: f64,
 }
 
 impl FlowNumbers {
+    /// Of one segment.
+    pub(super) fn new(flow: FlowReport, cost: &Cost) -> Self {
+        let transport_cost_ratio = cost.ratio(cost.bound);
+        Self { flow, transport_cost: cost.mean(), transport_cost_ratio, flux_ratio: 1.0 }
+    }
+
     /// The worse of both in every number.
     pub(super) fn worst(self, other: Self) -> Self {
         let ratios = [self.transport_cost_ratio, other.transport_cost_ratio];
         Self {
             flow: self.flow.worst(&other.flow),
+            transport_cost: self.transport_cost.max(other.transport_cost),
             transport_cost_ratio: ratios.into_iter().flatten().reduce(f64::max),
             flux_ratio: if (other.flux_ratio - 1.0).abs() > (self.flux_ratio - 1.0).abs() {
                 other.flux_ratio
@@ -88,6 +99,9 @@ pub struct Summary {
     /// is named.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub caustics: Vec<CausticLight>,
+    /// Whether walls were drawn.
+    #[serde(skip)]
+    pub walled: bool,
     /// Where the light went.
     pub energy: Energy,
     /// Replaced values.
@@ -114,6 +128,16 @@ impl BadValues {
     }
 }
 
+/// Light that walls could not lead to its target.
+fn note_on_walls(flow: &FlowReport) -> Option<String> {
+    (flow.unreachable > 0).then(|| {
+        format!(
+            "walls shut {} photons off from their targets: these go straight through; leave a gap, or move the target",
+            flow.unreachable
+        )
+    })
+}
+
 /// What a run did, for its summary.
 pub(super) struct Done<'a> {
     pub(super) command: &'static str,
@@ -127,11 +151,16 @@ impl Summary {
     pub(super) fn new(project: &Project, prepared: Prepared, done: Done, meter: &Meter) -> Self {
         let account = done.account;
         let flow = done.motion.numbers.clone();
-        let flow =
-            flow.map(|numbers| FlowNumbers { flux_ratio: account.flux_ratio.unwrap_or(1.0), ..numbers });
+        let flow = flow.map(|mut numbers| {
+            numbers.flux_ratio = account.flux_ratio.unwrap_or(1.0);
+            numbers.flow.wall_crossings += account.crossings;
+            numbers.flow.unreachable = numbers.flow.unreachable.max(account.unreachable);
+            numbers
+        });
         let stages = meter.costs().to_vec();
         let mut notes = prepared.notes;
         notes.extend(notes_on_dark(&done.motion.caustics));
+        notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         Self {
             command: done.command,
             project: project.name.clone(),
@@ -143,6 +172,7 @@ impl Summary {
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             flow,
             caustics: done.motion.caustics.clone(),
+            walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
             energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
@@ -176,12 +206,23 @@ impl Summary {
         if let Some(FlowNumbers { flow, .. }) = &self.flow {
             let _ = writeln!(
                 text,
-                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}, {:.1} solver iterations",
+                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}{}",
                 flow.endpoint_error,
                 flow.peak_speed_ratio,
                 flow.straight_peak_ratio,
                 flow.dispersion,
-                flow.solver_iterations_mean
+                if flow.fits > 0 {
+                    format!(", {:.1} solver iterations", flow.solver_iterations_mean)
+                } else {
+                    String::new()
+                }
+            );
+        }
+        if let Some(FlowNumbers { flow, .. }) = self.flow.as_ref().filter(|_| self.walled) {
+            let _ = writeln!(
+                text,
+                "  walls: {} crossings, {} photons shut off",
+                flow.wall_crossings, flow.unreachable
             );
         }
         let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;

@@ -22,6 +22,8 @@ pub(super) struct KeyPhotons {
     pub(super) flux: Vec<Vec3>,
     /// Which traced photon each is, where they shall stay in place until the next key; else empty.
     origin: Vec<u32>,
+    /// How far the photons' ways to this key bow from the straight ones at half-time; empty where the method bows none.
+    pub(super) bows: Vec<Vec2>,
 }
 
 /// What a group shows at a key frame, resolved.
@@ -164,7 +166,7 @@ impl Supplies {
             physical: self.shows_physical(group).then_some(KeyPhotons {
                 positions: share.positions,
                 flux: share.flux,
-                origin: Vec::new(),
+                ..KeyPhotons::default()
             }),
         });
         Ok(PassLight { groups: groups.collect() })
@@ -209,7 +211,7 @@ impl Supplies {
             Supply::Points(points) => points.resampled(*count, seed, pass),
         };
         let flux = flux::share_out(*total * gain.as_dvec3(), &points.colours, *count);
-        KeyPhotons { positions: points.positions, flux, origin: Vec::new() }
+        KeyPhotons { positions: points.positions, flux, ..KeyPhotons::default() }
     }
 
     /// The flux that the photons of a pass should have at key `key`, watts; rho does not count.
@@ -247,7 +249,7 @@ impl PassLight {
 }
 
 impl KeyPhotons {
-    /// Row k of the result is row `order[k]` of this.
+    /// Row k of the result is row `order[k]` of this, not yet paired.
     pub(super) fn permuted(&self, order: &[u32]) -> Self {
         let origin = if self.origin.is_empty() {
             Vec::new()
@@ -258,6 +260,7 @@ impl KeyPhotons {
             positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
             flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
             origin,
+            bows: Vec::new(),
         }
     }
 

@@ -25,7 +25,8 @@ pub(super) fn with_guides_alone(project: &Project) -> Project {
     project
 }
 
-/// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and `fields.npz` into `out`.
+/// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and, where the method has fields,
+/// `fields.npz` into `out`.
 ///
 /// The steps of all segments follow each other; the end of one segment is the start of the next and stands once. The photons
 /// of each named caustic follow each other too, in the order of the project, and the rest comes last: `summary.json` has
@@ -51,9 +52,11 @@ pub(super) fn write(
     let account = table.write_flux(&flux)?;
     saved(&flux);
     progress.advance(1);
-    let fields = out.join("fields.npz");
-    write_fields(&fields, motion, grouping)?;
-    saved(&fields);
+    if motion.segments.iter().any(|segment| segment.fields(grouping).next().is_some()) {
+        let path = out.join("fields.npz");
+        write_fields(&path, motion, grouping)?;
+        saved(&path);
+    }
     progress.advance(1);
     Ok(account)
 }

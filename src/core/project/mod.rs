@@ -30,7 +30,7 @@ pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
 use crate::constraint::Constraint;
-use crate::flow::FlowSettings;
+use crate::flow::{FlowSettings, Movement};
 use crate::matching::Method;
 use crate::render::RenderSettings;
 use crate::scene::SceneDesc;
@@ -69,7 +69,11 @@ pub struct Project {
     /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
     #[serde(default)]
     pub matching: Method,
-    /// What the artist drew: directed lines and walls.
+    /// How the photons get from key to key: "flow" (default), or to compare with it "stylized" (the method of 2016) or
+    /// "linear" (straight lines).
+    #[serde(default)]
+    pub method: Movement,
+    /// What the artist drew: directed lines and walls. Only the flow heeds them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub constraints: Vec<Constraint>,
     /// The vector field and the way along it.
@@ -177,6 +181,11 @@ impl Project {
             let what = "\"given\" pairs the rows of point files, which know no caustics; use \"transport\"";
             return Err(Error::value("matching", what));
         }
+        if self.matching == Method::Given && self.method == Movement::Stylized {
+            let what =
+                "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
+            return Err(Error::value("method", what));
+        }
         Ok(())
     }
 
@@ -190,6 +199,11 @@ impl Project {
     /// Whether photons must be traced: a key shows the physical caustic, or caustics are told apart.
     pub fn traces(&self) -> bool {
         !self.caustics.is_empty() || self.shown().any(|shows| *shows == Shows::PhysicalCaustic)
+    }
+
+    /// Whether fields are fitted: light moves from key to key, and by the method that does it along a flow.
+    pub fn fits(&self) -> bool {
+        self.keys.len() > 1 && self.method == Movement::Flow
     }
 
     /// The files that the project names, as written.

@@ -8,6 +8,7 @@ pub mod background;
 pub mod density;
 pub mod frames;
 pub mod image;
+pub mod plane_view;
 pub mod progressive;
 pub mod settings;
 pub mod splat;
@@ -19,6 +20,7 @@ mod sampler;
 
 pub use background::background;
 pub use image::Image;
+pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};
 pub use settings::RenderSettings;
 pub use texture::{ReceiverTexture, TextureLayout};

@@ -85,7 +85,8 @@ impl Visible {
     pub fn flat(extent: Vec2, layout: &TextureLayout, settings: &RenderSettings) -> Self {
         const WHITE: f32 = 1.0 / std::f32::consts::PI;
         let (width, height) = (settings.width as usize, settings.height as usize);
-        let pixel = flat_pixel(extent, settings);
+        let size = vec2(width as f32, height as f32);
+        let pixel = flat_pixel(extent, size);
         let samples = settings.camera_samples;
         let rows = (0..height).into_par_iter().map(|y| {
             let mut row = Row::default();
@@ -93,7 +94,7 @@ impl Visible {
                 let sampler = Sampler::new((y * width + x) as u32);
                 for index in 0..samples {
                     let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(sampler.pair(index, 0));
-                    let from_centre = at - vec2(width as f32, height as f32) * 0.5;
+                    let from_centre = at - size * 0.5;
                     let plane = extent * 0.5 + vec2(from_centre.x, -from_centre.y) * pixel;
                     let inside = plane.cmpge(Vec2::ZERO).all() && plane.cmple(extent).all();
                     row.add(layout, inside.then_some((plane, Vec3::splat(WHITE))));
@@ -151,16 +152,16 @@ pub fn layout_for(
 ) -> TextureLayout {
     let pixel = match scene {
         Some(scene) => camera_pixel(scene, settings).unwrap_or(1.0),
-        None => flat_pixel(extent, settings),
+        None => flat_pixel(extent, vec2(settings.width as f32, settings.height as f32)),
     };
     // The kernel's standard deviation is a third of its radius.
     let texel = pixel.max(radius.1 / 4.0).max(1.0 / settings.max_texels as f32).min(1.0 / 64.0);
     TextureLayout::new(extent, (1.0 / texel).ceil() as usize, radius.0)
 }
 
-/// Plane units per pixel of the flat view.
-fn flat_pixel(extent: Vec2, settings: &RenderSettings) -> f32 {
-    (extent.x / settings.width as f32).max(extent.y / settings.height as f32)
+/// Plane units per pixel of the flat view in a picture of `size` pixels.
+pub(super) fn flat_pixel(extent: Vec2, size: Vec2) -> f32 {
+    (extent / size).max_element()
 }
 
 /// The plane units that one pixel covers in the sharper tenth of what the camera sees of the receiver directly.

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::plot::{Line, Panel, Tone, draw};
 use crate::files::write_atomic;
-use crate::flow::{Course, FitKind, FlowSettings, fit_segment, metric};
+use crate::flow::{Course, FitKind, FlowSettings, Movement, fit_segment, metric};
 use crate::pipeline::{FirstMove, Pipeline, Quality};
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -55,7 +55,8 @@ pub struct GammaResponse {
     pub rows: Vec<Response>,
 }
 
-/// Fits the first segment that moves at every gamma, jointly and separately, at preview size and without turbulence.
+/// Fits the first segment that moves at every gamma, jointly and separately, at preview size, whatever the project's
+/// method, and without turbulence.
 ///
 /// # Errors
 /// Anything wrong with the project or its files; nothing that moves; a fit that fails; cancelled.
@@ -64,7 +65,8 @@ pub fn gamma_response(
     project: &Project,
     progress: &Progress,
 ) -> Result<GammaResponse> {
-    let project = Quality::Preview.apply(project);
+    let mut project = Quality::Preview.apply(project);
+    project.method = Movement::Flow;
     progress.set_road(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
     let photons = pipeline.first_move(&project, progress)?;
     progress.begin("gamma", (KINDS.len() * GAMMAS.len()) as u64);

@@ -31,7 +31,7 @@ impl Lookup {
         for point in segments.iter().flat_map(|s| [s.from.as_dvec2(), s.to.as_dvec2()]) {
             (low, high) = (low.min(point), high.max(point));
         }
-        let scale = (CELLS / extent.max_element() as f64).min((MOST - 2.0) / (high - low).max_element());
+        let scale = (CELLS / f64::from(extent.max_element())).min((MOST - 2.0) / (high - low).max_element());
         let origin = low - 1.0 / scale;
         let size = ((high - low) * scale).to_array().map(|cells| cells.ceil() as usize + 2);
         let mut lookup =

@@ -130,6 +130,7 @@ fn coord(p: Vec2) -> Coord<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::constraint::{Wall, Window};
     use crate::math::rng::{Purpose, Stream};

@@ -21,6 +21,7 @@ const MOST_CORNERS: usize = 8000;
 
 /// The walls that stand at one moment, and the ways around them.
 pub struct Detour {
+    extent: Vec2,
     barriers: Barriers,
     corners: Vec<Corner>,
     graph: Graph,
@@ -67,7 +68,12 @@ impl Detour {
             return Err(Error::Limit { place: "constraints".into(), what });
         }
         let graph = Graph::new(&corners, &barriers, progress)?;
-        Ok(Self { barriers, corners, graph })
+        Ok(Self { extent, barriers, corners, graph })
+    }
+
+    /// The rectangle, from the origin, plane units.
+    pub fn extent(&self) -> Vec2 {
+        self.extent
     }
 
     /// The walls themselves.
@@ -217,6 +223,7 @@ impl Detour {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::constraint::{Wall, Window, stroke};
     use crate::math::rng::{Purpose, Stream};

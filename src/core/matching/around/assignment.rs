@@ -125,6 +125,7 @@ impl<'a> Problem<'a> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::math::rng::{Purpose, Stream};
 

@@ -1,0 +1,119 @@
+//! The comparison sheet: the same frames by several methods, a row for each.
+
+use std::path::Path;
+
+use super::overlay::Overlay;
+use super::png::{self, PngDepth};
+use super::sheet::{GAP, INK, SURROUND, paste};
+use super::text;
+use crate::Result;
+use crate::render::image::Image;
+
+/// Width of the column with the words, pixels.
+const WORDS: usize = 450;
+/// Heights of the lines of the heading, of a row's title, and of its other lines.
+const HEADING: f32 = 46.0;
+const TITLE: f32 = 44.0;
+const LINE: f32 = 30.0;
+/// Height of small letters.
+const SMALL: f32 = 26.0;
+/// Height of the line with the frame numbers.
+const NUMBERS: usize = 34;
+/// Titles, screen values.
+const BRIGHT: glam::Vec3 = glam::Vec3::splat(0.93);
+
+/// What the sheet shows.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Above all.
+    pub heading: String,
+    /// Beside it, smaller.
+    pub subheading: String,
+    /// The frames' numbers, above the columns.
+    pub numbers: Vec<i32>,
+    /// One for each method.
+    pub rows: Vec<Row>,
+}
+
+/// One method.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its name.
+    pub title: String,
+    /// What is told of it, a name and a value in each line.
+    pub lines: Vec<(String, String)>,
+    /// Screen values, one for each number, all of one size.
+    pub pictures: Vec<Image>,
+}
+
+/// Writes the sheet as PNG.
+///
+/// # Panics
+/// If the pictures differ in size.
+pub fn write_comparison(path: &Path, comparison: &Comparison, overlay: Overlay) -> Result<()> {
+    png::write(path, &arrange(comparison, overlay), PngDepth::Eight)
+}
+
+fn arrange(comparison: &Comparison, overlay: Overlay) -> Image {
+    let Comparison { heading, subheading, numbers, rows } = comparison;
+    let pictures = || rows.iter().flat_map(|row| &row.pictures);
+    let (width, height) = pictures().next().map_or((1, 1), |p| (p.width, p.height));
+    assert!(pictures().all(|p| (p.width, p.height) == (width, height)), "pictures of one size");
+    let lines = rows.iter().map(|row| row.lines.len()).max().unwrap_or(0);
+    let row_height = height.max((TITLE + LINE * (lines as f32 + 0.5)) as usize) + GAP;
+    let top = 2 * GAP + HEADING as usize + NUMBERS;
+    let left = 2 * GAP + WORDS;
+    let mut page = Image::new(left + numbers.len() * (width + GAP), top + rows.len() * row_height);
+    page.pixels.fill(SURROUND);
+
+    let end = text::draw(&mut page, heading, [GAP as f32 * 1.5, GAP as f32], HEADING, BRIGHT);
+    let beside = [end + GAP as f32 * 2.0, GAP as f32 + 0.5 * (HEADING - SMALL) + 3.0];
+    text::draw(&mut page, subheading, beside, SMALL, INK);
+    for (column, number) in numbers.iter().enumerate() {
+        let place = [(left + column * (width + GAP)) as f32, (top - NUMBERS) as f32];
+        text::draw(&mut page, &format!("frame {number}"), place, SMALL, INK);
+    }
+    for (i, row) in rows.iter().enumerate() {
+        let top = top + i * row_height;
+        words(&mut page, row, top as f32);
+        for (column, picture) in row.pictures.iter().enumerate() {
+            paste(&mut page, picture, left + column * (width + GAP), top, overlay);
+        }
+    }
+    page
+}
+
+/// The title of a row and its lines below, names left and values in a column of their own.
+fn words(page: &mut Image, row: &Row, top: f32) {
+    let left = GAP as f32 * 1.5;
+    text::draw(page, &row.title, [left, top - 4.0], TITLE, BRIGHT);
+    for (i, (name, value)) in row.lines.iter().enumerate() {
+        let y = top + TITLE + LINE * i as f32;
+        text::draw(page, name, [left, y], SMALL, INK);
+        text::draw(page, value, [left + 0.42 * WORDS as f32, y], SMALL, BRIGHT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_has_room_for_all_words_and_pictures() {
+        let row = |count| Row {
+            title: "flow".into(),
+            lines: vec![("transport cost".into(), "1.01".into()); 6],
+            pictures: vec![Image::new(40, 20); count],
+        };
+        for (count, rows) in [(0, 0), (0, 1), (1, 1), (3, 2)] {
+            let sheet = Comparison {
+                heading: "Letters".into(),
+                subheading: "two methods".into(),
+                numbers: (0..count as i32).collect(),
+                rows: vec![row(count); rows],
+            };
+            let page = arrange(&sheet, Overlay::NONE);
+            assert!(page.width >= WORDS + count * 40 && page.height >= rows * 150);
+        }
+    }
+}
