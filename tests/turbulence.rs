@@ -16,7 +16,7 @@ use lightloom_core::{Error, Progress};
 const EXTENT: Vec2 = Vec2::new(1.0, 0.75);
 
 fn noise(strength: f32, grids: &[u32]) -> TurbulenceSettings {
-    TurbulenceSettings { strength, grids: grids.to_vec(), ..Default::default() }
+    TurbulenceSettings { strength, grids: grids.to_vec(), rate: 4.0, ..Default::default() }
 }
 
 fn flow(turbulence: impl Into<Option<TurbulenceSettings>>) -> FlowSettings {

@@ -26,6 +26,8 @@ pub(super) enum Command {
     Compare(CompareArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
+    /// Measure what gamma does to a project's flow, at preview size: a plot and a table.
+    Report(ReportArgs),
     /// Print the JSON schema of project files.
     Schema,
 }
@@ -44,6 +46,15 @@ pub(super) struct FitArgs {
     #[command(flatten)]
     pub(super) project: ProjectArgs,
     /// Folder for tracks.npy, flux.npy, fields.npz and summary.json; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct ReportArgs {
+    #[command(flatten)]
+    pub(super) project: ProjectArgs,
+    /// Folder for gamma.svg, gamma.csv and gamma.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(super) out: PathBuf,
 }

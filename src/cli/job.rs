@@ -6,6 +6,7 @@ use std::path::Path;
 use lightloom_core::flow::Movement;
 use lightloom_core::pipeline::{Comparison, Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::report::GammaResponse;
 use lightloom_core::{Error, Progress, Result};
 
 use super::args::ProjectArgs;
@@ -41,6 +42,16 @@ impl Outcome for Comparison {
     fn folders() -> Vec<&'static str> {
         Movement::ALL.map(Movement::name).to_vec()
     }
+    fn to_json(&self) -> String {
+        self.to_json()
+    }
+    fn to_text(&self) -> String {
+        self.to_text()
+    }
+}
+
+impl Outcome for GammaResponse {
+    const FILE: &'static str = "gamma.json";
     fn to_json(&self) -> String {
         self.to_json()
     }
@@ -113,7 +124,7 @@ fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<
 }
 
 /// What stands in an output folder beside the frames.
-const OUTPUTS: [&str; 7] = [
+const OUTPUTS: [&str; 10] = [
     "summary.json",
     "contact_sheet.png",
     "tracks.npy",
@@ -121,6 +132,9 @@ const OUTPUTS: [&str; 7] = [
     "fields.npz",
     "compare.png",
     "compare.json",
+    "gamma.svg",
+    "gamma.csv",
+    "gamma.json",
 ];
 
 /// Writes the summary as JSON, and prints it so or as a few lines.

@@ -7,6 +7,7 @@ mod fit;
 mod job;
 mod progress;
 mod render;
+mod report;
 
 use std::process::ExitCode;
 
@@ -34,6 +35,7 @@ pub fn main() -> ExitCode {
         Command::Fit(args) => fit::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Check(args) => check::run(args),
+        Command::Report(args) => report::run(args),
         Command::Schema => schema(),
     };
     match done {

@@ -16,6 +16,7 @@
 //! | Eq. (2), guidance | `flow/guidance.rs` |
 //! | Eqs. (3) to (5) and (7), the fit | `flow/fit.rs`, `flow/bending.rs` |
 //! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
+//! | synthetic turbulence | `flow/turbulence` |
 //! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
 //! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path.rs`, `pipeline/compare.rs` |
 //!
@@ -51,6 +52,8 @@ pub mod export;
 pub mod project;
 
 pub mod pipeline;
+
+pub mod report;
 
 pub use error::{Error, Result};
 pub use progress::Progress;

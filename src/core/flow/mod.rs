@@ -7,7 +7,7 @@
 //!
 //! # The fade, measured
 //!
-//! 40 000 photons, 64 x 64 cells, 30 steps, transport matching; the paper's fade (tau 0.85) / the default. peak: 99.9 % fastest
+//! 40 000 photons, 64 x 64 cells, 30 steps, transport matching, joint fit; the paper's fade (tau 0.85) / the default. peak: 99.9 % fastest
 //! photon over the mean straight speed; dispersion: neighbour-velocity variance over mean square, largest of the run;
 //! field: share of the motion that the field steers; wander: distance from the straight ways over their length.
 //!

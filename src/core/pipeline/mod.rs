@@ -32,6 +32,7 @@ pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
 pub use grouping::CausticLight;
 pub use meter::StageCost;
+pub use motion::FirstMove;
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
@@ -197,6 +198,18 @@ impl Pipeline {
         let done =
             Done { command: "fit", passes: 0, motion: &motion, account, bad_values: BadValues::default() };
         Ok(Summary::new(project, prepared, done, &meter))
+    }
+
+    /// The photons of pass 0 at the first two key frames between which they move, matched.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files; nothing that moves; cancelled.
+    pub fn first_move(&mut self, project: &Project, progress: &Progress) -> Result<FirstMove> {
+        let mut meter = Meter::default();
+        let prepared = self.prepare(project, &mut meter)?;
+        let tracer = learn(&prepared, project, &mut meter, progress)?;
+        let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
+        motion::first_move(batch, project, prepared.extent, progress)
     }
 
     /// What would be done and what it would cost. Opens every file the project names, and traces a few photons to see which

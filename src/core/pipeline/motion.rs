@@ -12,11 +12,13 @@ use super::light::KeyPhotons;
 use super::meter::Meter;
 use super::mover;
 use super::summary::FlowNumbers;
+use crate::constraint::{ActiveLine, ActiveWall};
+use crate::flow::guidance::mean_straight;
 use crate::flow::{Course, Fields, FlowSettings, Movement, Mover};
 use crate::matching::{ContinuousMap, Method, mean_square_distance};
 use crate::project::{CausticDesc, CausticKey, KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// From one key to the next.
 pub(super) struct Segment {
@@ -137,6 +139,46 @@ pub(super) fn fit(
         batch.arrive(next);
     }
     Ok(motion)
+}
+
+/// The photons of the first two key frames between which they move: row k of `target` is where photon k of `source` goes.
+pub struct FirstMove {
+    /// Positions at the earlier key, plane units: the caustics that share a field, or one that flows by itself.
+    pub source: Vec<Vec2>,
+    /// Positions at the later one.
+    pub target: Vec<Vec2>,
+    /// Size of the plane; its longer side is 1.
+    pub extent: Vec2,
+    /// Directed lines between these keys.
+    pub lines: Vec<ActiveLine>,
+    /// Walls between these keys.
+    pub walls: Vec<ActiveWall>,
+    /// Number of the segment, from 0.
+    pub number: usize,
+}
+
+/// Goes from key to key until photons move.
+pub(super) fn first_move(
+    mut batch: Batch,
+    project: &Project,
+    extent: Vec2,
+    progress: &Progress,
+) -> Result<FirstMove> {
+    for (number, Acting { lines, walls }) in all_acting(project, extent).into_iter().enumerate() {
+        progress.begin("match", 1);
+        let next = match_next(&batch, progress)?.next;
+        for groups in layers(&batch) {
+            let [source, target] =
+                [&batch.at, &next].map(|photons| column(photons, &groups, |at| &at.positions));
+            if mean_straight(&source, &target) > 0.0 {
+                let (source, target) = (source.into_owned(), target.into_owned());
+                return Ok(FirstMove { source, target, extent, lines, walls, number });
+            }
+        }
+        batch.arrive(next);
+    }
+    let what = "no photon moves from one key frame to the next, so there is no flow to look at";
+    Err(Error::value("keys", what))
 }
 
 /// The groups that have photons to move until the next key, those together that share a field.

@@ -23,7 +23,7 @@ pub struct TurbulenceSettings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weights: Option<Vec<f32>>,
     /// How often the swirls are replaced by others from one key frame to the next, 0 to 100; 0 keeps the same ones for ever.
-    /// Default 4.
+    /// Low rates wind the light up like ink in water, high ones scatter it. Default 1.
     pub rate: f32,
     /// Seed of the noise, 0 to 9007199254740991, default 1. It is its own: another seed of the project leaves the swirls
     /// where they are.
@@ -32,7 +32,7 @@ pub struct TurbulenceSettings {
 
 impl Default for TurbulenceSettings {
     fn default() -> Self {
-        Self { strength: 20.0, grids: vec![30], slope: -5.0 / 3.0, weights: None, rate: 4.0, seed: 1 }
+        Self { strength: 20.0, grids: vec![30], slope: -5.0 / 3.0, weights: None, rate: 1.0, seed: 1 }
     }
 }
 

@@ -1,0 +1,131 @@
+//! The report: what gamma does, measured through the whole road.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use lightloom_core::flow::FitKind;
+use lightloom_core::pipeline::Pipeline;
+use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::report::{GammaResponse, Response, gamma_response};
+use lightloom_core::{Error, Progress};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// C becomes S, small; `keys` are the letters in order.
+fn project(keys: &[&str]) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
+    for name in ["letter_c.png", "letter_s.png"] {
+        std::fs::copy(targets.join(name), folder.path().join(name)).unwrap();
+    }
+    std::fs::write(folder.path().join("points.csv"), "0.2,0.3\n0.4,0.7\n0.6,0.5\n").unwrap();
+    let shows = |name: &&str| match *name {
+        "points" => json!({ "points": { "file": "points.csv" } }),
+        name => json!({ "image": { "file": format!("letter_{name}.png") } }),
+    };
+    let keys: Vec<Value> =
+        keys.iter().zip(1..).map(|(name, frame)| json!({ "frame": frame, "shows": shows(name) })).collect();
+    let project = json!({
+        "lightloom": 1,
+        "name": "Small <letters> & more",
+        "keys": keys,
+        "matching": if keys.iter().any(|key| key["shows"]["points"].is_object()) { "given" } else { "transport" },
+        "flow": { "grid": 24, "steps": 6, "guides": 1500, "alpha": 1e-4, "turbulence": { "strength": 50 } },
+        "render": { "width": 96, "height": 96, "photons": 3000 }
+    });
+    let path = folder.path().join("letters.json");
+    std::fs::write(&path, project.to_string()).unwrap();
+    (folder, path)
+}
+
+fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
+    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    gamma_response(&mut pipeline, &Project::load(path).unwrap(), progress)
+}
+
+fn rows(response: &GammaResponse, fit: FitKind) -> Vec<&Response> {
+    response.rows.iter().filter(|row| row.fit == fit).collect()
+}
+
+#[test]
+fn gamma_acts_evenly_in_the_separate_blend_and_early_in_the_joint_fit() {
+    let (_folder, path) = project(&["c", "s"]);
+    let response = report(&path, &Progress::new()).unwrap();
+    let (joint, separate) = (rows(&response, FitKind::Joint), rows(&response, FitKind::Separate));
+    let (liquid, gradient) = (separate[0], separate[separate.len() - 1]);
+    // A liquid has no divergence and a gradient no curl; the turbulence of the project is left out of both.
+    assert!(
+        liquid.divergence_rms < 1e-5 * liquid.curl_rms && gradient.curl_rms < 1e-5 * gradient.divergence_rms
+    );
+    for row in &separate {
+        let gamma = f64::from(row.gamma);
+        // Of the first field it is a plain product; rounding of f32 coefficients, over cells of 1/24.
+        let error = (row.divergence_first - gamma * gradient.divergence_first) / gradient.divergence_first;
+        assert!(error.abs() < 1e-3, "divergence at {gamma}");
+        let error = (row.curl_first - (1.0 - gamma) * liquid.curl_first) / liquid.curl_first;
+        assert!(error.abs() < 1e-3, "curl at {gamma}");
+    }
+    let at = |rows: &[&Response], gamma: f32| {
+        let row = rows.iter().find(|row| row.gamma == gamma).unwrap();
+        row.divergence_rms / gradient.divergence_rms
+    };
+    // The trap that the separate blend avoids: at this alpha most of the divergence is there at a tenth of the slider.
+    assert!(at(&joint, 0.1) > 0.6 && at(&separate, 0.1) < 0.3);
+    assert!((0.35..0.75).contains(&at(&separate, 0.5)));
+    // The two have their ends in common, up to the tolerance of the solver.
+    for (a, b) in [(joint[0], separate[0]), (joint[joint.len() - 1], gradient)] {
+        assert!((a.divergence_rms - b.divergence_rms).abs() + (a.curl_rms - b.curl_rms).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn the_plot_and_the_table_hold_every_row() {
+    let (folder, path) = project(&["c", "s"]);
+    let response = report(&path, &Progress::new()).unwrap();
+    assert!(report(&path, &Progress::new()).unwrap() == response, "the same seed, the same numbers");
+    let [svg, csv] =
+        response.write(folder.path()).unwrap().map(|path| std::fs::read_to_string(path).unwrap());
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), 1 + response.rows.len());
+    let columns = lines[0].split(',').count();
+    assert!(lines.iter().all(|line| line.split(',').count() == columns), "{csv}");
+    assert!(lines[1].starts_with("joint,0.000000,") && lines[26].starts_with("separate,1.000000,"));
+    // Four panels of two lines; the name is text, not markup.
+    assert!(svg.matches("<polyline").count() >= 8);
+    assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("<letters>"), "{svg}");
+}
+
+#[test]
+fn keys_at_rest_are_passed_over() {
+    let (_folder, path) = project(&["points", "points"]);
+    let error = report(&path, &Progress::new()).unwrap_err().to_string();
+    assert!(error.contains("no photon moves"), "{error}");
+    let (_folder, path) = project(&["c"]);
+    assert!(report(&path, &Progress::new()).unwrap_err().to_string().contains("no photon moves"));
+}
+
+#[test]
+fn a_cancelled_report_says_so() {
+    let (_folder, path) = project(&["c", "s"]);
+    let progress = Progress::new();
+    progress.cancel();
+    assert!(matches!(report(&path, &progress), Err(Error::Cancelled)));
+}
+
+#[test]
+fn the_command_writes_both_files_and_prints_the_table() {
+    let (folder, path) = project(&["c", "s"]);
+    let out = folder.path().join("out");
+    let run = |extra: &[&str]| {
+        let args = ["report", path.to_str().unwrap(), "--out", out.to_str().unwrap()];
+        let run = Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).args(extra).output().unwrap();
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8(run.stdout).unwrap()
+    };
+    let printed = run(&[]);
+    assert!(printed.contains("gamma.svg") && printed.contains("separate") && printed.contains("Progress"));
+    assert!(out.join("gamma.svg").is_file() && out.join("gamma.csv").is_file());
+    let json: Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    assert_eq!(json["rows"].as_array().unwrap().len(), 26);
+}
