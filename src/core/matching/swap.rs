@@ -22,7 +22,8 @@ pub(super) struct Pair {
     pub(super) target: Vec2,
     pub(super) source_row: u32,
     pub(super) target_row: u32,
-    /// Whether a wall stands between where the map sends it and its target.
+    /// Whether its target may lie on the wrong side of a wall: a wall stands between that and where the map sends it, or
+    /// it was exchanged and has to go around a wall now.
     pub(super) astray: bool,
 }
 
@@ -30,7 +31,6 @@ impl Pair {
     fn exchange(&mut self, other: &mut Self) {
         std::mem::swap(&mut self.target, &mut other.target);
         std::mem::swap(&mut self.target_row, &mut other.target_row);
-        (self.astray, other.astray) = (false, false);
     }
 }
 
@@ -53,16 +53,24 @@ pub(super) fn sweep(
     *pairs = order.par_iter().with_min_len(4096).map(|&row| pairs[row as usize]).collect();
     progress.check()?;
     let run = |block: &mut [Pair]| match walls {
-        None => exchange(block, window, closer),
+        None => exchange(block, window, closer, |_| false),
         Some(detour) => {
             let mut sight = Sight::default();
-            exchange(block, window, |a, b| closer_around(a, b, detour, &mut sight))
+            let bent = |pair: &Pair| detour.barriers().blocks(pair.source, pair.target);
+            exchange(block, window, |a, b| closer_around(a, b, detour, &mut sight), bent)
         }
     };
     Ok(pairs.par_chunks_mut(BLOCK).map(run).sum())
 }
 
-fn exchange(block: &mut [Pair], window: usize, mut gains: impl FnMut(&Pair, &Pair) -> bool) -> usize {
+/// `gains` tells whether two pairs should exchange their targets, `astray` what they are afterwards: a far target is handed on
+/// from neighbour to neighbour, so that each of them goes a little farther instead of one of them all the way.
+fn exchange(
+    block: &mut [Pair],
+    window: usize,
+    mut gains: impl FnMut(&Pair, &Pair) -> bool,
+    astray: impl Fn(&Pair) -> bool,
+) -> usize {
     let mut exchanges = 0;
     for i in 1..block.len() {
         let (before, rest) = block.split_at_mut(i);
@@ -70,6 +78,7 @@ fn exchange(block: &mut [Pair], window: usize, mut gains: impl FnMut(&Pair, &Pai
         for other in rest.iter_mut().take(window) {
             if gains(pair, other) {
                 pair.exchange(other);
+                (pair.astray, other.astray) = (astray(pair), astray(other));
                 exchanges += 1;
             }
         }
