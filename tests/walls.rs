@@ -185,12 +185,13 @@ fn a_dam_holds_the_light_back_until_it_breaks() {
     let (source, target) = (disc([0.5, 0.25], 0.1, 500), disc([0.5, 0.75], 0.1, 500));
     let until_half = Window { rise: [f64::NEG_INFINITY; 2], fall: [0.5; 2] };
     let walls = [standing(&[[0.0, 0.5], [1.0, 0.5]], 0.02, until_half)];
-    let (rows, _, report) = tracks(&source, &target, &walls, &settings(0.5));
+    let (rows, fields, report) = tracks(&source, &target, &walls, &settings(0.5));
+    let half = fields.steps() / 2;
     assert_eq!((report.unreachable, report.wall_crossings), (0, 0));
     assert_eq!(report.endpoint_error, 0.0);
-    assert_eq!(crossers(&rows, &walls, |step| step < 8), 0);
+    assert_eq!(crossers(&rows, &walls, |step| step < half), 0);
     assert_eq!(crossers(&rows, &walls, |_| true), 500);
-    assert!(rows[8].iter().all(|p| p.y < 0.5));
+    assert!(rows[half].iter().all(|p| p.y < 0.5));
 }
 
 #[test]

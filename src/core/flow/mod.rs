@@ -142,16 +142,17 @@ pub fn fit_segment(
     let mut positions = source.clone();
     let mut directions = vec![Vec2::ZERO; source.len()];
     swarm.guidance(0.0, &mut directions);
+    let steps = fields.steps();
     progress.begin("fit", steps as u64);
     for n in 0..steps {
         let t = fields.time(n);
         if let Some(show) = &mut tracks {
             show(n, &positions);
         }
-        if t < settings.fade.end() {
-            if let Some(obstacles) = obstacles.as_ref().filter(|obstacles| obstacles.changes(n)) {
-                obstacles.wall_in(n, &mut fitter, grid);
-            }
+        if let Some(obstacles) = obstacles.as_ref().filter(|obstacles| obstacles.changes(n)) {
+            obstacles.wall_in(n, &mut fitter, grid);
+        }
+        if t < settings.fade.end() && fields.is_fitted_at(n) {
             let (field, fit) = if lines.pull(t) {
                 let (rows, mask) = lines.rows(t, &positions, &directions);
                 let steering = Steering { rows: &rows, mask };
@@ -164,8 +165,10 @@ pub fn fit_segment(
         }
         let step = fields.step(n);
         swarm.advance(&step, progress)?;
-        observer.stepped(&swarm, step.start, step.length);
-        observer.steered(&swarm, step.start, &settings.fade);
+        if fields.is_fitted_at(n) || Observer::awaits(step.start, step.length) {
+            observer.stepped(&swarm, step.start, step.length);
+            observer.steered(&swarm, step.start, &settings.fade);
+        }
         let end = fields.time(n + 1);
         swarm.positions(end, &mut positions);
         swarm.guidance(end, &mut directions);

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::assembly::WallRows;
 use super::field::Grid;
 use super::fit::Fitter;
+use super::trajectory::SUBSTEPS;
 use crate::constraint::detour::Sight;
 use crate::constraint::{ActiveWall, Detour, Way, stroke};
 use crate::{Progress, Result};
@@ -54,30 +55,33 @@ pub(super) enum State {
 }
 
 impl Obstacles {
-    /// The walls as they stand over `steps` steps on the rectangle `extent`; none where no wall stands at any time.
-    /// Returns the number of steps too, which grows where ways turn more often than there are steps.
+    /// The walls as they stand over `fits` fits, with [`SUBSTEPS`] steps each, on the rectangle `extent`; none where no wall
+    /// stands at any time. Returns the number of fits too, which grows where ways turn more often than there are steps.
     ///
     /// # Errors
     /// `Limit` for walls of too many corners; `Cancelled`.
     pub fn new(
         walls: &[ActiveWall],
-        steps: usize,
+        fits: usize,
         extent: Vec2,
         progress: &Progress,
     ) -> Result<(Option<Self>, usize)> {
-        let mut steps = steps;
+        if walls.is_empty() {
+            return Ok((None, fits));
+        }
+        let mut steps = fits * SUBSTEPS;
         // A photon turns at most once a step: the walls as they stand now need so many steps.
         for _ in 0..2 {
             let all = Self { walls: walls.to_vec(), extent, epochs: epochs(walls, steps, extent, progress)? };
             let needed = 2 + all.longest();
             if needed <= steps {
                 let stands = all.epochs.iter().any(|epoch| epoch.detour.is_some());
-                return Ok((stands.then_some(all), steps));
+                return Ok((stands.then_some(all), steps / SUBSTEPS));
             }
-            steps = needed;
+            steps = needed.next_multiple_of(SUBSTEPS);
         }
         let epochs = epochs(walls, steps, extent, progress)?;
-        Ok((Some(Self { walls: walls.to_vec(), extent, epochs }), steps))
+        Ok((Some(Self { walls: walls.to_vec(), extent, epochs }), steps / SUBSTEPS))
     }
 
     /// Most corners on one way, at any time.

@@ -165,6 +165,12 @@ impl<'a> Observer<'a> {
         }
     }
 
+    /// Whether a number is taken at a time within this step.
+    pub(super) fn awaits(start: f64, length: f64) -> bool {
+        let end = start + length;
+        end >= 1.0 || CROSSING_TIMES.iter().any(|t| (start..end).contains(t))
+    }
+
     /// The photons were carried through a step.
     pub(super) fn stepped(&mut self, photons: &impl Moving, start: f64, length: f64) {
         let end = start + length;

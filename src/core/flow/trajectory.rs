@@ -21,6 +21,8 @@ use crate::{Progress, Result};
 pub struct Fields {
     nodes: Vec<Field>,
     steps: usize,
+    /// Steps for which a field serves.
+    substeps: usize,
     fade: Fade,
     mean_straight: f32,
     turbulence: Option<Turbulence>,
@@ -46,7 +48,16 @@ impl Fields {
         turbulence: Option<Turbulence>,
         obstacles: Option<Arc<Obstacles>>,
     ) -> Self {
-        Self { nodes: Vec::new(), steps, fade, mean_straight, turbulence, obstacles }
+        let substeps = if obstacles.is_some() { SUBSTEPS } else { 1 };
+        Self {
+            nodes: Vec::new(),
+            steps: steps * substeps,
+            substeps,
+            fade,
+            mean_straight,
+            turbulence,
+            obstacles,
+        }
     }
 
     /// The same fields with this turbulence in place of any other.
@@ -58,15 +69,25 @@ impl Fields {
         self.nodes.push(field);
     }
 
-    /// Time steps of the segment.
+    /// Time steps of the photons; where walls stand, several for each field, so that ways turn smoothly around them.
     pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// The field of each step at its begin, t = n / steps. Fewer than steps where the fade ends before t = 1: all
-    /// photons go straight from there on.
+    /// The fields in the order of time, see [`Self::node_time`]. They end where the fade ends before t = 1: all photons go
+    /// straight from there on.
     pub fn nodes(&self) -> &[Field] {
         &self.nodes
+    }
+
+    /// When field `n` was fitted.
+    pub fn node_time(&self, n: usize) -> f64 {
+        self.time(n * self.substeps)
+    }
+
+    /// Whether a field is fitted at the begin of step `n`.
+    pub(super) fn is_fitted_at(&self, n: usize) -> bool {
+        n.is_multiple_of(self.substeps)
     }
 
     /// How the photons leave the field.
@@ -111,11 +132,13 @@ impl Fields {
     /// Step `n`, whose field must be there unless the fade has ended.
     pub(super) fn step(&self, n: usize) -> Step {
         let (start, end) = (self.time(n), self.time(n + 1));
-        let stages = self.nodes.get(n).map(|now| {
-            let before = &self.nodes[n.saturating_sub(1)];
+        let (node, part) = (n / self.substeps, n % self.substeps);
+        let stages = self.nodes.get(node).filter(|_| start < self.fade.end()).map(|now| {
+            let before = &self.nodes[node.saturating_sub(1)];
             [0.0, 0.5, 1.0].map(|x| {
+                let since = (part as f32 + x) / self.substeps as f32;
                 let mut field = now.clone();
-                Field::blend(now, 1.0 + x, before, -x, &mut field);
+                Field::blend(now, 1.0 + since, before, -since, &mut field);
                 let t = start + f64::from(x) * (end - start);
                 Stage { field, noise: self.noise(t), rate: self.fade.rate(t) }
             })
@@ -123,6 +146,9 @@ impl Fields {
         Step { number: n, left: self.steps - 1 - n, start, length: end - start, stages }
     }
 }
+
+/// Steps of the photons for each field where walls stand.
+pub(super) const SUBSTEPS: usize = 4;
 
 /// Photons that walls did not keep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -19,6 +19,8 @@ use crate::constraint::{Detour, Way};
 const MARGIN: f32 = 1e-5;
 /// Walls a photon slides along in one step.
 const SLIDES: usize = 3;
+/// Halvings in the search for the last place in sight: to 1/64 of a leg.
+const HALVINGS: usize = 6;
 /// Turns of the way in one step, besides its begin and end.
 const TURNS: usize = 8;
 
@@ -128,11 +130,27 @@ impl Walker<'_> {
         self.walk(photon, &mut stops, [0.0, 0.5]);
         self.slide_on(photon, &mut stops, sight);
         self.walk(photon, &mut stops, [0.5, 1.0]);
-        // The chord must not cut a corner: the photon rests at the last place that it sees from where it began.
-        let in_sight = |stop: &&(Vec2, Way)| !barriers.blocks(c, stop.0);
-        let &(end, way) = stops.iter().rev().find(in_sight).unwrap_or(&(c, route.way));
+        let (end, way) = self.farthest(c, &stops);
         route.way = way;
         end
+    }
+
+    /// The last place on the way through the step that is seen from its begin `c`: the chord must not cut a corner. Between
+    /// two turns the place is searched for, or photons would gather at the turns.
+    fn farthest(&self, c: Vec2, stops: &Stops) -> (Vec2, Way) {
+        let barriers = self.detour.barriers();
+        let Some(last) = stops.iter().rposition(|stop| !barriers.blocks(c, stop.0)) else {
+            return stops[0];
+        };
+        let (at, way) = stops[last];
+        let Some(&(next, _)) = stops.get(last + 1) else { return (at, way) };
+        let (mut seen, mut hidden) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (seen + hidden);
+            if barriers.blocks(c, at.lerp(next, middle)) { hidden = middle } else { seen = middle }
+        }
+        // On the leg after a turn the way is the one from that turn on.
+        (at.lerp(next, seen), way)
     }
 
     /// Moves on by the field, if a way leads on from there that leaves time enough.

@@ -28,6 +28,8 @@ pub(super) fn with_guides_alone(project: &Project) -> Project {
 /// Writes `tracks.npy` (steps + 1, photons, 2), `flux.npy` (steps + 1, photons, 3) and, where the method has fields,
 /// `fields.npz` into `out`.
 ///
+/// The steps are those of the flow, four times as many where walls stand.
+///
 /// The steps of all segments follow each other; the end of one segment is the start of the next and stands once. The photons
 /// of each named caustic follow each other too, in the order of the project, and the rest comes last: `summary.json` has
 /// their numbers.
@@ -42,7 +44,9 @@ pub(super) fn write(
     let grouping = batch.supplies().grouping();
     let stops = stops(batch, motion, progress)?;
     progress.begin("write", 3);
-    let steps = project.flow.steps as usize;
+    // Where walls stand there are more steps: the way between two rows shall cross none.
+    let fields = motion.segments.iter().flat_map(|segment| segment.fields(grouping));
+    let steps = fields.map(|(_, fields)| fields.steps()).max().unwrap_or(project.flow.steps as usize);
     let table = Table { stops: &stops, motion, steps };
     let tracks = out.join("tracks.npy");
     table.write_tracks(&tracks, progress)?;
@@ -180,7 +184,7 @@ fn write_noises<W: io::Write + io::Seek>(
     fields: &Fields,
 ) -> io::Result<()> {
     let times = 0..fields.nodes().len();
-    let noises: Vec<Vec<Field>> = times.map(|n| fields.noise(n as f64 / fields.steps() as f64)).collect();
+    let noises: Vec<Vec<Field>> = times.map(|n| fields.noise(fields.node_time(n))).collect();
     for (k, noise) in noises.first().into_iter().flatten().enumerate() {
         let [columns, rows] = noise.grid().nodes().map(|n| n as u64);
         let psi = noises.iter().flat_map(|at_one_time| at_one_time[k].potentials().0);
@@ -206,7 +210,7 @@ fn write_layer<W: io::Write + io::Seek>(
         array(npz, &format!("{name}_{layer}"), &shape, potentials)?;
     }
     write_noises(npz, layer, fields)?;
-    let times = (0..fields.nodes().len()).map(|n| n as f32 / fields.steps() as f32);
+    let times = (0..fields.nodes().len()).map(|n| fields.node_time(n) as f32);
     array(npz, &format!("times_{layer}"), &shape[..1], times)
 }
 

@@ -40,6 +40,13 @@ pub struct Tails {
     lengths: Vec<f32>,
 }
 
+impl Tails {
+    /// The target.
+    pub fn target(&self) -> Vec2 {
+        self.target
+    }
+}
+
 /// What [`Detour::heads`] finds.
 #[derive(Clone, Debug)]
 pub struct Heads {

@@ -28,6 +28,9 @@ const NEIGHBOURS: usize = 10;
 const STRETCH: f32 = 4.0;
 /// Anchors near a point that it chooses from.
 const CANDIDATES: usize = 12;
+/// Share of the squared straight distance in the cost. All ways around one corner cost alike whoever goes where; this
+/// much keeps neighbours neighbours beyond it.
+const ORDER: f64 = 1.0;
 /// Price of a pair that no way connects: more than any way is long, so that as few as possible remain.
 const SHUT_OFF: f64 = 100.0;
 
@@ -77,10 +80,11 @@ impl AroundMap {
         let (from, to) = (cells::representatives(source, count), cells::representatives(target, count));
         let heads: Vec<Heads> = from.par_iter().map(|&a| detour.heads(a)).collect();
         let tails: Vec<Tails> = to.par_iter().map(|&b| detour.tails(b)).collect();
-        let costs: Vec<f64> = heads
-            .par_iter()
-            .flat_map_iter(|heads| tails.iter().map(|tails| cost(detour.between(heads, tails))))
-            .collect();
+        let row = |(heads, a): (&Heads, &Vec2)| -> Vec<f64> {
+            let pair = |(tails, b): (&Tails, &Vec2)| cost(detour.between(heads, tails), a.distance(*b));
+            tails.iter().zip(&to).map(pair).collect()
+        };
+        let costs: Vec<f64> = heads.par_iter().zip(&from).map(row).collect::<Vec<_>>().concat();
         progress.check()?;
         let Assignment { column_of, price } = assignment::assign(&costs, count, progress)?;
         let to: Vec<Vec2> = column_of.iter().map(|&column| to[column]).collect();
@@ -99,13 +103,25 @@ impl AroundMap {
     /// The anchor whose way `point` goes: of those near that it sees, the one whose target has the least cost less price.
     fn anchor_of(&self, point: Vec2, detour: &Detour) -> Option<&Anchor> {
         let near = self.buckets.nearest(point, CANDIDATES, |i| self.anchors[i as usize].from);
-        let nearest = self.anchors.get(*near.first()? as usize);
-        let heads = detour.heads(point);
-        let anchors = near.into_iter().map(|i| &self.anchors[i as usize]);
-        let seen = anchors.filter(|anchor| !detour.barriers().blocks(point, anchor.from));
-        let value = |anchor: &Anchor| cost(detour.between(&heads, &anchor.tails)) - anchor.price;
-        let least = seen.map(|anchor| (value(anchor), anchor)).min_by(|a, b| a.0.total_cmp(&b.0));
-        least.map(|(_, anchor)| anchor).or(nearest)
+        let barriers = detour.barriers();
+        // Most points see the targets of all candidates and need no ways.
+        let mut heads = None;
+        let mut best: (f64, Option<&Anchor>) = (f64::INFINITY, None);
+        for anchor in near.iter().map(|&i| &self.anchors[i as usize]) {
+            if barriers.blocks(point, anchor.from) {
+                continue;
+            }
+            let straight = point.distance(anchor.tails.target());
+            let length = match barriers.blocks(point, anchor.tails.target()) {
+                false => straight,
+                true => detour.between(heads.get_or_insert_with(|| detour.heads(point)), &anchor.tails),
+            };
+            let value = cost(length, straight) - anchor.price;
+            if value < best.0 {
+                best = (value, Some(anchor));
+            }
+        }
+        best.1.or_else(|| self.anchors.get(*near.first()? as usize))
     }
 
     /// Where `point` goes.
@@ -151,9 +167,10 @@ impl Anchor {
     }
 }
 
-/// The cost of a way of this length.
-fn cost(length: f32) -> f64 {
-    if length.is_finite() { f64::from(length).powi(2) } else { SHUT_OFF }
+/// The cost of a way of this length between points that lie so far apart.
+fn cost(length: f32, straight: f32) -> f64 {
+    let ordered = ORDER * f64::from(straight).powi(2);
+    if length.is_finite() { f64::from(length).powi(2) + ordered } else { SHUT_OFF }
 }
 
 /// The matrix J that least misses b = J a over all pairs (a, b), drawn a little towards the identity.
