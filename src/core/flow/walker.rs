@@ -12,6 +12,7 @@ use super::advect::Step;
 use super::fade::ease;
 use super::guidance::position;
 use super::obstacles::{Route, State};
+use super::trajectory::SUBSTEPS;
 use crate::constraint::detour::Sight;
 use crate::constraint::{Detour, Way};
 
@@ -84,6 +85,12 @@ impl Walker<'_> {
         motion
     }
 
+    /// Whether photons look in this step if they still see where they are bound for. That costs most of a step, so that
+    /// between two fits they look only where they go, unless turns may be needed that leave no time to lose.
+    fn looks(&self) -> bool {
+        self.step.number % SUBSTEPS == SUBSTEPS - 1 || self.step.left <= self.detour.longest() + SUBSTEPS
+    }
+
     /// The step as without walls, if no wall is met and the target is still in sight, or a way to it is found.
     fn smooth(&self, photon: &Photon, route: &mut Route, sight: &mut Sight) -> Option<Motion> {
         let (c, b) = (photon.at, photon.target);
@@ -96,7 +103,7 @@ impl Walker<'_> {
         if barriers.blocks(c, end) {
             return None;
         }
-        if barriers.blocks(end, b) {
+        if self.looks() && barriers.blocks(end, b) {
             let way = self.detour.way(end, b, sight)?;
             if self.step.left == 0 || self.detour.corners_ahead(way) >= self.step.left {
                 return None;
@@ -122,7 +129,7 @@ impl Walker<'_> {
             return corner;
         }
         let barriers = self.detour.barriers();
-        if barriers.blocks(c, self.detour.heading(route.way, b)) {
+        if self.looks() && barriers.blocks(c, self.detour.heading(route.way, b)) {
             route.way = self.detour.way(c, b, sight).unwrap_or(route.way);
         }
         let mut stops: Stops = ArrayVec::new();

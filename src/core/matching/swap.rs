@@ -23,7 +23,7 @@ pub(super) struct Pair {
     pub(super) source_row: u32,
     pub(super) target_row: u32,
     /// Whether its target may lie on the wrong side of a wall: a wall stands between that and where the map sends it, or
-    /// it was exchanged and has to go around a wall now.
+    /// it took over such a target.
     pub(super) astray: bool,
 }
 
@@ -53,32 +53,29 @@ pub(super) fn sweep(
     *pairs = order.par_iter().with_min_len(4096).map(|&row| pairs[row as usize]).collect();
     progress.check()?;
     let run = |block: &mut [Pair]| match walls {
-        None => exchange(block, window, closer, |_| false),
+        None => exchange(block, window, |a, b| closer(a, b).then_some([false; 2])),
         Some(detour) => {
-            let mut sight = Sight::default();
-            let bent = |pair: &Pair| detour.barriers().blocks(pair.source, pair.target);
-            exchange(block, window, |a, b| closer_around(a, b, detour, &mut sight), bent)
+            let mut ways = Ways { detour, sight: Sight::default() };
+            exchange(block, window, |a, b| ways.closer(a, b))
         }
     };
     Ok(pairs.par_chunks_mut(BLOCK).map(run).sum())
 }
 
-/// `gains` tells whether two pairs should exchange their targets, `astray` what they are afterwards: a far target is handed on
-/// from neighbour to neighbour, so that each of them goes a little farther instead of one of them all the way.
+/// `gains` tells whether two pairs should exchange their targets, and which of them is astray then.
 fn exchange(
     block: &mut [Pair],
     window: usize,
-    mut gains: impl FnMut(&Pair, &Pair) -> bool,
-    astray: impl Fn(&Pair) -> bool,
+    mut gains: impl FnMut(&Pair, &Pair) -> Option<[bool; 2]>,
 ) -> usize {
     let mut exchanges = 0;
     for i in 1..block.len() {
         let (before, rest) = block.split_at_mut(i);
         let pair = &mut before[i - 1];
         for other in rest.iter_mut().take(window) {
-            if gains(pair, other) {
+            if let Some(astray) = gains(pair, other) {
                 pair.exchange(other);
-                (pair.astray, other.astray) = (astray(pair), astray(other));
+                [pair.astray, other.astray] = astray;
                 exchanges += 1;
             }
         }
@@ -92,20 +89,44 @@ fn closer(a: &Pair, b: &Pair) -> bool {
     (a.source - b.source).dot(a.target - b.target) < 0.0
 }
 
-/// The same around walls. Pairs that follow the same detour are left as the map has them.
-fn closer_around(a: &Pair, b: &Pair, detour: &Detour, sight: &mut Sight) -> bool {
-    if a.astray || b.astray {
-        let mut cost = |source: Vec2, target: Vec2| detour.distance(source, target, sight).powi(2);
-        let (now, then) = (
-            cost(a.source, a.target) + cost(b.source, b.target),
-            cost(a.source, b.target) + cost(b.source, a.target),
-        );
-        return then < now;
+/// Compares pairs where walls stand.
+struct Ways<'a> {
+    detour: &'a Detour,
+    sight: Sight,
+}
+
+impl Ways<'_> {
+    /// As [`closer`], by the ways around walls where one of the pairs is astray. Other pairs that follow the same detour
+    /// are left as the map has them. A far target is handed on from neighbour to neighbour, so that each goes a little
+    /// farther instead of one of them all the way.
+    fn closer(&mut self, a: &Pair, b: &Pair) -> Option<[bool; 2]> {
+        if a.astray || b.astray {
+            return self.shorter(a, b);
+        }
+        let clear = |source, target| !self.detour.barriers().blocks(source, target);
+        let all_clear = || {
+            clear(a.source, b.target)
+                && clear(b.source, a.target)
+                && clear(a.source, a.target)
+                && clear(b.source, b.target)
+        };
+        (closer(a, b) && all_clear()).then_some([false; 2])
     }
-    let blocks = |source, target| detour.barriers().blocks(source, target);
-    closer(a, b)
-        && !blocks(a.source, b.target)
-        && !blocks(b.source, a.target)
-        && !blocks(a.source, a.target)
-        && !blocks(b.source, b.target)
+
+    fn shorter(&mut self, a: &Pair, b: &Pair) -> Option<[bool; 2]> {
+        let now = [self.square(a.source, a.target), self.square(b.source, b.target)];
+        // No way is shorter than the straight one.
+        let least = a.source.distance_squared(b.target) + b.source.distance_squared(a.target);
+        if least >= now[0] + now[1] {
+            return None;
+        }
+        let then = [self.square(a.source, b.target), self.square(b.source, a.target)];
+        // Who has to go farther than before took over the far target.
+        (then[0] + then[1] < now[0] + now[1]).then(|| [then[0] > now[0], then[1] > now[1]])
+    }
+
+    /// Squared length of the shortest way.
+    fn square(&mut self, source: Vec2, target: Vec2) -> f32 {
+        self.detour.distance(source, target, &mut self.sight).powi(2)
+    }
 }
