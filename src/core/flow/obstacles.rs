@@ -173,14 +173,6 @@ impl Obstacles {
             WallRows { positions: &positions, normals: &normals, weight: STIFFNESS * f64::from(spacing) };
         fitter.set_walls((!positions.is_empty()).then_some(rows));
     }
-
-    /// What the artist should know of these walls.
-    pub fn notes(&self) -> Vec<String> {
-        let detours = self.epochs.iter().filter_map(|epoch| epoch.detour.as_ref());
-        let mut notes: Vec<String> = detours.flat_map(|d| d.barriers().notes().iter().cloned()).collect();
-        notes.dedup();
-        notes
-    }
 }
 
 impl Route {

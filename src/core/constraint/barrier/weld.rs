@@ -30,7 +30,8 @@ pub(super) fn bridges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, V
                     (p.distance(nearest) < reach).then(|| bridge(p, nearest, &other.points))
                 })
                 .collect();
-            if !close.is_empty() && i < j {
+            if !close.is_empty() {
+                let (i, j) = (i.min(j), i.max(j));
                 notes.push(format!("walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"));
             }
             bridges.extend(close);
