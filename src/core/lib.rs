@@ -12,9 +12,10 @@
 //! |---|---|
 //! | Sec. 2, photon tracing | [`scene`], [`photon`] |
 //! | Sec. 3, target points and matching | [`target`], [`matching`] |
+//! | Directed lines and wall lines | [`constraint`]; `flow/lines.rs`, `flow/walker.rs` |
 //! | Eq. (1), the field | `flow/field.rs` |
 //! | Eq. (2), guidance | `flow/guidance.rs` |
-//! | Eqs. (3) to (5) and (7), the fit | `flow/fit.rs`, `flow/bending.rs` |
+//! | Eqs. (3) to (7), the fit | `flow/fit.rs`, `flow/bending.rs`, `flow/local.rs` |
 //! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
 //! | synthetic turbulence | `flow/turbulence` |
 //! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |

@@ -129,7 +129,8 @@ impl Walker<'_> {
             return corner;
         }
         let barriers = self.detour.barriers();
-        if self.looks() && barriers.blocks(c, self.detour.heading(route.way, b)) {
+        let unsure = route.way.is_straight() || self.looks();
+        if unsure && barriers.blocks(c, self.detour.heading(route.way, b)) {
             route.way = self.detour.way(c, b, sight).unwrap_or(route.way);
         }
         let mut stops: Stops = ArrayVec::new();

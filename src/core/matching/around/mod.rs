@@ -30,7 +30,7 @@ const STRETCH: f32 = 4.0;
 const CANDIDATES: usize = 12;
 /// Share of the squared straight distance in the cost. All ways around one corner cost alike whoever goes where; this
 /// much keeps neighbours neighbours beyond it.
-const ORDER: f64 = 1.0;
+const ORDER: f64 = 0.03;
 /// Price of a pair that no way connects: more than any way is long, so that as few as possible remain.
 const SHUT_OFF: f64 = 100.0;
 
