@@ -225,12 +225,32 @@ fn one_thread_or_two_give_the_same_tracks() {
     assert_eq!(run(1), run(2));
 }
 
+/// Found by random walls: at the very end the field pushed a photon so that an end of a wall came between it and its
+/// target.
+#[test]
+fn a_photon_that_the_field_pushes_behind_an_end_at_last_goes_around_it() {
+    let walls = [
+        wall(
+            &[[0.0, 0.241_665_44], [0.0, 1.054_337_1], [0.0, 0.913_225], [0.390_016_8, 0.213_577_17]],
+            0.045,
+        ),
+        wall(&[[0.755_903_9, 0.155_262_2], [0.280_989_6, 0.706_305_44], [0.488_094_24, 0.0]], 0.045),
+    ];
+    for seed in 0..20 {
+        let turbulence = Some(TurbulenceSettings { strength: 50.0, seed, ..TurbulenceSettings::default() });
+        let mut random = Stream::new(seed, Purpose::Trace, 0, 0);
+        let mut cloud = || -> Vec<Vec2> { (0..300).map(|_| Vec2::new(random.f32(), random.f32())).collect() };
+        let (source, target) = (cloud(), cloud());
+        check(&source, &target, &walls, &FlowSettings { turbulence, ..settings(0.0) });
+    }
+}
+
 fn polyline() -> impl Strategy<Value = Vec<[f32; 2]>> {
     prop::collection::vec([-0.1f32..1.1, -0.1f32..1.1], 2..8)
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(64))]
 
     /// Polylines that cross themselves, each other, the light and the border; some closed; thick and thin.
     #[test]

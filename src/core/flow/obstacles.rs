@@ -22,6 +22,7 @@ const STIFFNESS: f64 = 10.0;
 pub struct Obstacles {
     walls: Vec<ActiveWall>,
     extent: Vec2,
+    steps: usize,
     /// In the order of time, the first from step 0 on.
     epochs: Vec<Epoch>,
 }
@@ -72,7 +73,12 @@ impl Obstacles {
         let mut steps = fits * SUBSTEPS;
         // A photon turns at most once a step: the walls as they stand now need so many steps.
         for _ in 0..2 {
-            let all = Self { walls: walls.to_vec(), extent, epochs: epochs(walls, steps, extent, progress)? };
+            let all = Self {
+                walls: walls.to_vec(),
+                extent,
+                steps,
+                epochs: epochs(walls, steps, extent, progress)?,
+            };
             let needed = 2 + all.longest();
             if needed <= steps {
                 let stands = all.epochs.iter().any(|epoch| epoch.detour.is_some());
@@ -81,7 +87,7 @@ impl Obstacles {
             steps = needed.next_multiple_of(SUBSTEPS);
         }
         let epochs = epochs(walls, steps, extent, progress)?;
-        Ok((Some(Self { walls: walls.to_vec(), extent, epochs }), steps / SUBSTEPS))
+        Ok((Some(Self { walls: walls.to_vec(), extent, steps, epochs }), steps / SUBSTEPS))
     }
 
     /// Most corners on one way, at any time.
@@ -127,7 +133,10 @@ impl Obstacles {
                 if route.state == State::Passes {
                     continue;
                 }
+                // A way with more turns than there are steps left is none.
+                let in_time = |way: &Way| detour.is_none_or(|d| d.corners_ahead(*way) < self.steps - step);
                 let way = detour.map_or(Some(Way::STRAIGHT), |detour| detour.way(c, b, &mut sight));
+                let way = way.filter(in_time);
                 route.way = way.unwrap_or(Way::STRAIGHT);
                 route.state = if way.is_some() { State::Follows } else { shut_off };
             }

@@ -12,7 +12,6 @@ use super::advect::Step;
 use super::fade::ease;
 use super::guidance::position;
 use super::obstacles::{Route, State};
-use super::trajectory::SUBSTEPS;
 use crate::constraint::detour::Sight;
 use crate::constraint::{Detour, Way};
 
@@ -49,8 +48,17 @@ pub(super) enum Motion {
     Line(Vec2),
 }
 
-/// Places on the way through a step, the last at the end, with the way from each.
-type Stops = ArrayVec<(Vec2, Way), { TURNS + 4 }>;
+/// A place on the way through a step, and the way from there.
+#[derive(Clone, Copy)]
+struct Stop {
+    at: Vec2,
+    way: Way,
+    /// Whether the field led here, and not the way.
+    by_field: bool,
+}
+
+/// The places, the last at the end.
+type Stops = ArrayVec<Stop, { TURNS + 4 }>;
 
 impl Photon {
     /// Guidance straight to the target, Eq. (2).
@@ -76,19 +84,46 @@ impl Walker<'_> {
         let motion = match route.state {
             State::Passes => Motion::Curve(photon.curve(self.step)),
             State::Waits => Motion::Line(self.slide(photon.at, self.drift(photon, photon.at, 0.0))),
-            State::Follows => {
-                let smooth = if route.way.is_straight() { self.smooth(photon, route, sight) } else { None };
-                smooth.unwrap_or_else(|| Motion::Line(self.split(photon, route, sight)))
-            }
+            State::Follows => self.follow(photon, route, sight),
         };
         route.line = matches!(motion, Motion::Line(_));
         motion
     }
 
-    /// Whether photons look in this step if they still see where they are bound for. That costs most of a step, so that
-    /// between two fits they look only where they go, unless turns may be needed that leave no time to lose.
-    fn looks(&self) -> bool {
-        self.step.number % SUBSTEPS == SUBSTEPS - 1 || self.step.left <= self.detour.longest() + SUBSTEPS
+    /// The step of a photon that follows its way. What holds at its begin holds at its end: the photon sees where it is
+    /// bound for, and has no more turns ahead than steps in which to take them, one in each. So a wall is never crossed:
+    /// where nothing better is found the photon rests, or goes to the next turn at once.
+    fn follow(&self, photon: &Photon, route: &mut Route, sight: &mut Sight) -> Motion {
+        let (c, b) = (photon.at, photon.target);
+        if route.way.is_straight()
+            && let Some(motion) = self.smooth(photon, route, sight)
+        {
+            return motion;
+        }
+        if self.step.left == 0 {
+            return Motion::Line(self.detour.heading(route.way, b));
+        }
+        if self.detour.corners_ahead(route.way) >= self.step.left {
+            let corner = self.detour.heading(route.way, b);
+            route.way = self.detour.after(route.way);
+            return Motion::Line(corner);
+        }
+        for by_field in [true, false] {
+            let (end, way) = self.split(photon, route.way, by_field, sight);
+            if self.holds(c, end, way, b) {
+                route.way = way;
+                return Motion::Line(end);
+            }
+        }
+        Motion::Line(c)
+    }
+
+    /// Whether a photon may go from `c` to `end` and on by `way`.
+    fn holds(&self, c: Vec2, end: Vec2, way: Way, b: Vec2) -> bool {
+        let barriers = self.detour.barriers();
+        !barriers.blocks(c, end)
+            && !barriers.blocks(end, self.detour.heading(way, b))
+            && self.detour.corners_ahead(way) < self.step.left
     }
 
     /// The step as without walls, if no wall is met and the target is still in sight, or a way to it is found.
@@ -103,7 +138,7 @@ impl Walker<'_> {
         if barriers.blocks(c, end) {
             return None;
         }
-        if self.looks() && barriers.blocks(end, b) {
+        if barriers.blocks(end, b) {
             let way = self.detour.way(end, b, sight)?;
             if self.step.left == 0 || self.detour.corners_ahead(way) >= self.step.left {
                 return None;
@@ -115,66 +150,48 @@ impl Walker<'_> {
         Some(if bulges { Motion::Line(end) } else { Motion::Curve(curve) })
     }
 
-    /// Half the guidance, the field, half the guidance; returns the end.
-    fn split(&self, photon: &Photon, route: &mut Route, sight: &mut Sight) -> Vec2 {
-        let (c, b) = (photon.at, photon.target);
-        if self.step.left == 0 {
-            route.way = Way::STRAIGHT;
-            return b;
-        }
-        if self.detour.corners_ahead(route.way) >= self.step.left {
-            // No time to lose: a corner every step from here on.
-            let corner = self.detour.heading(route.way, b);
-            route.way = self.detour.after(route.way);
-            return corner;
-        }
-        let barriers = self.detour.barriers();
-        let unsure = route.way.is_straight() || self.looks();
-        if unsure && barriers.blocks(c, self.detour.heading(route.way, b)) {
-            route.way = self.detour.way(c, b, sight).unwrap_or(route.way);
-        }
+    /// Half the guidance, the field if it shall act, half the guidance; returns the end and the way from there.
+    fn split(&self, photon: &Photon, way: Way, by_field: bool, sight: &mut Sight) -> (Vec2, Way) {
         let mut stops: Stops = ArrayVec::new();
-        stops.push((c, route.way));
+        stops.push(Stop { at: photon.at, way, by_field: false });
         self.walk(photon, &mut stops, [0.0, 0.5]);
-        self.slide_on(photon, &mut stops, sight);
+        if by_field {
+            self.slide_on(photon, &mut stops, sight);
+        }
         self.walk(photon, &mut stops, [0.5, 1.0]);
-        let (end, way) = self.farthest(c, &stops);
-        route.way = way;
-        end
+        self.farthest(photon.at, &stops)
     }
 
     /// The last place on the way through the step that is seen from its begin `c`: the chord must not cut a corner. Between
     /// two turns the place is searched for, or photons would gather at the turns.
     fn farthest(&self, c: Vec2, stops: &Stops) -> (Vec2, Way) {
         let barriers = self.detour.barriers();
-        let Some(last) = stops.iter().rposition(|stop| !barriers.blocks(c, stop.0)) else {
-            return stops[0];
-        };
-        let (at, way) = stops[last];
-        let Some(&(next, _)) = stops.get(last + 1) else { return (at, way) };
+        let last = stops.iter().rposition(|stop| !barriers.blocks(c, stop.at)).unwrap_or(0);
+        let Stop { at, way, .. } = stops[last];
+        // From a place that the field only passes through, no way may be known.
+        let Some(next) = stops.get(last + 1).filter(|next| !next.by_field) else { return (at, way) };
         let (mut seen, mut hidden) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (seen + hidden);
-            if barriers.blocks(c, at.lerp(next, middle)) { hidden = middle } else { seen = middle }
+            if barriers.blocks(c, at.lerp(next.at, middle)) { hidden = middle } else { seen = middle }
         }
         // On the leg after a turn the way is the one from that turn on.
-        (at.lerp(next, seen), way)
+        (at.lerp(next.at, seen), way)
     }
 
-    /// Moves on by the field, if a way leads on from there that leaves time enough.
+    /// Moves on by the field, if a way leads on from there.
     fn slide_on(&self, photon: &Photon, stops: &mut Stops, sight: &mut Sight) {
-        let Some(&(c, way)) = stops.last() else { return };
+        let Some(&Stop { at: c, way, .. }) = stops.last() else { return };
         let length = self.detour.length(way, c, photon.target);
         let end = self.slide(c, self.drift(photon, c, length));
-        let Some(renewed) = self.detour.renewed(way, end, photon.target, sight) else { return };
-        if self.detour.corners_ahead(renewed) < self.step.left {
-            let _ = stops.try_push((end, renewed));
+        if let Some(way) = self.detour.renewed(way, end, photon.target, sight) {
+            let _ = stops.try_push(Stop { at: end, way, by_field: true });
         }
     }
 
     /// Walks along the way from the share `from` to the share `to` of the step.
     fn walk(&self, photon: &Photon, stops: &mut Stops, [from, to]: [f64; 2]) {
-        let Some(&(mut c, mut way)) = stops.last() else { return };
+        let Some(&Stop { at: mut c, mut way, .. }) = stops.last() else { return };
         let b = photon.target;
         let length = self.detour.length(way, c, b);
         let (start, step) = (self.step.start, self.step.length);
@@ -186,11 +203,11 @@ impl Walker<'_> {
             let leg = c.distance(heading);
             if distance < leg || way.is_straight() {
                 c = if distance < leg { c + (heading - c) * (distance / leg) } else { b };
-                let _ = stops.try_push((c, way));
+                let _ = stops.try_push(Stop { at: c, way, by_field: false });
                 return;
             }
             (distance, c, way) = (distance - leg, heading, self.detour.after(way));
-            if stops.len() >= TURNS || stops.try_push((c, way)).is_err() {
+            if stops.len() >= TURNS || stops.try_push(Stop { at: c, way, by_field: false }).is_err() {
                 return;
             }
         }
