@@ -1,8 +1,11 @@
 //! The example projects that show the paper's figures, judged by the tracks they store.
 #![allow(clippy::unwrap_used)]
 
+mod crossing;
+
 use std::path::{Path, PathBuf};
 
+use crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::Constraint;
@@ -34,13 +37,6 @@ fn tracks(name: &str, photons: u64) -> (Project, Vec<Vec<Vec2>>, Summary) {
     let rows = numbers.chunks_exact(2 * count as usize);
     let row = |row: &[f32]| row.chunks_exact(2).map(|p| Vec2::new(p[0], p[1])).collect();
     (project, rows.map(row).collect(), summary)
-}
-
-/// Whether the way from `a` to `b` goes from one side of the segment to the other, but for rounding.
-fn crosses(a: Vec2, b: Vec2, p: Vec2, q: Vec2) -> bool {
-    let side = |p: Vec2, q: Vec2, r: Vec2| (q - p).as_dvec2().perp_dot((r - p).as_dvec2());
-    let different = |s: f64, t: f64| s.min(t) < -1e-15 && s.max(t) > 1e-15;
-    different(side(p, q, a), side(p, q, b)) && different(side(a, b, p), side(a, b, q))
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Walls: no photon crosses one that a way leads around, whatever is drawn; judged by the stored tracks alone.
 #![allow(clippy::unwrap_used)]
 
+mod crossing;
+
+use crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
@@ -40,19 +43,6 @@ fn tracks(
     let mut keep = |_: usize, positions: &[Vec2]| rows.push(positions.to_vec());
     let (fields, report) = fit_segment(&course, &Progress::new(), Some(&mut keep)).unwrap();
     (rows, fields, report)
-}
-
-/// Twice the area of the triangle, positive to the left.
-fn side(p: Vec2, q: Vec2, r: Vec2) -> f64 {
-    let (p, q, r) = (p.as_dvec2(), q.as_dvec2(), r.as_dvec2());
-    (q - p).perp_dot(r - p)
-}
-
-/// Whether the way from `a` to `b` goes from one side of the segment to the other. The products of differences of
-/// single precision numbers are exact in double precision to 1e-16.
-fn crosses(a: Vec2, b: Vec2, p: Vec2, q: Vec2) -> bool {
-    let different = |s: f64, t: f64| s.min(t) < -1e-15 && s.max(t) > 1e-15;
-    different(side(p, q, a), side(p, q, b)) && different(side(a, b, p), side(a, b, q))
 }
 
 /// Photons that cross one of the walls in one of the steps for which `stands` holds.

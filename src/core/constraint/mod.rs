@@ -43,14 +43,6 @@ impl Constraint {
         }
     }
 
-    /// The artist's name for it.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::DirectedLine(line) => &line.name,
-            Self::Wall(wall) => &wall.name,
-        }
-    }
-
     /// Whether it acts at all.
     pub fn is_enabled(&self) -> bool {
         match self {

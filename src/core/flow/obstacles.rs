@@ -1,7 +1,5 @@
 //! The walls of a segment, step by step: which stand when, and the ways around them.
 
-use std::sync::Arc;
-
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -15,7 +13,7 @@ use crate::{Progress, Result};
 
 /// Photons per parallel task.
 const CHUNK: usize = 1024;
-/// Price of flow through a wall, for a wall of length 1 over that of all photons: see [`Obstacles::rows`].
+/// Price of flow through a wall, for a wall of length 1 over that of all photons: see [`Obstacles::wall_in`].
 const STIFFNESS: f64 = 10.0;
 
 /// Walls over the steps of a segment.
@@ -32,7 +30,7 @@ struct Epoch {
     first: usize,
     standing: Vec<usize>,
     /// None where no wall stands.
-    detour: Option<Arc<Detour>>,
+    detour: Option<Detour>,
 }
 
 /// How one photon goes on.
@@ -101,7 +99,7 @@ impl Obstacles {
 
     /// The ways around the walls of step `step`; none where no wall stands.
     pub(super) fn detour(&self, step: usize) -> Option<&Detour> {
-        self.epochs[self.index(step)].detour.as_deref()
+        self.epochs[self.index(step)].detour.as_ref()
     }
 
     /// Whether other walls stand in step `step` than in the step before; so in step 0.
@@ -202,7 +200,7 @@ fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress)
         let here: Vec<&ActiveWall> = standing.iter().map(|&i| &walls[i]).collect();
         let detour = match here.is_empty() {
             true => None,
-            false => Some(Arc::new(Detour::new(&here, extent, progress)?)),
+            false => Some(Detour::new(&here, extent, progress)?),
         };
         epochs.push(Epoch { first: step, standing, detour });
     }

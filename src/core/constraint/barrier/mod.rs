@@ -53,11 +53,6 @@ impl Barriers {
         Self { segments, lookup, notes }
     }
 
-    /// All pieces.
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments
-    }
-
     /// What the artist should know: gaps that were closed.
     pub fn notes(&self) -> &[String] {
         &self.notes
