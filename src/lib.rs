@@ -1,3 +1,4 @@
-//! Lightloom, the program: the command line over [`lightloom_core`].
+//! Lightloom: the command line and the window around the core.
 
 pub mod cli;
+pub mod editor;

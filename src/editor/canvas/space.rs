@@ -1,0 +1,93 @@
+//! Screen and plane: where the plane view shows a plane point.
+
+use egui::{Pos2, Rect, pos2};
+use glam::{Vec2, vec2};
+
+use crate::editor::session::PlaneEye;
+
+/// Room around the plane where it fits the view, points.
+const MARGIN: f32 = 28.0;
+/// Smallest and largest zoom.
+pub const ZOOM: std::ops::RangeInclusive<f32> = 0.05..=200.0;
+
+/// The plane on the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Space {
+    middle: Pos2,
+    centre: Vec2,
+    /// Points per plane unit.
+    scale: f32,
+}
+
+impl Space {
+    /// The plane of `extent` seen by `eye` in the rectangle `view`.
+    pub fn new(view: Rect, extent: Vec2, eye: &PlaneEye) -> Self {
+        let room = (view.size() - egui::Vec2::splat(2.0 * MARGIN)).max(egui::Vec2::splat(16.0));
+        let fit = (room.x / extent.x).min(room.y / extent.y);
+        let zoom = if eye.zoom > 0.0 { eye.zoom } else { 1.0 };
+        Self { middle: view.center(), centre: eye.centre.unwrap_or(extent / 2.0), scale: fit * zoom }
+    }
+
+    /// Where a plane point is on the screen; plane y points up.
+    pub fn screen_from_plane(&self, p: Vec2) -> Pos2 {
+        let offset = (p - self.centre) * self.scale;
+        pos2(self.middle.x + offset.x, self.middle.y - offset.y)
+    }
+
+    /// The plane point at a place of the screen.
+    pub fn plane_from_screen(&self, p: Pos2) -> Vec2 {
+        self.centre + vec2(p.x - self.middle.x, self.middle.y - p.y) / self.scale
+    }
+
+    /// Points per plane unit.
+    pub fn scale(&self) -> f32 {
+        self.scale
+    }
+
+    /// The plane's rectangle on the screen.
+    pub fn rect(&self, extent: Vec2) -> Rect {
+        Rect::from_two_pos(self.screen_from_plane(Vec2::ZERO), self.screen_from_plane(extent))
+    }
+
+    /// The eye after zooming by `factor` about a place of the screen, which stays where it is.
+    pub fn zoomed(&self, eye: &PlaneEye, factor: f32, about: Pos2) -> PlaneEye {
+        let old = if eye.zoom > 0.0 { eye.zoom } else { 1.0 };
+        let zoom = (old * factor).clamp(*ZOOM.start(), *ZOOM.end());
+        let fixed = self.plane_from_screen(about);
+        PlaneEye { centre: Some(fixed + (self.centre - fixed) * (old / zoom)), zoom }
+    }
+
+    /// The eye after dragging the plane by `by` points of the screen.
+    pub fn panned(&self, eye: &PlaneEye, by: egui::Vec2) -> PlaneEye {
+        PlaneEye { centre: Some(self.centre - vec2(by.x, -by.y) / self.scale), zoom: eye.zoom }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view() -> Rect {
+        Rect::from_min_size(pos2(100.0, 50.0), egui::vec2(800.0, 600.0))
+    }
+
+    #[test]
+    fn screen_and_plane_lead_back_to_each_other() {
+        let eye = PlaneEye { centre: Some(vec2(0.2, 0.7)), zoom: 3.0 };
+        let space = Space::new(view(), vec2(1.0, 0.75), &eye);
+        for p in [vec2(0.0, 0.0), vec2(0.3, 0.9), vec2(-2.0, 4.0)] {
+            // f32 on a screen of a thousand points.
+            assert!(space.plane_from_screen(space.screen_from_plane(p)).distance(p) < 1e-5);
+        }
+    }
+
+    #[test]
+    fn zooming_keeps_the_point_under_the_pointer() {
+        let eye = PlaneEye::default();
+        let (extent, at) = (vec2(1.0, 0.5), pos2(320.0, 410.0));
+        let space = Space::new(view(), extent, &eye);
+        let closer = Space::new(view(), extent, &space.zoomed(&eye, 2.5, at));
+        assert!(closer.plane_from_screen(at).distance(space.plane_from_screen(at)) < 1e-5);
+        assert!((closer.scale() / space.scale() - 2.5).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,184 @@
+//! What a menu, the command palette and a key can ask for: one list, so that none of them lags behind.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+/// A command of the program.
+#[expect(missing_docs, reason = "each is described where it is listed, in COMMANDS")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Command {
+    New,
+    Open,
+    Save,
+    SaveAs,
+    Quit,
+    Undo,
+    Redo,
+    Copy,
+    Cut,
+    Paste,
+    Duplicate,
+    Delete,
+    SelectAll,
+    SelectNone,
+    Reverse,
+    Join,
+    Split,
+    PlayPause,
+    NextFrame,
+    PreviousFrame,
+    NextKey,
+    PreviousKey,
+    FirstFrame,
+    LastFrame,
+    MarkIn,
+    MarkOut,
+    ClearMarks,
+    ToggleLoop,
+    AddKey,
+    FitView,
+    ActualSize,
+    ZoomIn,
+    ZoomOut,
+    BothViews,
+    PlaneView,
+    ShotView,
+    LookView,
+    ShowArrows,
+    ShowStreamlines,
+    ShowTrails,
+    ShowGrid,
+    ShowTarget,
+    ShowDrawn,
+    ShowDivergence,
+    ShowCurl,
+    ShowResidual,
+    Compare,
+    Snapping,
+    Export,
+    Palette,
+    Shortcuts,
+    Preferences,
+    Tour,
+    Larger,
+    Smaller,
+    NormalSize,
+}
+
+/// Where a command stands in the menus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Menu {
+    File,
+    Edit,
+    Play,
+    View,
+    Help,
+}
+
+/// How a command is shown and called.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Which.
+    pub command: Command,
+    /// Its menu.
+    pub menu: Menu,
+    /// What it is called.
+    pub name: &'static str,
+    /// The key that calls it.
+    pub shortcut: Option<KeyboardShortcut>,
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+const ALT: Modifiers = Modifiers::ALT;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+
+const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> Entry {
+    Entry { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
+}
+
+const fn off(command: Command, menu: Menu, name: &'static str) -> Entry {
+    Entry { command, menu, name, shortcut: None }
+}
+
+/// All commands, in the order of the menus.
+pub const COMMANDS: &[Entry] = &[
+    on(Command::New, Menu::File, "New", CTRL, Key::N),
+    on(Command::Open, Menu::File, "Open…", CTRL, Key::O),
+    on(Command::Save, Menu::File, "Save", CTRL, Key::S),
+    on(Command::SaveAs, Menu::File, "Save as…", CTRL_SHIFT, Key::S),
+    on(Command::Export, Menu::File, "Export…", CTRL, Key::E),
+    on(Command::Preferences, Menu::File, "Preferences", CTRL, Key::Comma),
+    on(Command::Quit, Menu::File, "Quit", CTRL, Key::Q),
+    on(Command::Undo, Menu::Edit, "Undo", CTRL, Key::Z),
+    on(Command::Redo, Menu::Edit, "Redo", CTRL_SHIFT, Key::Z),
+    on(Command::Cut, Menu::Edit, "Cut", CTRL, Key::X),
+    on(Command::Copy, Menu::Edit, "Copy", CTRL, Key::C),
+    on(Command::Paste, Menu::Edit, "Paste", CTRL, Key::V),
+    on(Command::Duplicate, Menu::Edit, "Duplicate", CTRL, Key::D),
+    on(Command::Delete, Menu::Edit, "Delete", NONE, Key::Delete),
+    on(Command::SelectAll, Menu::Edit, "Select all", CTRL, Key::A),
+    on(Command::SelectNone, Menu::Edit, "Select nothing", CTRL_SHIFT, Key::A),
+    on(Command::Reverse, Menu::Edit, "Reverse direction", NONE, Key::R),
+    on(Command::Join, Menu::Edit, "Join lines", CTRL, Key::J),
+    on(Command::Split, Menu::Edit, "Split at points", CTRL_SHIFT, Key::J),
+    on(Command::Snapping, Menu::Edit, "Snapping", ALT, Key::S),
+    on(Command::PlayPause, Menu::Play, "Play or pause", NONE, Key::Space),
+    on(Command::NextFrame, Menu::Play, "Next frame", NONE, Key::Period),
+    on(Command::PreviousFrame, Menu::Play, "Previous frame", NONE, Key::Comma),
+    on(Command::NextKey, Menu::Play, "Next key frame", SHIFT, Key::Period),
+    on(Command::PreviousKey, Menu::Play, "Previous key frame", SHIFT, Key::Comma),
+    on(Command::FirstFrame, Menu::Play, "First frame", NONE, Key::Home),
+    on(Command::LastFrame, Menu::Play, "Last frame", NONE, Key::End),
+    on(Command::MarkIn, Menu::Play, "Play from here", NONE, Key::I),
+    on(Command::MarkOut, Menu::Play, "Play until here", NONE, Key::O),
+    on(Command::ClearMarks, Menu::Play, "Play all", ALT, Key::I),
+    on(Command::ToggleLoop, Menu::Play, "Loop", NONE, Key::L),
+    on(Command::AddKey, Menu::Play, "Add a key frame here", NONE, Key::K),
+    on(Command::FitView, Menu::View, "Fit", CTRL, Key::Num0),
+    on(Command::ActualSize, Menu::View, "Actual size", CTRL, Key::Num1),
+    on(Command::ZoomIn, Menu::View, "Zoom in", NONE, Key::Plus),
+    on(Command::ZoomOut, Menu::View, "Zoom out", NONE, Key::Minus),
+    on(Command::BothViews, Menu::View, "Plane and shot", NONE, Key::Num1),
+    on(Command::PlaneView, Menu::View, "Plane alone", NONE, Key::Num2),
+    on(Command::ShotView, Menu::View, "Shot alone", NONE, Key::Num3),
+    on(Command::LookView, Menu::View, "Look around the scene", NONE, Key::Num4),
+    on(Command::ShowDrawn, Menu::View, "Lines and walls", CTRL, Key::H),
+    on(Command::ShowTarget, Menu::View, "Target", NONE, Key::T),
+    on(Command::ShowArrows, Menu::View, "Flow arrows", NONE, Key::F),
+    on(Command::ShowStreamlines, Menu::View, "Streamlines", SHIFT, Key::F),
+    on(Command::ShowTrails, Menu::View, "Photon trails", SHIFT, Key::T),
+    on(Command::ShowGrid, Menu::View, "Grid of the field", NONE, Key::G),
+    off(Command::ShowDivergence, Menu::View, "Divergence"),
+    off(Command::ShowCurl, Menu::View, "Curl"),
+    off(Command::ShowResidual, Menu::View, "Residual of the fit"),
+    on(Command::Compare, Menu::View, "Compare", NONE, Key::C),
+    on(Command::Larger, Menu::View, "Larger interface", CTRL, Key::Plus),
+    on(Command::Smaller, Menu::View, "Smaller interface", CTRL, Key::Minus),
+    off(Command::NormalSize, Menu::View, "Interface at 100 %"),
+    on(Command::Palette, Menu::Help, "Find a command", CTRL, Key::P),
+    on(Command::Shortcuts, Menu::Help, "Shortcuts", NONE, Key::F1),
+    off(Command::Tour, Menu::Help, "First steps"),
+];
+
+impl Command {
+    /// How it is shown and called.
+    pub fn entry(self) -> Option<&'static Entry> {
+        COMMANDS.iter().find(|entry| entry.command == self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_commands_share_a_key_or_a_name() {
+        for (i, a) in COMMANDS.iter().enumerate() {
+            for b in &COMMANDS[..i] {
+                assert!(a.shortcut.is_none() || a.shortcut != b.shortcut, "{} and {}", a.name, b.name);
+                assert_ne!((a.name, a.command), (b.name, b.command));
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What is selected of what was drawn.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Constraints by index, each with the points of it that are selected; no point means the whole.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    items: BTreeMap<usize, BTreeSet<usize>>,
+}
+
+impl Selection {
+    /// One constraint as a whole.
+    pub fn one(constraint: usize) -> Self {
+        Self::all([constraint])
+    }
+
+    /// Several constraints as wholes.
+    pub fn all(constraints: impl IntoIterator<Item = usize>) -> Self {
+        Self { items: constraints.into_iter().map(|index| (index, BTreeSet::new())).collect() }
+    }
+
+    /// One point of a constraint.
+    pub fn point(constraint: usize, point: usize) -> Self {
+        Self { items: [(constraint, [point].into())].into() }
+    }
+
+    /// Whether nothing is selected.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
+    /// Whether a constraint, or a part of it, is selected.
+    pub fn contains(&self, constraint: usize) -> bool {
+        self.items.contains_key(&constraint)
+    }
+
+    /// The selected points of a constraint; empty where it is selected as a whole or not at all.
+    pub fn points(&self, constraint: usize) -> impl Iterator<Item = usize> {
+        self.items.get(&constraint).into_iter().flatten().copied()
+    }
+
+    /// Whether this point moves with the selection: itself, or the whole constraint, is selected.
+    pub fn moves(&self, constraint: usize, point: usize) -> bool {
+        self.items.get(&constraint).is_some_and(|points| points.is_empty() || points.contains(&point))
+    }
+
+    /// The constraints, rising.
+    pub fn constraints(&self) -> impl Iterator<Item = usize> {
+        self.items.keys().copied()
+    }
+
+    /// Adds a constraint as a whole, or takes it out.
+    pub fn toggle(&mut self, constraint: usize) {
+        if self.items.remove(&constraint).is_none() {
+            self.items.insert(constraint, BTreeSet::new());
+        }
+    }
+
+    /// Adds a point, or takes it out.
+    pub fn toggle_point(&mut self, constraint: usize, point: usize) {
+        let points = self.items.entry(constraint).or_default();
+        if !points.remove(&point) {
+            points.insert(point);
+        } else if points.is_empty() {
+            self.items.remove(&constraint);
+        }
+    }
+
+    /// Adds all of another.
+    pub fn extend(&mut self, other: &Self) {
+        for (&constraint, points) in &other.items {
+            self.items.entry(constraint).or_default().extend(points);
+        }
+    }
+
+    /// Forgets constraints and points that are no more: `points` is the number of points of each constraint.
+    pub fn keep_within(&mut self, points: &[usize]) {
+        self.items.retain(|&constraint, chosen| {
+            let Some(&count) = points.get(constraint) else { return false };
+            let whole = chosen.is_empty();
+            chosen.retain(|&point| point < count);
+            whole || !chosen.is_empty()
+        });
+    }
+}
