@@ -65,6 +65,7 @@ pub enum Command {
 }
 
 /// Where a command stands in the menus.
+#[expect(missing_docs, reason = "each is what it is called")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Menu {
     File,
