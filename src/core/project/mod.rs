@@ -196,6 +196,11 @@ impl Project {
         })
     }
 
+    /// Extent of the plane in plane units: the longer side is 1.
+    pub fn extent(&self) -> Vec2 {
+        self.scene.as_ref().map_or_else(|| self.plane.extent(), |scene| scene.receiver.extent())
+    }
+
     /// Whether photons must be traced: a key shows the physical caustic, or caustics are told apart.
     pub fn traces(&self) -> bool {
         !self.caustics.is_empty() || self.shown().any(|shows| *shows == Shows::PhysicalCaustic)

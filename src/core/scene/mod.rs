@@ -50,6 +50,16 @@ pub struct SceneDesc {
     pub environment: EnvironmentDesc,
 }
 
+impl SceneDesc {
+    /// The camera and the receiver, which need no file.
+    ///
+    /// # Errors
+    /// A camera that looks nowhere, a receiver of no size.
+    pub fn camera_and_receiver(&self) -> Result<(camera::Camera, Receiver)> {
+        Ok((self.camera.resolve("scene.camera")?, self.receiver.resolve("scene.receiver")?))
+    }
+}
+
 /// One object of a loaded scene: all triangles of one material of one [`MeshDesc`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
