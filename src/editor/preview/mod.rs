@@ -1,6 +1,8 @@
 //! What the worker finds out, and what the window shows of it.
 
 mod coverage;
+pub mod gpu;
+pub mod worker;
 
 pub use coverage::{Coverage, State};
 
