@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use lightloom_core::Progress;
 use lightloom_core::progress::Snapshot;
@@ -13,6 +14,9 @@ pub struct Worker<Q> {
     thread: Option<JoinHandle<()>>,
 }
 
+/// How long shielded work is left alone, although something newer waits.
+const PATIENCE: Duration = Duration::from_millis(300);
+
 struct Shared<Q> {
     state: Mutex<State<Q>>,
     changed: Condvar,
@@ -22,25 +26,53 @@ struct State<Q> {
     next: Option<Q>,
     /// The work that goes on; none while the thread waits.
     current: Option<Progress>,
+    /// Since when a newer request does not stop it.
+    shielded: Option<Instant>,
     closed: bool,
     panicked: Option<String>,
+}
+
+/// One request's time on the thread.
+pub struct Turn<'a> {
+    /// Cancelled when a newer request comes.
+    pub progress: Progress,
+    shield: &'a dyn Fn(bool),
+}
+
+impl Turn<'_> {
+    /// Does something short that is finished even when a newer request comes meanwhile: else nothing would ever be seen
+    /// while requests come quickly, as from a slider.
+    pub fn shielded<T>(&self, work: impl FnOnce(&Progress) -> T) -> T {
+        (self.shield)(true);
+        let done = work(&self.progress);
+        (self.shield)(false);
+        done
+    }
 }
 
 impl<Q> Shared<Q> {
     fn state(&self) -> MutexGuard<'_, State<Q>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+
+    fn shield(&self, up: bool) {
+        let mut state = self.state();
+        state.shielded = up.then(Instant::now);
+        if let (false, true, Some(current)) = (up, state.next.is_some(), &state.current) {
+            current.cancel();
+        }
+    }
 }
 
 impl<Q: Send + 'static> Worker<Q> {
     /// Starts a thread called `name`. `make` builds what does the work, on that thread, and again after a panic. Without a
     /// thread, which the system may refuse, requests are answered by nobody and [`Self::panicked`] says so.
-    pub fn new<W: FnMut(Q, &Progress)>(
+    pub fn new<W: FnMut(Q, &Turn)>(
         name: &str,
         wake: impl Fn() + Send + 'static,
         make: impl Fn() -> W + Send + 'static,
     ) -> Self {
-        let state = State { next: None, current: None, closed: false, panicked: None };
+        let state = State { next: None, current: None, shielded: None, closed: false, panicked: None };
         let shared = Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new() });
         let theirs = shared.clone();
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
@@ -58,7 +90,8 @@ impl<Q: Send + 'static> Worker<Q> {
     pub fn ask(&self, request: Q) {
         let mut state = self.shared.state();
         state.next = Some(request);
-        if let Some(current) = &state.current {
+        let left_alone = state.shielded.is_some_and(|since| since.elapsed() < PATIENCE);
+        if let Some(current) = state.current.as_ref().filter(|_| !left_alone) {
             current.cancel();
         }
         self.shared.changed.notify_one();
@@ -82,17 +115,18 @@ impl<Q: Send + 'static> Worker<Q> {
 }
 
 /// Works until there is a panic (then true) or the end.
-fn run<Q, W: FnMut(Q, &Progress)>(shared: &Shared<Q>, make: &impl Fn() -> W) -> bool {
+fn run<Q, W: FnMut(Q, &Turn)>(shared: &Shared<Q>, make: &impl Fn() -> W) -> bool {
     let worked = catch_unwind(AssertUnwindSafe(|| {
         let mut work = make();
         while let Some((request, progress)) = next(shared) {
-            work(request, &progress);
+            let shield = |up: bool| shared.shield(up);
+            work(request, &Turn { progress, shield: &shield });
             shared.state().current = None;
         }
     }));
     let Err(panic) = worked else { return false };
     let mut state = shared.state();
-    state.current = None;
+    (state.current, state.shielded) = (None, None);
     state.panicked = Some(what(&*panic));
     true
 }
@@ -141,7 +175,6 @@ impl<Q> Drop for Worker<Q> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use std::sync::mpsc::channel;
-    use std::time::{Duration, Instant};
 
     use super::*;
 
@@ -153,12 +186,12 @@ mod tests {
             || {},
             move || {
                 let done = done.clone();
-                move |request: u32, progress: &Progress| {
+                move |request: u32, turn: &Turn| {
                     // Request 1 never ends by itself.
-                    while request == 1 && !progress.is_cancelled() {
+                    while request == 1 && !turn.progress.is_cancelled() {
                         std::thread::sleep(Duration::from_millis(1));
                     }
-                    done.send((request, progress.is_cancelled())).unwrap();
+                    done.send((request, turn.progress.is_cancelled())).unwrap();
                 }
             },
         );
@@ -172,6 +205,32 @@ mod tests {
     }
 
     #[test]
+    fn shielded_work_is_finished_before_the_newer_request_is_taken() {
+        let (done, seen) = channel();
+        let worker = Worker::new(
+            "test",
+            || {},
+            move || {
+                let done = done.clone();
+                move |request: u32, turn: &Turn| {
+                    let stopped = turn.shielded(|progress| {
+                        std::thread::sleep(Duration::from_millis(20));
+                        progress.is_cancelled()
+                    });
+                    done.send((request, stopped, turn.progress.is_cancelled())).unwrap();
+                }
+            },
+        );
+        worker.ask(1);
+        while worker.progress().is_none() {
+            std::thread::yield_now();
+        }
+        worker.ask(2);
+        assert_eq!(seen.recv().unwrap(), (1, false, true));
+        assert_eq!(seen.recv().unwrap(), (2, false, false));
+    }
+
+    #[test]
     fn a_panic_is_told_and_the_next_request_is_answered() {
         let (done, seen) = channel();
         let worker = Worker::new(
@@ -179,7 +238,7 @@ mod tests {
             || {},
             move || {
                 let done = done.clone();
-                move |request: u32, _: &Progress| {
+                move |request: u32, _: &Turn| {
                     assert_ne!(request, 1, "one is too much");
                     done.send(request).unwrap();
                 }
@@ -203,8 +262,8 @@ mod tests {
             "test",
             || {},
             || {
-                |(): (), progress: &Progress| {
-                    while !progress.is_cancelled() {
+                |(): (), turn: &Turn| {
+                    while !turn.progress.is_cancelled() {
                         std::thread::sleep(Duration::from_millis(1));
                     }
                 }
