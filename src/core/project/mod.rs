@@ -11,6 +11,7 @@
 mod asset_path;
 mod caustic;
 mod describe;
+mod file;
 pub mod frames;
 mod keyframe;
 mod load;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 pub use asset_path::AssetFolder;
 pub(crate) use caustic::unknown;
 pub use caustic::{CausticDesc, CausticKey};
+pub use file::ProjectFile;
 pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
