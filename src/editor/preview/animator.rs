@@ -1,32 +1,13 @@
 //! The worker that sketches the animation: coarse at once, then better.
 
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lightloom_core::pipeline::{Detail, Sketch, Sketcher};
+use lightloom_core::pipeline::{Detail, Sketch};
 use lightloom_core::progress::Snapshot;
-use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::{Error, Result};
+use lightloom_core::{Error, Progress, Result};
 
+use super::subject::{Studio, Subject};
 use super::worker::{Turn, Worker};
-
-/// A project, and where its files are.
-#[derive(Clone, Debug)]
-pub struct Subject {
-    /// The project.
-    pub project: Arc<Project>,
-    /// The project file, or one that could stand there: its files are found from its folder.
-    pub base: PathBuf,
-    /// Whether it may read files from anywhere.
-    pub external: bool,
-}
-
-impl Subject {
-    /// Whether nothing differs; projects are compared by pointer.
-    pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.project, &other.project) && self.base == other.base && self.external == other.external
-    }
-}
 
 /// What the worker found out about one version of a project.
 #[derive(Clone, Default)]
@@ -60,8 +41,8 @@ impl Animator {
         let seen = wake.clone();
         let worker = Worker::new("animation", wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
-            let mut desk = Desk::default();
-            move |request: Request, turn: &Turn| desk.answer(&request, turn, &found, &seen)
+            let mut studio = Studio::default();
+            move |request: Request, turn: &Turn| answer(&mut studio, &request, turn, &found, &seen)
         });
         Self { worker, found, version: 0 }
     }
@@ -94,55 +75,44 @@ impl Animator {
     }
 }
 
-/// What the worker keeps from request to request.
-#[derive(Default)]
-struct Desk {
-    sketcher: Option<(PathBuf, bool, Sketcher)>,
-}
-
-impl Desk {
-    fn answer(&mut self, request: &Request, turn: &Turn, found: &Mutex<Found>, seen: &impl Fn()) {
-        let tell = |change: &dyn Fn(&mut Found)| {
-            let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
-            if found.version != request.version {
-                *found = Found { version: request.version, ..Found::default() };
+/// Sketches at every detail, coarse first, and tells what there is to see.
+fn answer(studio: &mut Studio, request: &Request, turn: &Turn, found: &Mutex<Found>, seen: &impl Fn()) {
+    let tell = |change: &dyn Fn(&mut Found)| {
+        let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
+        if found.version != request.version {
+            *found = Found { version: request.version, ..Found::default() };
+        }
+        change(&mut found);
+        drop(found);
+        seen();
+    };
+    for detail in [Detail::Draft, Detail::Preview, Detail::Fine] {
+        let ready = |sketch: &Arc<Sketch>| {
+            // The old light stays on the screen until there is new one to see.
+            if sketch.is_ready(request.first) {
+                tell(&|found| found.sketches[detail as usize] = Some(sketch.clone()));
             }
-            change(&mut found);
-            drop(found);
-            seen();
         };
-        for detail in [Detail::Draft, Detail::Preview, Detail::Fine] {
-            let mut ready = |sketch: &Arc<Sketch>| {
-                // The old light stays on the screen until there is new one to see.
-                if sketch.is_ready(request.first) {
-                    tell(&|found| found.sketches[detail as usize] = Some(sketch.clone()));
-                }
-            };
-            match self.sketch(request, detail, turn, &mut ready) {
-                Ok(sketch) => tell(&|found| found.sketches[detail as usize] = Some(sketch.clone())),
-                Err(Error::Cancelled) => return,
-                Err(error) => return tell(&|found| found.problem = Some(error.to_string())),
-            }
+        match sketch(studio, request, detail, turn, ready) {
+            Ok(sketch) => tell(&|found| found.sketches[detail as usize] = Some(sketch.clone())),
+            Err(Error::Cancelled) => return,
+            Err(error) => return tell(&|found| found.problem = Some(error.to_string())),
         }
     }
+}
 
-    fn sketch(
-        &mut self,
-        request: &Request,
-        detail: Detail,
-        turn: &Turn,
-        ready: &mut dyn FnMut(&Arc<Sketch>),
-    ) -> Result<Arc<Sketch>> {
-        let Subject { project, base, external } = &request.subject;
-        if self.sketcher.as_ref().is_none_or(|(at, outside, _)| at != base || outside != external) {
-            let sketcher = Sketcher::new(AssetFolder::new(base, *external)?);
-            self.sketcher = Some((base.clone(), *external, sketcher));
-        }
-        let Some((_, _, sketcher)) = &mut self.sketcher else { return Err(Error::Cancelled) };
-        let first = request.first;
-        match detail {
-            Detail::Draft => turn.shielded(|progress| sketcher.sketch(project, detail, first, progress, ready)),
-            Detail::Preview | Detail::Fine => sketcher.sketch(project, detail, first, &turn.progress, ready),
-        }
+fn sketch(
+    studio: &mut Studio,
+    request: &Request,
+    detail: Detail,
+    turn: &Turn,
+    mut ready: impl FnMut(&Arc<Sketch>),
+) -> Result<Arc<Sketch>> {
+    let Request { subject, first, .. } = request;
+    let sketcher = studio.sketcher(subject)?;
+    let mut sketch = |progress: &Progress| sketcher.sketch(&subject.project, detail, *first, progress, &mut ready);
+    match detail {
+        Detail::Draft => turn.shielded(sketch),
+        Detail::Preview | Detail::Fine => sketch(&turn.progress),
     }
 }
