@@ -54,7 +54,8 @@ pub fn main() -> ExitCode {
 /// Opens the window. A project that is not there is told here, where a mistyped command is seen.
 fn edit(project: Option<&Path>) -> Result<u8, Error> {
     if let Some(path) = project.filter(|path| !path.is_file()) {
-        let what = format!("'{}' is neither a command nor a project file; see lightloom --help", path.display());
+        let what =
+            format!("'{}' is neither a command nor a project file; see lightloom --help", path.display());
         return Err(Error::value("PROJECT", what));
     }
     match crate::editor::run(project) {

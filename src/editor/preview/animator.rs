@@ -59,11 +59,6 @@ impl Animator {
         (found.version == self.version).then(|| found.clone())
     }
 
-    /// What was found out last, whichever version it is of.
-    pub(super) fn last(&self) -> Found {
-        self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
     /// What the worker does now: the stage, and how far it is.
     pub(super) fn progress(&self) -> Option<Snapshot> {
         self.worker.progress()
@@ -110,7 +105,8 @@ fn sketch(
 ) -> Result<Arc<Sketch>> {
     let Request { subject, first, .. } = request;
     let sketcher = studio.sketcher(subject)?;
-    let mut sketch = |progress: &Progress| sketcher.sketch(&subject.project, detail, *first, progress, &mut ready);
+    let mut sketch =
+        |progress: &Progress| sketcher.sketch(&subject.project, detail, *first, progress, &mut ready);
     match detail {
         Detail::Draft => turn.shielded(sketch),
         Detail::Preview | Detail::Fine => sketch(&turn.progress),

@@ -85,7 +85,10 @@ mod tests {
         let toolbox = Toolbox::default();
         for (i, tool) in toolbox.tools().enumerate() {
             let taken = |key: Key| {
-                COMMANDS.iter().filter_map(|entry| entry.shortcut).any(|s| s.modifiers.is_none() && s.logical_key == key)
+                COMMANDS
+                    .iter()
+                    .filter_map(|entry| entry.shortcut)
+                    .any(|s| s.modifiers.is_none() && s.logical_key == key)
             };
             assert!(!taken(tool.key()), "{} and a command", tool.name());
             for other in toolbox.tools().skip(i + 1) {
