@@ -33,7 +33,13 @@ pub(super) fn fit(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
     for span in corners.windows(2) {
         let span = &apart[span[0]..=span[1]];
         let mut cubics = Vec::new();
-        fit_span(span, tangent(span.iter(), tolerance), tangent(span.iter().rev(), tolerance), tolerance, &mut cubics);
+        fit_span(
+            span,
+            tangent(span.iter(), tolerance),
+            tangent(span.iter().rev(), tolerance),
+            tolerance,
+            &mut cubics,
+        );
         for cubic in cubics {
             flatten(&cubic, 0.5 * tolerance, &mut fitted);
         }
@@ -50,7 +56,8 @@ fn corners(points: &[Vec2], reach: f32) -> Vec<usize> {
         let after = points[i..].iter().find(|p| p.distance(points[i]) >= reach)?;
         Some((points[i] - *before).normalize_or_zero().dot((*after - points[i]).normalize_or_zero()))
     };
-    let turns: Vec<Option<f32>> = (0..=last).map(|i| if i == 0 || i == last { None } else { turn(i) }).collect();
+    let turns: Vec<Option<f32>> =
+        (0..=last).map(|i| if i == 0 || i == last { None } else { turn(i) }).collect();
     let mut sharpest: Option<usize> = None;
     for i in 0..=last {
         let sharp = turns[i].is_some_and(|cosine| cosine < CORNER);
@@ -140,10 +147,8 @@ fn least_squares(points: &[Vec2], parameters: &[f32], start: Vec2, end: Vec2) ->
     }
     let determinant = c[0][0] * c[1][1] - c[0][1] * c[0][1];
     let chord = first.distance(last);
-    let reach = [
-        (x[0] * c[1][1] - x[1] * c[0][1]) / determinant,
-        (c[0][0] * x[1] - c[0][1] * x[0]) / determinant,
-    ];
+    let reach =
+        [(x[0] * c[1][1] - x[1] * c[0][1]) / determinant, (c[0][0] * x[1] - c[0][1] * x[0]) / determinant];
     // Handles that point back, or far beyond the stroke, make loops; a third of the chord never does.
     let longest = 2.0 * stroke::length(points);
     let sound = reach.iter().all(|r| (1e-3 * chord..=longest).contains(r) && *r > 0.0);
@@ -169,7 +174,8 @@ fn newton(cubic: &Cubic, p: Vec2, t: f32) -> f32 {
 
 /// Appends points of the curve after its first, so dense that the polyline strays by less than `tolerance`.
 fn flatten(cubic: &Cubic, tolerance: f32, out: &mut Vec<Vec2>) {
-    let bend = (cubic[0] - 2.0 * cubic[1] + cubic[2]).length().max((cubic[1] - 2.0 * cubic[2] + cubic[3]).length());
+    let bend =
+        (cubic[0] - 2.0 * cubic[1] + cubic[2]).length().max((cubic[1] - 2.0 * cubic[2] + cubic[3]).length());
     let steps = (0.75 * bend / tolerance).sqrt().ceil().clamp(1.0, 200.0) as usize;
     out.extend((1..=steps).map(|i| point(cubic, i as f32 / steps as f32)));
 }

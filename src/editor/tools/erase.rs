@@ -97,10 +97,18 @@ impl Tool for Erase {
             }
             Gesture::Drag(p) => self.sweep(p, look),
             Gesture::Release(_) => {
-                if self.left.take().is_some() { vec![Action::Settle] } else { Vec::new() }
+                if self.left.take().is_some() {
+                    vec![Action::Settle]
+                } else {
+                    Vec::new()
+                }
             }
             Gesture::Key(Key::Escape) => {
-                if self.left.take().is_some() { vec![Action::Abort] } else { Vec::new() }
+                if self.left.take().is_some() {
+                    vec![Action::Abort]
+                } else {
+                    Vec::new()
+                }
             }
             Gesture::DoubleClick(_) | Gesture::Key(_) => Vec::new(),
         }

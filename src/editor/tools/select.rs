@@ -50,7 +50,8 @@ impl Select {
         {
             self.doing = match hit {
                 Some(hit) => {
-                    let base = arrange::chosen(look.project, selection).map(|(i, c)| (i, c.clone())).collect();
+                    let base =
+                        arrange::chosen(look.project, selection).map(|(i, c)| (i, c.clone())).collect();
                     Doing::Moving { from: grabbed(*hit, *at, look), selection: selection.clone(), base }
                 }
                 None => Doing::Boxing { from: *at, to: p },
@@ -89,7 +90,9 @@ impl Select {
         self.caught = None;
         match std::mem::take(&mut self.doing) {
             Doing::Moving { .. } => vec![Action::Abort],
-            Doing::Nothing if !look.session.selection.is_empty() => vec![Action::Select(Selection::default())],
+            Doing::Nothing if !look.session.selection.is_empty() => {
+                vec![Action::Select(Selection::default())]
+            }
             _ => Vec::new(),
         }
     }

@@ -36,12 +36,19 @@ pub struct Shown<'a> {
 pub fn shown<'a>(project: &'a Project, session: &Session) -> Option<Shown<'a>> {
     let after = project.keys.iter().position(|key| key.frame >= session.playhead);
     let key = after.or_else(|| project.keys.len().checked_sub(1))?;
-    let name = session.focus.caustic.and_then(|i| project.caustics.get(i)).map(|caustic| caustic.name.as_str());
-    let own = name.filter(|name| project.keys[key].caustics.get(*name).is_some_and(|own| own.shows.is_some()));
+    let name =
+        session.focus.caustic.and_then(|i| project.caustics.get(i)).map(|caustic| caustic.name.as_str());
+    let own =
+        name.filter(|name| project.keys[key].caustics.get(*name).is_some_and(|own| own.shows.is_some()));
     match project.keys[key].shown_by(own) {
         Shows::Image(image) => Some(Shown { key, caustic: own, image }),
         Shows::PhysicalCaustic | Shows::Points(_) => None,
     }
+}
+
+/// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
+pub fn target_corners(look: &Look) -> Option<[Vec2; 4]> {
+    Some(Frame::new(&shown(look.project, look.session)?.image.placement, look).corners())
 }
 
 impl Shown<'_> {
