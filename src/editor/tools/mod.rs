@@ -22,8 +22,9 @@ use egui::Key;
 use glam::Vec2;
 use lightloom_core::project::Project;
 
-pub use target::{Shown, shown};
+pub use target::{Shown, shown, target_corners};
 pub use toolbox::Toolbox;
+pub(crate) use toolbox::is_covered;
 
 use super::action::Action;
 use super::session::Session;

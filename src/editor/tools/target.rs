@@ -46,6 +46,11 @@ pub fn shown<'a>(project: &'a Project, session: &Session) -> Option<Shown<'a>> {
     }
 }
 
+/// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
+pub fn target_corners(look: &Look) -> Option<[Vec2; 4]> {
+    Some(Frame::new(&shown(look.project, look.session)?.image.placement, look).corners())
+}
+
 impl Shown<'_> {
     /// The keys of the project with this picture placed otherwise.
     fn placed(&self, project: &Project, placement: &Placement) -> Vec<KeyFrame> {

@@ -64,7 +64,7 @@ impl Toolbox {
 
     /// The tool whose key was pressed, by its place in the list. The key is used up.
     pub fn called(&self, ctx: &egui::Context) -> Option<usize> {
-        if ctx.egui_wants_keyboard_input() {
+        if ctx.text_edit_focused() || is_covered(ctx) {
             return None;
         }
         let pressed = |input: &mut egui::InputState, key: Key| {
@@ -72,6 +72,11 @@ impl Toolbox {
         };
         ctx.input_mut(|input| self.tools.iter().position(|tool| pressed(input, tool.key())))
     }
+}
+
+/// Whether a dialog or a menu is open, which keys belong to.
+pub(crate) fn is_covered(ctx: &egui::Context) -> bool {
+    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 #[cfg(test)]
