@@ -1,22 +1,36 @@
 //! The application: the order of a frame. Results come in, panels are shown, actions are carried out, the preview is asked.
 
-use std::path::Path;
+mod apply;
+mod commands;
+mod layout;
+
+use std::time::Duration;
 
 use eframe::egui;
-use egui::{CentralPanel, Panel};
 
 use super::action::Action;
+use super::clipboard::Clipboard;
 use super::document::Document;
 use super::panels::Desk;
+use super::playback::{self, Playback};
 use super::preview::{Preview, Subject};
 use super::session::Session;
-use super::theme;
+use super::tools::Toolbox;
+use super::timeline::Timeline;
+use super::views::Views;
+use super::{templates, theme};
 
 /// The window's state.
 pub struct App {
     document: Document,
     session: Session,
     preview: Preview,
+    toolbox: Toolbox,
+    timeline: Timeline,
+    playback: Playback,
+    views: Views,
+    /// What the status bar says, until something else happens.
+    word: String,
 }
 
 impl App {
@@ -24,34 +38,77 @@ impl App {
     pub fn new(ctx: &egui::Context, document: Document) -> Self {
         theme::apply(ctx);
         let wake = ctx.clone();
+        let first = document.project().keys.first().map_or(1, |key| key.frame);
         Self {
-            session: Session {
-                playhead: document.project().keys.first().map_or(1, |key| key.frame),
-                ..Session::default()
-            },
+            session: Session { playhead: first, ..Session::default() },
             document,
             preview: Preview::new(move || wake.request_repaint()),
+            toolbox: Toolbox::default(),
+            timeline: Timeline::default(),
+            playback: Playback::default(),
+            views: Views::default(),
+            word: String::new(),
         }
+    }
+
+    /// The document, to look at.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The state of the window, to look at.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// One frame of the window.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        self.play(ui.ctx());
+        let mut actions = Vec::new();
+        self.keys(ui.ctx(), &mut actions);
+        self.layout(ui, &mut actions);
+        for action in actions {
+            self.apply(ui.ctx(), action);
+        }
+        let gesture = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
+        if !gesture {
+            self.document.settle();
+        }
+        self.follow();
+    }
+
+    /// Time that passed moves the playhead.
+    fn play(&mut self, ctx: &egui::Context) {
+        let frames = playback::played(self.document.project(), &self.session);
+        let fps = playback::fps(self.document.project());
+        let seconds = ctx.input(|input| input.stable_dt).into();
+        if let Some(next) = self.playback.advance(&mut self.session, &frames, fps, seconds) {
+            ctx.request_repaint_after(Duration::from_secs_f64(next));
+        }
+    }
+
+    /// Tells the workers what is wanted now.
+    fn follow(&mut self) {
+        let subject = Subject {
+            project: self.document.project().clone(),
+            base: templates::file_of(&self.document),
+            external: false,
+        };
+        self.preview.follow(&subject, &self.session, self.views.wanted());
+    }
+
+    /// What panels see.
+    fn desk<'a>(&'a mut self, actions: &'a mut Vec<Action>) -> Desk<'a> {
+        Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions }
     }
 }
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
-        let mut actions: Vec<Action> = Vec::new();
-        let mut desk = Desk {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions: &mut actions,
-        };
-        Panel::bottom("status").show(ui, |ui| ui.label(desk.preview.problem().unwrap_or("Ready").to_owned()));
-        CentralPanel::default().show(ui, |ui| ui.label(desk.document.title()));
-        desk.session.playing = false;
-        let subject = Subject {
-            project: self.document.project().clone(),
-            base: self.document.path().unwrap_or(Path::new("project.json")).to_owned(),
-            external: false,
-        };
-        self.preview.follow(&subject, self.session.playhead);
+        self.show(ui);
+    }
+
+    fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
+        theme::SURROUND.to_normalized_gamma_f32()
     }
 }
