@@ -2,6 +2,7 @@
 //! project and calls the core.
 
 pub mod action;
+mod app;
 pub mod canvas;
 pub mod command;
 pub mod document;
@@ -11,21 +12,12 @@ pub mod preview;
 pub mod selection;
 pub mod session;
 pub mod shortcuts;
+mod start;
 pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
-
-mod app;
-
-use std::path::Path;
+mod views;
 
 pub use app::App;
-
-/// Opens the window, on a project or on the example. Returns when it is closed.
-///
-/// # Errors
-/// There is no screen, or nothing that draws on it; the system's words.
-pub fn run(_project: Option<&Path>) -> Result<(), String> {
-    Err("it is not there yet".into())
-}
+pub use start::run;

@@ -20,14 +20,13 @@ impl App {
             Action::Playhead(frame) => self.session.playhead = frame,
             Action::Solo(groups) => self.session.solo = groups,
             Action::Probe(row) => self.session.probe = row,
-            Action::Open(path) => self.open(path),
-            Action::New(template) => self.start_from(template),
+            Action::Open(_) | Action::New(_) => {}
             Action::Say(words) => self.word = words,
         }
         self.keep_selection();
     }
 
-    fn edit(&mut self, edit: Edit) {
+    pub(super) fn edit(&mut self, edit: Edit) {
         let removed = matches!(edit, Edit::Remove(_));
         match self.document.edit(edit) {
             Ok(()) if removed => self.session.selection = Selection::default(),

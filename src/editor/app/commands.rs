@@ -6,9 +6,9 @@ use super::App;
 use crate::editor::action::Action;
 use crate::editor::command::{COMMANDS, Command};
 use crate::editor::panels::Desk;
-use crate::editor::session::{FieldMap, Views};
+use crate::editor::session::Views;
 use crate::editor::timeline;
-use crate::editor::tools::arrange;
+use crate::editor::tools::arrange::{self, Arranged};
 
 impl App {
     /// Turns keys into commands.
@@ -57,6 +57,14 @@ impl App {
             Command::ShotView => self.session.views = Views::Shot,
             Command::LookView => self.session.views = Views::Look,
             _ => {}
+        }
+    }
+
+    /// Changes what was drawn, and selects what came of it.
+    fn arrange(&mut self, arranged: Arranged) {
+        if let Some((edit, selection)) = arranged {
+            self.edit(edit);
+            self.session.selection = selection;
         }
     }
 }

@@ -6,19 +6,15 @@ use egui::{CentralPanel, Frame, Margin, Panel, Ui};
 use super::App;
 use crate::editor::action::Action;
 use crate::editor::panels::Desk;
+use crate::editor::theme;
 use crate::editor::timeline::Timeline;
 use crate::editor::tools::bar;
-use crate::editor::theme;
 
 impl App {
     /// Shows everything; what is asked for comes into `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let mut desk = Desk {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions,
-        };
+        let mut desk =
+            Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
         let desk = &mut desk;
         Panel::bottom("status").exact_size(24.0).show(ui, |ui| status(ui, desk, &self.word));
         Panel::bottom("timeline")

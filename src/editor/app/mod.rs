@@ -9,14 +9,13 @@ use std::time::Duration;
 use eframe::egui;
 
 use super::action::Action;
-use super::clipboard::Clipboard;
 use super::document::Document;
 use super::panels::Desk;
 use super::playback::{self, Playback};
 use super::preview::{Preview, Subject};
 use super::session::Session;
-use super::tools::Toolbox;
 use super::timeline::Timeline;
+use super::tools::Toolbox;
 use super::views::Views;
 use super::{templates, theme};
 
@@ -34,15 +33,17 @@ pub struct App {
 }
 
 impl App {
-    /// A window that shows `document`.
-    pub fn new(ctx: &egui::Context, document: Document) -> Self {
+    /// A window that shows `document`. `by_card` tells whether the graphics card can draw photons.
+    pub fn new(ctx: &egui::Context, document: Document, by_card: bool) -> Self {
         theme::apply(ctx);
         let wake = ctx.clone();
         let first = document.project().keys.first().map_or(1, |key| key.frame);
+        let mut preview = Preview::new(move || wake.request_repaint());
+        preview.draw_by_card(by_card);
         Self {
             session: Session { playhead: first, ..Session::default() },
             document,
-            preview: Preview::new(move || wake.request_repaint()),
+            preview,
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),

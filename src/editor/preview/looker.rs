@@ -29,14 +29,15 @@ pub(super) struct Stand {
 
 /// What was seen last.
 #[derive(Clone, Default)]
-pub(super) struct Seen {
+pub struct Seen {
     /// Counts the pictures, so that each is uploaded once.
-    pub(super) number: u64,
-    pub(super) picture: Option<Arc<ColorImage>>,
+    pub number: u64,
+    /// As the screen shows it.
+    pub picture: Option<Arc<ColorImage>>,
     /// Lights and camera in it.
-    pub(super) marks: Vec<Mark>,
+    pub marks: Vec<Mark>,
     /// Where plane points are in it.
-    pub(super) plane: Option<PlaneView>,
+    pub plane: Option<PlaneView>,
 }
 
 /// Looks from the newest place.
@@ -85,8 +86,8 @@ impl Looker {
 
 fn look(studio: &mut Studio, exposure: &mut Exposure, stand: &Stand, turn: &Turn) -> Result<Look> {
     let Stand { subject, camera, size, moment, .. } = stand;
-    let light = moment.as_ref().and_then(|Moment { sketch, frame, shown }| {
-        exposure.expose(sketch, *frame, TEXELS, shown)
-    });
+    let light = moment
+        .as_ref()
+        .and_then(|Moment { sketch, frame, shown }| exposure.expose(sketch, *frame, TEXELS, shown));
     studio.sketcher(subject)?.look(&subject.project, camera, *size, light, &turn.progress)
 }

@@ -36,7 +36,7 @@ pub(super) struct Wish {
 
 /// How the plane is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Plane {
+pub enum Plane {
     /// Not at all.
     Hidden,
     /// As a picture of so many pixels along its longer side.
@@ -45,15 +45,19 @@ pub(super) enum Plane {
     Photons,
 }
 
-/// What was painted, newest first seen.
+/// What was painted last.
 #[derive(Clone, Default)]
-pub(super) struct Painted {
+pub struct Painted {
     /// Counts the pictures, so that each is uploaded once.
-    pub(super) number: u64,
-    pub(super) frame: i32,
-    pub(super) plane: [Option<Arc<ColorImage>>; 2],
-    pub(super) swarm: [Option<Arc<Swarm>>; 2],
-    pub(super) shot: [Option<Arc<ColorImage>>; 2],
+    pub number: u64,
+    /// The frame they show.
+    pub frame: i32,
+    /// The plane: this flow, and what it is compared with.
+    pub plane: [Option<Arc<ColorImage>>; 2],
+    /// Its photons, where the graphics card draws them.
+    pub swarm: [Option<Arc<Swarm>>; 2],
+    /// The shot.
+    pub shot: [Option<Arc<ColorImage>>; 2],
 }
 
 /// Paints the newest moment that was asked for.

@@ -1,7 +1,9 @@
 //! The views of one moment: the plane, the shot, the free look; side by side or alone.
 
 mod look;
+mod orbit;
 mod pictures;
+mod plane;
 mod shot;
 mod wipe;
 
@@ -59,7 +61,7 @@ impl Views {
     fn halves(&mut self, ui: &mut Ui, all: Rect) -> [Rect; 2] {
         let middle = all.left() + all.width() * self.split;
         let handle = Rect::from_x_y_ranges(middle - GAP / 2.0..=middle + GAP / 2.0, all.y_range());
-        let response = ui.interact(handle, ui.id().with("between the views"), Sense::drag());
+        let response = ui.interact(handle, ui.scope_id().with("between the views"), Sense::drag());
         let response = response.on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
         if let Some(at) = response.interact_pointer_pos() {
             self.split = ((at.x - all.left()) / all.width().max(1.0)).clamp(LEAST, 1.0 - LEAST);

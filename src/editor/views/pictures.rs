@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
+use glam::Vec2;
 
 use crate::editor::preview::Preview;
 
@@ -12,6 +13,8 @@ pub(super) struct Pictures {
     pub(super) plane: [Slot; 2],
     pub(super) shot: [Slot; 2],
     pub(super) look: Slot,
+    target: Slot,
+    target_size: Option<Vec2>,
 }
 
 /// One texture, and the picture that is on it.
@@ -29,7 +32,15 @@ impl Pictures {
             self.plane[side].put(ctx, "plane", painted.plane[side].as_ref());
             self.shot[side].put(ctx, "shot", painted.shot[side].as_ref());
         }
+        let target = preview.target();
+        self.target.put(ctx, "target", target.as_ref().map(|target| &target.picture));
+        self.target_size = target.map(|target| target.size);
         self.look.put(ctx, "free look", preview.look().picture.as_ref());
+    }
+
+    /// The picture towards which the light flows, with the size of its file in pixels.
+    pub(super) fn target(&self) -> Option<(TextureId, Vec2)> {
+        Some((self.target.texture()?.id(), self.target_size?))
     }
 }
 

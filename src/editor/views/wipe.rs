@@ -20,7 +20,7 @@ pub(super) fn sides(view: Rect, wipe: Option<Wipe>) -> [Option<Rect>; 2] {
 pub(super) fn handle(ui: &mut Ui, view: Rect, wipe: &mut Wipe) {
     let middle = view.left() + view.width() * wipe.split;
     let place = Rect::from_x_y_ranges(middle - CATCH / 2.0..=middle + CATCH / 2.0, view.y_range());
-    let response = ui.interact(place, ui.id().with("wipe"), Sense::drag());
+    let response = ui.interact(place, ui.scope_id().with("wipe"), Sense::drag());
     response.widget_info(|| WidgetInfo::slider(true, f64::from(wipe.split), "Wipe"));
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     if let Some(at) = response.interact_pointer_pos() {
