@@ -1,3 +1,4 @@
 //! Lightloom, the program: the command line over [`lightloom_core`].
 
 pub mod cli;
+pub mod editor;

@@ -1,0 +1,3 @@
+//! The window: draw, tune, scrub, compare, export, save.
+
+pub mod store;
