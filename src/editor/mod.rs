@@ -13,6 +13,7 @@ pub mod selection;
 pub mod session;
 pub mod shortcuts;
 mod start;
+pub mod store;
 pub mod templates;
 pub mod theme;
 pub mod timeline;
