@@ -6,6 +6,7 @@ pub mod canvas;
 pub mod command;
 pub mod document;
 pub mod panels;
+pub mod pick;
 pub mod preview;
 pub mod selection;
 pub mod session;
