@@ -7,6 +7,7 @@ pub mod canvas;
 pub mod command;
 pub mod document;
 pub mod panels;
+pub mod pick;
 pub mod playback;
 pub mod preview;
 pub mod selection;
