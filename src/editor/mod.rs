@@ -4,6 +4,7 @@
 pub mod action;
 pub mod canvas;
 pub mod command;
+pub mod dialogs;
 pub mod document;
 pub mod panels;
 pub mod playback;
