@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use super::command::Command;
 use super::document::Edit;
 use super::selection::Selection;
+use super::session::Panel;
 
 /// Something asked for in one frame of the window.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,10 @@ pub enum Action {
     Command(Command),
     /// Take another tool, by its place in the list of tools.
     Tool(usize),
+    /// Bring a panel to the front.
+    Panel(Panel),
+    /// Put in what the clipboard holds as text.
+    Paste(String),
     /// Select what was drawn.
     Select(Selection),
     /// Go to a frame.
