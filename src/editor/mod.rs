@@ -19,3 +19,17 @@ pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
+
+mod app;
+
+use std::path::Path;
+
+pub use app::App;
+
+/// Opens the window, on a project or on the example. Returns when it is closed.
+///
+/// # Errors
+/// There is no screen, or nothing that draws on it; the system's words.
+pub fn run(_project: Option<&Path>) -> Result<(), String> {
+    Err("it is not there yet".into())
+}

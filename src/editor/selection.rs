@@ -66,10 +66,42 @@ impl Selection {
         }
     }
 
-    /// Adds all of another.
+    /// Several points of a constraint; none of them selects nothing.
+    pub fn some(constraint: usize, points: impl IntoIterator<Item = usize>) -> Self {
+        let points: BTreeSet<usize> = points.into_iter().collect();
+        let items = if points.is_empty() { BTreeMap::new() } else { [(constraint, points)].into() };
+        Self { items }
+    }
+
+    /// Whether a constraint is selected as a whole.
+    pub fn is_whole(&self, constraint: usize) -> bool {
+        self.items.get(&constraint).is_some_and(BTreeSet::is_empty)
+    }
+
+    /// Adds all of another; a whole stays, or becomes, a whole.
     pub fn extend(&mut self, other: &Self) {
         for (&constraint, points) in &other.items {
-            self.items.entry(constraint).or_default().extend(points);
+            match self.items.get_mut(&constraint) {
+                Some(own) if own.is_empty() || points.is_empty() => own.clear(),
+                Some(own) => own.extend(points),
+                None => {
+                    self.items.insert(constraint, points.clone());
+                }
+            }
+        }
+    }
+
+    /// Takes all of another out; `count` tells the number of points of a constraint.
+    pub fn subtract(&mut self, other: &Self, count: impl Fn(usize) -> usize) {
+        for (&constraint, points) in &other.items {
+            let Some(own) = self.items.get_mut(&constraint) else { continue };
+            if own.is_empty() && !points.is_empty() {
+                own.extend(0..count(constraint));
+            }
+            own.retain(|point| !points.contains(point));
+            if points.is_empty() || own.is_empty() {
+                self.items.remove(&constraint);
+            }
         }
     }
 

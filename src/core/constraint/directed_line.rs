@@ -8,7 +8,7 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, stroke};
+use super::{Span, Window, enabled, is_false, stroke};
 use crate::{Error, Result};
 
 /// Distance of the samples along a line, plane units: half a cell of the default grid.
@@ -43,6 +43,9 @@ pub struct DirectedLine {
     /// Whether it pulls at all (default true).
     #[serde(default = "enabled")]
     pub enabled: bool,
+    /// Whether the editor keeps it from being changed (default false).
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub locked: bool,
 }
 
 fn one() -> f32 {
@@ -83,6 +86,7 @@ impl DirectedLine {
             width: default_width(),
             span: None,
             enabled: true,
+            locked: false,
         }
     }
 

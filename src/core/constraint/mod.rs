@@ -51,6 +51,14 @@ impl Constraint {
         }
     }
 
+    /// Whether the editor keeps it from being changed.
+    pub fn is_locked(&self) -> bool {
+        match self {
+            Self::DirectedLine(line) => line.locked,
+            Self::Wall(wall) => wall.locked,
+        }
+    }
+
     /// The points it was drawn through, plane units.
     pub fn points(&self) -> &[[f32; 2]] {
         match self {
@@ -70,4 +78,9 @@ impl Constraint {
 
 pub(crate) fn enabled() -> bool {
     true
+}
+
+/// What is not said need not be written.
+pub(crate) fn is_false(value: &bool) -> bool {
+    !value
 }

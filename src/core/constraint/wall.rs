@@ -8,7 +8,7 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, stroke};
+use super::{Span, Window, enabled, is_false, stroke};
 use crate::{Error, Result};
 
 /// A line that no light crosses.
@@ -30,6 +30,9 @@ pub struct Wall {
     /// Whether it stands at all (default true).
     #[serde(default = "enabled")]
     pub enabled: bool,
+    /// Whether the editor keeps it from being changed (default false).
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub locked: bool,
 }
 
 fn default_thickness() -> f32 {
@@ -50,7 +53,14 @@ pub struct ActiveWall {
 impl Wall {
     /// A wall of default thickness that always stands.
     pub fn new(points: Vec<[f32; 2]>) -> Self {
-        Self { name: String::new(), points, thickness: default_thickness(), span: None, enabled: true }
+        Self {
+            name: String::new(),
+            points,
+            thickness: default_thickness(),
+            span: None,
+            enabled: true,
+            locked: false,
+        }
     }
 
     pub(super) fn check(&self, place: &str) -> Result<()> {

@@ -10,6 +10,7 @@ mod compare;
 mod finish;
 mod grouping;
 mod light;
+mod loader;
 mod meter;
 mod motion;
 mod mover;
@@ -17,6 +18,7 @@ mod passes;
 mod plan;
 mod quality;
 mod ride;
+mod sketch;
 mod slots;
 mod stage;
 mod summary;
@@ -35,38 +37,32 @@ pub use meter::StageCost;
 pub use motion::FirstMove;
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
+pub use sketch::{Detail, FieldAt, Sketch, Sketcher};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
-use crate::flow::{FlowSettings, GridSize};
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
 use crate::render::{
     Image, PlaneView, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
 };
-use crate::scene::{Scene, SceneDesc};
+use crate::scene::SceneDesc;
 use crate::{Error, Progress, Result};
-use batch::Batch;
 use finish::{Finisher, Thumbnails};
+use loader::{Loader, Prepared};
 use meter::Meter;
 use motion::{Motion, MotionInput};
 use passes::{Account, Exposer};
-use slots::Slots;
 use stage::Stage;
 use summary::Done;
-use supply::Supplies;
 
 /// The stages of one project, with what they remember.
 pub struct Pipeline {
-    assets: AssetFolder,
-    scene: Stage<SceneDesc, LoadedScene>,
+    loader: Loader,
     visible: Stage<ViewInput, Arc<Visible>>,
     background: Stage<ViewInput, Arc<Image>>,
     motion: Stage<MotionInput, Arc<Motion>>,
 }
-
-/// A scene, and what the artist should know of it.
-type LoadedScene = (Arc<Scene>, Arc<Vec<String>>);
 
 /// What the camera's stages are made from.
 #[derive(Clone, PartialEq)]
@@ -76,16 +72,6 @@ struct ViewInput {
     extent: Vec2,
     seed: u64,
     layout: Option<TextureLayout>,
-}
-
-/// What every command begins with.
-struct Prepared {
-    scene: Option<Arc<Scene>>,
-    extent: Vec2,
-    supplies: Supplies,
-    slots: Slots,
-    plan: Plan,
-    notes: Vec<String>,
 }
 
 /// A finished render, with what a comparison asks of it.
@@ -100,8 +86,7 @@ impl Pipeline {
     /// A pipeline that has done nothing yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
         Self {
-            assets,
-            scene: Stage::default(),
+            loader: Loader::new(assets),
             visible: Stage::default(),
             background: Stage::default(),
             motion: Stage::default(),
@@ -123,7 +108,7 @@ impl Pipeline {
         saved: &(dyn Fn(&Path) + Sync),
     ) -> Result<Summary> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
         self.frames(project, prepared, meter, out, progress, saved).map(|rendered| rendered.summary)
@@ -180,7 +165,7 @@ impl Pipeline {
     ) -> Result<Summary> {
         let mut meter = Meter::default();
         let project = &tracks::with_guides_alone(project);
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         if project.keys.len() < 2 {
             return Err(Error::value(
                 "keys",
@@ -206,7 +191,7 @@ impl Pipeline {
     /// Anything wrong with the project or its files; nothing that moves; cancelled.
     pub fn first_move(&mut self, project: &Project, progress: &Progress) -> Result<FirstMove> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
         motion::first_move(batch, project, prepared.extent, progress)
@@ -219,47 +204,14 @@ impl Pipeline {
     /// The first thing that is wrong.
     pub fn check(&mut self, project: &Project) -> Result<CheckReport> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, &Progress::new())?;
         let progress = Progress::new();
         let tracer = learn(&prepared, project, &mut meter, &progress)?;
         CheckReport::new(project, &prepared, tracer.as_ref(), &progress)
     }
 
-    fn prepare(&mut self, project: &Project, meter: &mut Meter) -> Result<Prepared> {
-        project.check()?;
-        let frames = project.frames()?;
-        let assets = self.assets.clone();
-        meter.measure("load", || {
-            let mut notes = Vec::new();
-            let scene = match &project.scene {
-                None => None,
-                Some(desc) => {
-                    let load = |desc: &SceneDesc| {
-                        let (scene, notes) = Scene::load(desc, &|path, place| assets.resolve(path, place))?;
-                        Ok::<_, Error>((Arc::new(scene), Arc::new(notes)))
-                    };
-                    let (scene, scene_notes) = self.scene.get(desc.clone(), load)?;
-                    notes.extend(scene_notes.iter().cloned());
-                    Some(scene)
-                }
-            };
-            let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
-            let supplies = Supplies::load(project, scene.as_deref(), extent, &assets)?;
-            notes.extend(supplies.notes());
-            notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
-            notes.extend(stretch_note(project.flow.grid, extent));
-            notes.extend(acting::notes(project, extent));
-            notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
-            let slots = Slots::new(&project.keys, &frames);
-            let plan = plan::plan(
-                project,
-                extent,
-                frames.len(),
-                supplies.given_rows(project.matching)?,
-                supplies.is_fixed(project.render.photons as usize),
-            );
-            Ok(Prepared { scene, extent, supplies, slots, plan, notes })
-        })
+    fn prepare(&mut self, project: &Project, meter: &mut Meter, progress: &Progress) -> Result<Prepared> {
+        meter.measure("load", || self.loader.prepare(project, progress))
     }
 
     /// What the camera sees: the receiver through every pixel, and the picture without caustics.
@@ -310,45 +262,6 @@ impl Pipeline {
             motion::fit(batch, project, prepared.extent, meter, progress).map(Arc::new)
         })
     }
-}
-
-impl Prepared {
-    /// The photons of one pass at the first key.
-    fn start<'a>(
-        &'a self,
-        project: &'a Project,
-        tracer: Option<&Tracer>,
-        pass: u64,
-        progress: &Progress,
-    ) -> Result<Batch<'a>> {
-        let photons = (pass, self.plan.photons);
-        Batch::start(&self.supplies, tracer, project, self.extent, photons, &progress.inner())
-    }
-}
-
-/// A grid of long cells smooths more along them than across.
-fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
-    let [columns, rows] = grid.cells(extent).map(|n| n as f32);
-    let [width, height] = [extent.x / columns, extent.y / rows];
-    let stretch = width.max(height) / width.min(height);
-    (stretch > 2.0).then(|| {
-        format!(
-            "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
-        )
-    })
-}
-
-/// Steps in which photons cross more than a cell of the noise do not follow its swirls.
-fn swirl_note(flow: &FlowSettings) -> Option<String> {
-    let turbulence = flow.turbulence.as_ref()?;
-    let finest = *turbulence.grids.iter().max()?;
-    let needed = (turbulence.speed() * finest as f32).ceil();
-    (needed > flow.steps as f32).then(|| {
-        format!(
-            "flow.turbulence: in one step the photons cross {:.1} cells of the {finest} x {finest} noise; give flow.steps {needed} to follow its swirls",
-            needed / flow.steps as f32
-        )
-    })
 }
 
 /// Learns where the lights must aim, where photons must be traced.

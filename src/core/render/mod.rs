@@ -8,6 +8,7 @@ pub mod background;
 pub mod density;
 pub mod frames;
 pub mod image;
+pub mod plane_picture;
 pub mod plane_view;
 pub mod progressive;
 pub mod settings;
@@ -20,6 +21,7 @@ mod sampler;
 
 pub use background::background;
 pub use image::Image;
+pub use plane_picture::{Paper, plane_picture};
 pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};
 pub use settings::RenderSettings;

@@ -112,7 +112,7 @@ impl Placement {
 
     /// The frame of a picture of `size` pixels on a receiver of `extent`: its centre, and the plane's steps for one
     /// pixel to the right and for one pixel up.
-    pub(super) fn frame(&self, size: Vec2, extent: Vec2) -> (Vec2, Vec2, Vec2) {
+    pub fn frame(&self, size: Vec2, extent: Vec2) -> (Vec2, Vec2, Vec2) {
         let turn = Vec2::from_angle(self.rotate.to_radians());
         let upright = turn.abs();
         let turned = Vec2::new(upright.dot(size), upright.dot(Vec2::new(size.y, size.x)));

@@ -1,3 +1,135 @@
 //! The receiver seen flat: live light, what was drawn, the flow.
 
+pub mod input;
+pub mod overlay;
 pub mod space;
+
+use egui::{
+    Color32, CursorIcon, Painter, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, WidgetInfo,
+};
+use glam::Vec2;
+use lightloom_core::constraint::Constraint;
+use lightloom_core::project::Project;
+
+use self::input::Move;
+use self::overlay::Overlay;
+use self::space::Space;
+use super::panels::Desk;
+use super::session::PlaneEye;
+use super::theme;
+use super::tools::{self, Ghost, Grip, Look, Toolbox};
+
+/// What the window shows under the drawings, and knows of them.
+#[derive(Clone, Copy, Default)]
+pub struct Under<'a> {
+    /// Draws the light where the plane stands on the screen.
+    pub light: Option<&'a dyn Fn(&Painter, &Space)>,
+    /// The picture of the target that follows the playhead, with its size in pixels.
+    pub target: Option<(TextureId, Vec2)>,
+    /// Where the photons are now, by row; empty while unknown.
+    pub photons: &'a [Vec2],
+}
+
+/// The plane's size in plane units: that of the scene's receiver, or of the bare plane; its longer side is 1.
+pub fn extent(project: &Project) -> Vec2 {
+    let receiver = project.scene.as_ref().map(|scene| Vec2::from(scene.receiver.size));
+    receiver.map_or_else(|| project.plane.extent(), |size| size / size.max_element())
+}
+
+/// Shows the plane and lets the tool in hand work on it.
+pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) -> Response {
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Plane"));
+    for action in toolbox.take(desk.session.tool) {
+        desk.ask(action);
+    }
+    let extent = extent(desk.document.project());
+    let space = Space::new(rect, extent, &desk.session.plane);
+    let plane = |p| Some(space.plane_from_screen(p));
+    let mut input = input::pointer(ui, &response, toolbox.grip(), &plane);
+    input.gestures.extend(input::keys(ui, &response));
+    desk.session.plane = moved(desk.session.plane, &input.moves, |eye| Space::new(rect, extent, eye));
+    let project = desk.document.project().clone();
+    let look = Look {
+        project: &project,
+        session: desk.session,
+        extent,
+        per_point: space.scale().recip(),
+        held: input::held(ui),
+        picture: under.target.map(|(_, size)| size),
+        photons: under.photons,
+    };
+    for gesture in input.gestures {
+        desk.actions.extend(toolbox.gesture(gesture, &look));
+    }
+    let space = Space::new(rect, extent, &desk.session.plane);
+    let ghosts = ghosts(&response, toolbox, &look);
+    paint(&ui.painter_at(rect), &look, &space, under, &ghosts);
+    let space_held = ui.input(|input| input.key_down(egui::Key::Space)) && !ui.ctx().text_edit_focused();
+    let cursor = match (input.dragging, space_held || toolbox.grip() == Grip::Pan) {
+        (true, _) => CursorIcon::Grabbing,
+        (false, true) => CursorIcon::Grab,
+        (false, false) => toolbox.tool().cursor(),
+    };
+    let response = response.on_hover_and_drag_cursor(cursor);
+    match hovered(&ghosts).and_then(|i| project.constraints.get(i)) {
+        Some(constraint) => response.on_hover_text_at_pointer(described(constraint)),
+        None => response,
+    }
+}
+
+fn moved(eye: PlaneEye, moves: &[Move], space: impl Fn(&PlaneEye) -> Space) -> PlaneEye {
+    moves.iter().fold(eye, |eye, movement| match *movement {
+        Move::Pan(by) => space(&eye).panned(&eye, by),
+        Move::Zoom(factor, about) => space(&eye).zoomed(&eye, factor, about),
+    })
+}
+
+/// What the tool shows; what belongs to the pointer only while that is over the plane.
+fn ghosts(response: &Response, toolbox: &Toolbox, look: &Look) -> Vec<Ghost> {
+    let here = response.contains_pointer() || toolbox.tool().is_busy();
+    let mut ghosts = toolbox.ghosts(look);
+    ghosts.retain(|ghost| here || matches!(ghost, Ghost::Frame(..)));
+    ghosts
+}
+
+fn hovered(ghosts: &[Ghost]) -> Option<usize> {
+    ghosts
+        .iter()
+        .find_map(|ghost| if let Ghost::Hover(constraint) = ghost { Some(*constraint) } else { None })
+}
+
+/// What the tooltip says of a constraint.
+fn described(constraint: &Constraint) -> String {
+    let (kind, name, value) = match constraint {
+        Constraint::DirectedLine(line) => ("Directed line", &line.name, format!("weight {}", line.weight)),
+        Constraint::Wall(wall) => ("Wall", &wall.name, format!("thickness {:.4}", wall.thickness)),
+    };
+    let name = if name.is_empty() { String::new() } else { format!(" “{name}”") };
+    let span =
+        constraint.span().map_or_else(String::new, |span| format!(", frames {} to {}", span.from, span.to));
+    let off = if constraint.is_enabled() { "" } else { ", switched off" };
+    format!("{kind}{name}: {value}{span}{off}")
+}
+
+fn paint(painter: &Painter, look: &Look, space: &Space, under: &Under, ghosts: &[Ghost]) {
+    let (project, session) = (look.project, look.session);
+    painter.rect_filled(painter.clip_rect(), 0.0, theme::SURROUND);
+    let plane = space.rect(look.extent);
+    painter.rect_filled(plane, 0.0, Color32::BLACK);
+    if let Some(light) = under.light {
+        light(painter, space);
+    }
+    painter.rect_stroke(plane, 0.0, Stroke::new(1.0, Color32::from_gray(64)), StrokeKind::Outside);
+    let screen = |p: Vec2| Some(space.screen_from_plane(p));
+    let overlay = Overlay { painter, screen: &screen };
+    if session.show.target
+        && let Some(((texture, _), corners)) = under.target.zip(tools::target_corners(look))
+    {
+        overlay.target(texture, corners);
+    }
+    if session.show.drawn {
+        overlay.drawn(project, session, hovered(ghosts));
+    }
+    overlay.ghosts(ghosts);
+}

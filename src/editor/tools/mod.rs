@@ -1,11 +1,47 @@
 //! Tools receive gestures in plane coordinates and answer with actions, so each is tested without a window.
 
+pub mod arrange;
+pub mod bar;
+mod curve;
+mod cut;
+mod directed_line;
+mod erase;
+mod icon;
+mod pan;
+mod pen;
+mod pick;
+mod probe;
+mod select;
+mod snap;
+mod target;
+mod toolbox;
+mod wall;
+mod zoom;
+
 use egui::Key;
 use glam::Vec2;
 use lightloom_core::project::Project;
 
+pub use target::{Shown, shown, target_corners};
+pub use toolbox::Toolbox;
+pub(crate) use toolbox::is_covered;
+
 use super::action::Action;
 use super::session::Session;
+
+/// All tools, as they stand in the bar: a new one is a file and a line here.
+pub fn all() -> Vec<Box<dyn Tool>> {
+    vec![
+        Box::<select::Select>::default(),
+        Box::<directed_line::DrawLine>::default(),
+        Box::<wall::DrawWall>::default(),
+        Box::<erase::Erase>::default(),
+        Box::<target::Place>::default(),
+        Box::<probe::Probe>::default(),
+        Box::new(pan::Pan),
+        Box::new(zoom::Zoom),
+    ]
+}
 
 /// What the pointer or a key does, plane coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +84,29 @@ pub struct Look<'a> {
     pub per_point: f32,
     /// What is held.
     pub held: Held,
+    /// Pixels of the picture that the key after the playhead shows; none where it shows none, or it is not read yet.
+    pub picture: Option<Vec2>,
+    /// Where the photons are now, by row; empty while unknown.
+    pub photons: &'a [Vec2],
+}
+
+impl Look<'_> {
+    /// A length of so many points of the screen, in plane units.
+    pub fn points(&self, count: f32) -> f32 {
+        count * self.per_point
+    }
+
+    /// The step of an arrow key: a point of the screen, with Shift ten; none for other keys.
+    fn arrow(&self, key: Key) -> Option<Vec2> {
+        let direction = match key {
+            Key::ArrowLeft => Vec2::NEG_X,
+            Key::ArrowRight => Vec2::X,
+            Key::ArrowUp => Vec2::Y,
+            Key::ArrowDown => Vec2::NEG_Y,
+            _ => return None,
+        };
+        Some(direction * self.points(if self.held.shift { 10.0 } else { 1.0 }))
+    }
 }
 
 /// Something a tool shows while it works, plane coordinates.
@@ -61,8 +120,26 @@ pub enum Ghost {
     Box(Vec2, Vec2),
     /// A place to which the pointer snapped.
     Snap(Vec2),
+    /// A point that was set.
+    Pin(Vec2),
     /// The place around which something is erased, with its radius in plane units.
     Eraser(Vec2, f32),
+    /// The constraint under the pointer, by index.
+    Hover(usize),
+    /// The frame of a target: its corners, and the handle that turns it.
+    Frame([Vec2; 4], Vec2),
+}
+
+/// Who answers the pointer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grip {
+    /// The tool: it gets gestures.
+    #[default]
+    Tool,
+    /// The view: dragging moves it.
+    Pan,
+    /// The view: a click comes closer, with Shift or Alt it goes back; dragging does either.
+    Zoom,
 }
 
 /// A tool.
@@ -79,8 +156,14 @@ pub trait Tool: Send {
     fn cursor(&self) -> egui::CursorIcon {
         egui::CursorIcon::Crosshair
     }
+    /// Who answers the pointer while this is in hand.
+    fn grip(&self) -> Grip {
+        Grip::Tool
+    }
     /// Answers a gesture.
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action>;
+    fn gesture(&mut self, _gesture: Gesture, _look: &Look) -> Vec<Action> {
+        Vec::new()
+    }
     /// What it shows now.
     fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
         Vec::new()

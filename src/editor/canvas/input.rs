@@ -1,0 +1,178 @@
+//! Pointer and keys over a view become gestures of the plane and movements of the view.
+
+use egui::{Event, Key, PointerButton, Pos2, Response, Ui, Vec2};
+use glam::Vec2 as PlanePoint;
+
+use crate::editor::tools::{Gesture, Grip, Held, is_covered};
+
+/// Points of the wheel that double the size.
+const WHEEL: f32 = 240.0;
+/// Points of a drag that double the size.
+const DRAG: f32 = 120.0;
+/// Factor of a click with the zoom tool.
+const CLICK_ZOOM: f32 = 1.6;
+/// A drag shorter than this is a click, points.
+const CLICK: f32 = 4.0;
+
+/// How a view is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Move {
+    /// What is seen moves by so many points.
+    Pan(Vec2),
+    /// What is seen grows by a factor about a place of the screen.
+    Zoom(f32, Pos2),
+}
+
+/// What pointer and keys asked for in one frame of the window.
+#[derive(Clone, Debug, Default)]
+pub struct Input {
+    /// For the tool in hand.
+    pub gestures: Vec<Gesture>,
+    /// For the view.
+    pub moves: Vec<Move>,
+    /// Whether the view is being dragged.
+    pub dragging: bool,
+}
+
+/// What the buttons do that are down.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Hand {
+    #[default]
+    Free,
+    Tool,
+    Pan(Pos2),
+    /// Where it began, where it is, and whether it is a drag.
+    Zoom(Pos2, Pos2, bool),
+}
+
+/// What is held beside the pointer.
+pub fn held(ui: &Ui) -> Held {
+    let modifiers = ui.input(|input| input.modifiers);
+    Held { shift: modifiers.shift, alt: modifiers.alt, ctrl: modifiers.command || modifiers.ctrl }
+}
+
+/// Reads the pointer over the view of `response`. `plane` tells the plane point at a place of the screen, if there is
+/// one.
+pub fn pointer(
+    ui: &Ui,
+    response: &Response,
+    grip: Grip,
+    plane: &dyn Fn(Pos2) -> Option<PlanePoint>,
+) -> Input {
+    let id = response.id.with("hand");
+    let mut hand = ui.data(|data| data.get_temp::<Hand>(id)).unwrap_or_default();
+    let mut input = Input::default();
+    let events = ui.input(|input| input.events.clone());
+    for event in events {
+        match event {
+            Event::PointerButton { pos, button, pressed: true, .. } if hand == Hand::Free => {
+                hand = press(ui, response, grip, pos, button);
+                let at = plane(pos).filter(|_| hand == Hand::Tool);
+                input.gestures.extend(at.map(Gesture::Press));
+            }
+            Event::PointerMoved(pos) => moved(&mut hand, pos, plane, &mut input),
+            Event::PointerButton { pos, pressed: false, .. } => {
+                release(ui, std::mem::take(&mut hand), pos, plane, &mut input);
+            }
+            _ => (),
+        }
+    }
+    // A button that came up outside of the window is told to nobody.
+    if hand != Hand::Free && !ui.input(|input| input.pointer.any_down()) {
+        let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(response.rect.center());
+        release(ui, std::mem::take(&mut hand), at, plane, &mut input);
+    }
+    let pointer = ui.input(|input| input.pointer.latest_pos());
+    if response.double_clicked() && grip == Grip::Tool {
+        input.gestures.extend(pointer.and_then(plane).map(Gesture::DoubleClick));
+    }
+    if response.hovered() && hand == Hand::Free {
+        input.gestures.extend(pointer.and_then(plane).map(Gesture::Hover));
+    }
+    input.moves.extend(wheel(ui, response));
+    input.dragging = matches!(hand, Hand::Pan(_));
+    ui.data_mut(|data| data.insert_temp(id, hand));
+    input
+}
+
+fn press(ui: &Ui, response: &Response, grip: Grip, pos: Pos2, button: PointerButton) -> Hand {
+    let here = response.is_pointer_button_down_on()
+        || response.clicked_by(button)
+        || (button == PointerButton::Middle && response.contains_pointer());
+    if !here {
+        return Hand::Free;
+    }
+    let space = ui.input(|input| input.key_down(Key::Space)) && !ui.ctx().text_edit_focused();
+    match (button, grip) {
+        (PointerButton::Middle, _) => Hand::Pan(pos),
+        (PointerButton::Primary, _) if space => Hand::Pan(pos),
+        (PointerButton::Primary, Grip::Pan) => Hand::Pan(pos),
+        (PointerButton::Primary, Grip::Zoom) => Hand::Zoom(pos, pos, false),
+        (PointerButton::Primary, Grip::Tool) => Hand::Tool,
+        _ => Hand::Free,
+    }
+}
+
+fn moved(hand: &mut Hand, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlanePoint>, input: &mut Input) {
+    match hand {
+        Hand::Free => (),
+        Hand::Tool => input.gestures.extend(plane(pos).map(Gesture::Drag)),
+        Hand::Pan(last) => {
+            input.moves.push(Move::Pan(pos - *last));
+            *last = pos;
+        }
+        Hand::Zoom(begin, last, dragged) => {
+            *dragged |= begin.distance(pos) > CLICK;
+            if *dragged {
+                let by = (pos.x - last.x) - (pos.y - last.y);
+                input.moves.push(Move::Zoom((by / DRAG).exp2(), *begin));
+                *last = pos;
+            }
+        }
+    }
+}
+
+fn release(ui: &Ui, hand: Hand, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlanePoint>, input: &mut Input) {
+    match hand {
+        // Where the pointer left the plane, the gesture ends at its last place.
+        Hand::Tool => {
+            let last = input.gestures.iter().rev().find_map(|gesture| match gesture {
+                Gesture::Press(p) | Gesture::Drag(p) => Some(*p),
+                _ => None,
+            });
+            input.gestures.push(Gesture::Release(plane(pos).or(last).unwrap_or_default()));
+        }
+        Hand::Zoom(begin, _, false) => {
+            let held = held(ui);
+            let factor = if held.shift || held.alt { CLICK_ZOOM.recip() } else { CLICK_ZOOM };
+            input.moves.push(Move::Zoom(factor, begin));
+        }
+        Hand::Free | Hand::Pan(_) | Hand::Zoom(..) => (),
+    }
+}
+
+fn wheel(ui: &Ui, response: &Response) -> Option<Move> {
+    let pointer = response.hover_pos().filter(|_| response.hovered())?;
+    let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y / WHEEL).exp2());
+    (factor != 1.0 && factor.is_finite()).then_some(Move::Zoom(factor, pointer))
+}
+
+/// The keys that tools answer, unless another widget has them.
+pub fn keys(ui: &Ui, response: &Response) -> Vec<Gesture> {
+    const KEYS: [Key; 8] = [
+        Key::Enter,
+        Key::Escape,
+        Key::Backspace,
+        Key::Delete,
+        Key::ArrowLeft,
+        Key::ArrowRight,
+        Key::ArrowUp,
+        Key::ArrowDown,
+    ];
+    let elsewhere = ui.memory(|memory| memory.focused()).is_some_and(|id| id != response.id);
+    if elsewhere || is_covered(ui.ctx()) {
+        return Vec::new();
+    }
+    let pressed = |key: Key| ui.input(|input| input.num_presses(key));
+    KEYS.into_iter().flat_map(|key| std::iter::repeat_n(Gesture::Key(key), pressed(key))).collect()
+}

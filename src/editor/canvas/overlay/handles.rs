@@ -1,0 +1,38 @@
+//! The points of what is selected.
+
+use egui::{Color32, CornerRadius, Rect, Stroke, StrokeKind, Vec2 as ScreenVec};
+use glam::Vec2;
+
+use super::Overlay;
+use crate::editor::selection::Selection;
+use crate::editor::theme;
+
+/// Side of a handle, points.
+const SIDE: f32 = 7.0;
+/// Side of a handle among others that stand close.
+const SMALL: f32 = 4.0;
+/// Points closer than this on the screen count as close.
+const CLOSE: f32 = 11.0;
+
+impl Overlay<'_> {
+    /// A square for each point; those that are selected alone are filled.
+    pub(super) fn handles(&self, points: &[Vec2], constraint: usize, selection: &Selection) {
+        let places: Vec<_> = points.iter().map(|&p| (self.screen)(p)).collect();
+        let near = |i: usize, other: Option<usize>| {
+            let other = other.and_then(|k| *places.get(k)?);
+            places[i].zip(other).is_some_and(|(a, b)| a.distance(b) < CLOSE)
+        };
+        let alone: std::collections::BTreeSet<usize> = selection.points(constraint).collect();
+        for (i, place) in places.iter().enumerate() {
+            let Some(place) = *place else { continue };
+            let chosen = alone.contains(&i);
+            let dense = near(i, i.checked_sub(1)) || near(i, Some(i + 1));
+            let side = if dense && !chosen { SMALL } else { SIDE };
+            let square = Rect::from_center_size(place, ScreenVec::splat(side));
+            let (fill, border) =
+                if chosen { (theme::ACCENT, Color32::WHITE) } else { (Color32::WHITE, theme::ACCENT) };
+            let radius = CornerRadius::same(1);
+            self.painter.rect(square, radius, fill, Stroke::new(1.2, border), StrokeKind::Outside);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Directed lines: orange, with arrow heads along them, and faintly how far they pull.
+
+use egui::{Color32, Pos2, Shape, Stroke};
+use glam::Vec2;
+use lightloom_core::constraint::stroke;
+
+use super::{Manner, Overlay};
+use crate::editor::theme;
+
+/// Width of the line, points.
+const WIDTH: f32 = 2.2;
+/// Width of the dark rim around it, points: it sets the line off from bright light.
+const RIM: f32 = 5.0;
+/// Way between two arrow heads, points.
+const BETWEEN: f32 = 76.0;
+/// Length and half width of an arrow head, points.
+const HEAD: [f32; 2] = [12.0, 5.0];
+/// Places across the band: shares of its width.
+const ACROSS: [f32; 7] = [-1.0, -0.66, -0.33, 0.0, 0.33, 0.66, 1.0];
+/// Opacity of the band where the line pulls most.
+const BAND: f32 = 0.2;
+
+impl Overlay<'_> {
+    /// How far a line pulls, plane units: ever less, as the fit weighs it.
+    pub(super) fn influence(&self, points: &[Vec2], width: f32, manner: Manner) {
+        if manner.off || points.len() < 2 {
+            return;
+        }
+        let strength = BAND * if manner.selected || manner.hovered { 1.6 } else { 1.0 };
+        let colour = |x: f32| {
+            let pull = (1.0 - x * x) * (1.0 - x * x);
+            manner.tint(theme::LINE.gamma_multiply(strength * pull))
+        };
+        // Bumps far smaller than the band would only fold its borders.
+        let smooth = stroke::simplify(points, 0.05 * width);
+        self.band(&smooth, &ACROSS.map(|x| (x * width, colour(x))));
+    }
+
+    /// The line itself.
+    pub(super) fn line(&self, points: &[Vec2], manner: Manner) {
+        if manner.selected {
+            self.polyline(points, Stroke::new(WIDTH + 6.0, theme::ACCENT.gamma_multiply(0.75)), false);
+        } else if manner.hovered {
+            self.polyline(points, Stroke::new(WIDTH + 5.0, Color32::from_white_alpha(110)), false);
+        }
+        self.polyline(points, Stroke::new(RIM, manner.tint(Color32::from_black_alpha(130))), manner.off);
+        let colour = manner.tint(theme::LINE);
+        self.polyline(points, Stroke::new(WIDTH, colour), manner.off);
+        self.heads(points, colour);
+    }
+
+    fn heads(&self, points: &[Vec2], colour: Color32) {
+        let Some(scale) = points.get(points.len() / 2).and_then(|&p| self.scale(p)) else { return };
+        let total = stroke::length(points) * scale;
+        if !(total.is_finite() && total > 1.0) {
+            return;
+        }
+        let count = (total / BETWEEN).round().clamp(1.0, 500.0);
+        let places = stroke::resample(points, stroke::length(points) / count, 501);
+        for &(p, direction) in places.iter().skip(1) {
+            let ahead = direction * (4.0 / scale);
+            let Some((back, tip)) = (self.screen)(p - ahead).zip((self.screen)(p)) else { continue };
+            self.head(tip, (tip - back).normalized(), colour);
+        }
+    }
+
+    /// An arrow head with its tip at a place of the screen.
+    fn head(&self, tip: Pos2, way: egui::Vec2, colour: Color32) {
+        let tip = tip + way * (0.25 * HEAD[0]);
+        let (back, side) = (tip - way * HEAD[0], way.rot90() * HEAD[1]);
+        let corners = vec![tip, back + side, back + way * 2.5, back - side];
+        let rim = Stroke::new(1.2, Color32::from_black_alpha(150).gamma_multiply(colour.a() as f32 / 255.0));
+        // Two triangles: with its notch the head is not convex.
+        for half in [[0, 1, 2], [0, 2, 3]] {
+            let half = half.map(|i| corners[i]).to_vec();
+            self.painter.add(Shape::convex_polygon(half, colour, Stroke::NONE));
+        }
+        self.painter.add(Shape::closed_line(corners, rim));
+    }
+}

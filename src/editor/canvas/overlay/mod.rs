@@ -1,0 +1,119 @@
+//! What was drawn, and what is being drawn, over a view of the plane: the plane view's own or any other.
+
+mod band;
+mod frame;
+mod ghosts;
+mod handles;
+mod line;
+mod wall;
+
+use egui::{Color32, Painter, Pos2, Shape, Stroke};
+use glam::Vec2;
+use lightloom_core::constraint::Constraint;
+use lightloom_core::project::Project;
+
+use crate::editor::session::Session;
+
+/// How much is left of the colours of what does not act at this moment.
+const DIM: f32 = 0.38;
+/// Dash and gap of what is switched off, points.
+const DASHES: [f32; 2] = [7.0, 5.0];
+
+/// Draws over a view of the plane.
+#[derive(Clone, Copy)]
+pub struct Overlay<'a> {
+    /// Where it draws.
+    pub painter: &'a Painter,
+    /// Where a plane point is seen; none where it is not.
+    pub screen: &'a dyn Fn(Vec2) -> Option<Pos2>,
+}
+
+/// How one constraint is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Manner {
+    /// Switched off: dashed.
+    off: bool,
+    /// Whether it acts at this moment; else it is dim.
+    acts: bool,
+    selected: bool,
+    hovered: bool,
+}
+
+impl Manner {
+    const DRAWING: Self = Self { off: false, acts: true, selected: false, hovered: false };
+
+    fn of(constraint: &Constraint, index: usize, session: &Session, hovered: Option<usize>) -> Self {
+        let frame = session.playhead;
+        let stands = constraint.span().is_none_or(|span| (span.from..=span.to).contains(&frame));
+        Self {
+            off: !constraint.is_enabled(),
+            acts: constraint.is_enabled() && stands,
+            selected: session.selection.contains(index),
+            hovered: hovered == Some(index),
+        }
+    }
+
+    fn tint(self, colour: Color32) -> Color32 {
+        if self.acts { colour } else { colour.gamma_multiply(DIM) }
+    }
+}
+
+impl Overlay<'_> {
+    /// Draws all lines and walls; `hovered` is the one under the pointer.
+    pub fn drawn(&self, project: &Project, session: &Session, hovered: Option<usize>) {
+        let all = || project.constraints.iter().enumerate();
+        let manner = |i: usize, constraint: &Constraint| Manner::of(constraint, i, session, hovered);
+        for (i, constraint) in all() {
+            let points = plane_points(constraint);
+            match constraint {
+                Constraint::Wall(wall) => self.wall(&points, wall.thickness, manner(i, constraint)),
+                Constraint::DirectedLine(line) => self.influence(&points, line.width, manner(i, constraint)),
+            }
+        }
+        // Lines above all walls and bands: they are thin.
+        for (i, constraint) in all() {
+            if let Constraint::DirectedLine(_) = constraint {
+                self.line(&plane_points(constraint), manner(i, constraint));
+            }
+        }
+        for (i, constraint) in
+            all().filter(|(i, constraint)| session.selection.contains(*i) && !constraint.is_locked())
+        {
+            self.handles(&plane_points(constraint), i, &session.selection);
+        }
+    }
+
+    /// The pieces of a polyline that are seen.
+    fn seen(&self, points: &[Vec2]) -> Vec<Vec<Pos2>> {
+        let mut pieces = vec![Vec::new()];
+        for place in points.iter().map(|&p| (self.screen)(p)) {
+            match (place, pieces.last_mut()) {
+                (Some(place), Some(piece)) => piece.push(place),
+                _ => pieces.push(Vec::new()),
+            }
+        }
+        pieces.retain(|piece: &Vec<Pos2>| piece.len() > 1);
+        pieces
+    }
+
+    fn polyline(&self, points: &[Vec2], stroke: Stroke, dashed: bool) {
+        for piece in self.seen(points) {
+            if dashed {
+                self.painter.extend(Shape::dashed_line(&piece, stroke, DASHES[0], DASHES[1]));
+            } else {
+                self.painter.line(piece, stroke);
+            }
+        }
+    }
+
+    /// Points of the screen for a plane unit at a place; none where it is not seen.
+    fn scale(&self, at: Vec2) -> Option<f32> {
+        const STEP: f32 = 1e-3;
+        let side = |offset: Vec2| Some((self.screen)(at + offset)?.distance((self.screen)(at)?) / STEP);
+        Some(0.5 * (side(Vec2::new(STEP, 0.0))? + side(Vec2::new(0.0, STEP))?))
+    }
+}
+
+fn plane_points(constraint: &Constraint) -> Vec<Vec2> {
+    lightloom_core::constraint::stroke::clean(constraint.points())
+}

@@ -1,0 +1,86 @@
+//! Walls: magenta bands of their true thickness, laid in bricks. Where they are too thin on the screen for bricks, a
+//! line with ticks across stands for them.
+
+use egui::{Color32, Stroke};
+use glam::Vec2;
+use lightloom_core::constraint::stroke;
+
+use super::{Manner, Overlay, band};
+use crate::editor::theme;
+
+/// The band's fill: dark enough to be seen on bright light.
+const FILL: Color32 = Color32::from_rgba_unmultiplied_const(96, 14, 82, 190);
+/// Least thickness on the screen that is laid in bricks, points.
+const BRICKS: f32 = 7.0;
+/// Length of a brick over the wall's thickness.
+const BRICK: f32 = 1.4;
+/// Way between two ticks of a thin wall, and their half length, points.
+const TICKS: [f32; 2] = [9.0, 3.5];
+/// Most bricks and ticks of one wall.
+const MOST: usize = 1500;
+
+impl Overlay<'_> {
+    /// A wall of a thickness in plane units.
+    pub(super) fn wall(&self, points: &[Vec2], thickness: f32, manner: Manner) {
+        let Some(scale) =
+            points.get(points.len() / 2).and_then(|&p| self.scale(p)).filter(|_| points.len() > 1)
+        else {
+            return;
+        };
+        let colour = manner.tint(theme::WALL);
+        if thickness * scale < BRICKS {
+            self.thin(points, scale, colour, manner);
+            return;
+        }
+        // Shakes of the hand far smaller than the wall would only fold its borders.
+        let smooth = stroke::simplify(points, 0.02 * thickness);
+        let half = 0.5 * thickness;
+        let mut outline = band::beside(&smooth, half);
+        let mut right = band::beside(&smooth, -half);
+        let closed = points[0] == points[points.len() - 1] && points.len() > 3;
+        if !closed {
+            outline.extend(right.drain(..).rev());
+            outline.push(outline[0]);
+        }
+        if !manner.off {
+            let fill = manner.tint(FILL);
+            self.band(&smooth, &[(-half, fill), (half, fill)]);
+        }
+        for border in [&outline, &right] {
+            self.glow(border, 1.6, manner);
+            self.polyline(border, Stroke::new(1.6, colour), manner.off);
+        }
+        if !manner.off {
+            self.bricks(&smooth, thickness, colour.gamma_multiply(0.7));
+        }
+    }
+
+    /// Joints: one along the middle, and across alternately on either side of it.
+    fn bricks(&self, points: &[Vec2], thickness: f32, colour: Color32) {
+        let joint = Stroke::new(1.0, colour);
+        self.polyline(points, joint, false);
+        let joints = stroke::resample(points, 0.5 * BRICK * thickness, MOST);
+        for (i, &(p, direction)) in joints.iter().enumerate().skip(1) {
+            let side = direction.perp() * (0.5 * thickness) * if i % 2 == 0 { 1.0 } else { -1.0 };
+            self.polyline(&[p, p + side], joint, false);
+        }
+    }
+
+    fn thin(&self, points: &[Vec2], scale: f32, colour: Color32, manner: Manner) {
+        self.glow(points, 3.0, manner);
+        self.polyline(points, Stroke::new(5.0, manner.tint(Color32::from_black_alpha(150))), manner.off);
+        self.polyline(points, Stroke::new(2.6, colour), manner.off);
+        for (p, direction) in stroke::resample(points, TICKS[0] / scale, MOST) {
+            let side = direction.perp() * (TICKS[1] / scale);
+            self.polyline(&[p - side, p + side], Stroke::new(1.4, colour), false);
+        }
+    }
+
+    fn glow(&self, points: &[Vec2], width: f32, manner: Manner) {
+        if manner.selected {
+            self.polyline(points, Stroke::new(width + 4.0, theme::ACCENT.gamma_multiply(0.75)), false);
+        } else if manner.hovered {
+            self.polyline(points, Stroke::new(width + 3.5, Color32::from_white_alpha(110)), false);
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The strip of tools beside the plane.
+
+use egui::{CornerRadius, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+
+use super::{Tool, Toolbox};
+use crate::editor::action::Action;
+use crate::editor::panels::Desk;
+use crate::editor::theme;
+
+/// Side of a button, points.
+const BUTTON: f32 = 34.0;
+/// Side of its icon, points.
+const ICON: f32 = 18.0;
+/// Tools between which a gap stands: those that draw, and those that look.
+const GAPS: [usize; 2] = [0, 5];
+
+/// Width of the strip, points.
+pub const WIDTH: f32 = BUTTON + 8.0;
+
+/// Shows the tools below each other, and asks for the one that is clicked or whose key is pressed.
+pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) {
+    let mut wanted = toolbox.called(ui.ctx());
+    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.vertical_centered(|ui| {
+        ui.add_space(4.0);
+        for (i, tool) in toolbox.tools().enumerate() {
+            if button(ui, tool, desk.session.tool == i) {
+                wanted = Some(i);
+            }
+            if GAPS.contains(&i) {
+                ui.add_space(8.0);
+            }
+        }
+    });
+    if let Some(tool) = wanted {
+        desk.ask(Action::Tool(tool));
+    }
+}
+
+fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), active, tool.name()));
+    let visuals = ui.visuals();
+    let (fill, colour) = if active {
+        (theme::ACCENT, egui::Color32::WHITE)
+    } else if response.hovered() || response.has_focus() {
+        (visuals.widgets.hovered.bg_fill, visuals.widgets.hovered.fg_stroke.color)
+    } else {
+        (egui::Color32::TRANSPARENT, visuals.widgets.inactive.fg_stroke.color)
+    };
+    let painter = ui.painter();
+    painter.rect_filled(rect, CornerRadius::same(6), fill);
+    let square = egui::Rect::from_center_size(rect.center(), Vec2::splat(ICON));
+    tool.icon(painter, square, Stroke::new(2.0, colour));
+    let clicked = response.clicked();
+    response.on_hover_ui(|ui| {
+        ui.horizontal(|ui| {
+            ui.strong(tool.name());
+            ui.weak(tool.key().name());
+        });
+        ui.set_max_width(260.0);
+        ui.label(tool.hint());
+    });
+    clicked
+}

@@ -1,0 +1,51 @@
+//! Draws directed lines.
+
+use egui::{Key, Painter, Rect, Stroke};
+use lightloom_core::constraint::{Constraint, DirectedLine};
+
+use super::pen::{Pen, add};
+use super::{Gesture, Ghost, Look, Tool, icon};
+use crate::editor::action::Action;
+
+/// Draws directed lines: flow here, this way.
+#[derive(Default)]
+pub(super) struct DrawLine {
+    pen: Pen,
+}
+
+impl Tool for DrawLine {
+    fn name(&self) -> &'static str {
+        "Directed line"
+    }
+
+    fn key(&self) -> Key {
+        Key::D
+    }
+
+    fn hint(&self) -> &'static str {
+        "Drag to draw freehand, or click point by point: Enter ends, Backspace takes back, Esc cancels, Shift is straight"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        icon::curve(painter, square, stroke, [[0.06, 0.86], [0.42, 0.92], [0.3, 0.3], [0.78, 0.22]]);
+        icon::filled(painter, square, stroke, [[0.97, 0.17], [0.7, 0.02], [0.74, 0.42]].as_slice());
+    }
+
+    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+        let Some(points) = self.pen.gesture(gesture, look) else { return Vec::new() };
+        let points = points.into_iter().map(Into::into).collect();
+        add(Constraint::DirectedLine(DirectedLine::new(points)), look)
+    }
+
+    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+        std::iter::once(Ghost::Line(self.pen.points())).chain(self.pen.marks()).collect()
+    }
+
+    fn put_down(&mut self) {
+        self.pen.clear();
+    }
+
+    fn is_busy(&self) -> bool {
+        self.pen.is_busy()
+    }
+}

@@ -1,0 +1,42 @@
+//! Moves the view.
+
+use egui::{CursorIcon, Key, Painter, Rect, Stroke};
+
+use super::{Grip, Tool, icon};
+
+/// Moves the view; so does the middle button, and Space, with any tool.
+pub(super) struct Pan;
+
+impl Tool for Pan {
+    fn name(&self) -> &'static str {
+        "Pan"
+    }
+
+    fn key(&self) -> Key {
+        Key::H
+    }
+
+    fn hint(&self) -> &'static str {
+        "Drag to move the view; the middle button, or Space and drag, does so with any tool"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        let lines: &[&[[f32; 2]]] = &[
+            &[[0.5, 0.08], [0.5, 0.92]],
+            &[[0.08, 0.5], [0.92, 0.5]],
+            &[[0.37, 0.2], [0.5, 0.07], [0.63, 0.2]],
+            &[[0.37, 0.8], [0.5, 0.93], [0.63, 0.8]],
+            &[[0.2, 0.37], [0.07, 0.5], [0.2, 0.63]],
+            &[[0.8, 0.37], [0.93, 0.5], [0.8, 0.63]],
+        ];
+        icon::lines(painter, square, stroke, lines);
+    }
+
+    fn cursor(&self) -> CursorIcon {
+        CursorIcon::Grab
+    }
+
+    fn grip(&self) -> Grip {
+        Grip::Pan
+    }
+}

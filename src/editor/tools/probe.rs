@@ -1,0 +1,67 @@
+//! Follows one photon.
+
+use egui::{Key, Painter, Rect, Stroke};
+use glam::Vec2;
+
+use super::{Gesture, Look, Tool, icon};
+use crate::editor::action::Action;
+
+/// How far from the pointer the photon may be, points of the screen.
+const REACH: f32 = 40.0;
+
+/// Follows the photon that is nearest to a click: its way, its target and its detour appear.
+#[derive(Default)]
+pub(super) struct Probe {
+    down: bool,
+}
+
+impl Tool for Probe {
+    fn name(&self) -> &'static str {
+        "Probe"
+    }
+
+    fn key(&self) -> Key {
+        Key::P
+    }
+
+    fn hint(&self) -> &'static str {
+        "Click light to follow its photon: the way it takes, its target, its detour around walls. Esc ends"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        icon::circle(painter, square, stroke, [0.5, 0.5], 0.28);
+        let lines: &[&[[f32; 2]]] = &[
+            &[[0.5, 0.04], [0.5, 0.34]],
+            &[[0.5, 0.66], [0.5, 0.96]],
+            &[[0.04, 0.5], [0.34, 0.5]],
+            &[[0.66, 0.5], [0.96, 0.5]],
+        ];
+        icon::lines(painter, square, stroke, lines);
+    }
+
+    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+        match gesture {
+            Gesture::Press(p) => {
+                self.down = true;
+                vec![Action::Probe(nearest(p, look))]
+            }
+            Gesture::Drag(p) if self.down => vec![Action::Probe(nearest(p, look))],
+            Gesture::Key(Key::Escape) => vec![Action::Probe(None)],
+            Gesture::Release(_) => {
+                self.down = false;
+                Vec::new()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn put_down(&mut self) {
+        self.down = false;
+    }
+}
+
+fn nearest(p: Vec2, look: &Look) -> Option<usize> {
+    let distances = look.photons.iter().enumerate().map(|(row, photon)| (row, photon.distance_squared(p)));
+    let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.filter(|(_, squared)| squared.sqrt() <= look.points(REACH)).map(|(row, _)| row)
+}

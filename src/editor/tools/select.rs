@@ -1,0 +1,230 @@
+//! Selects, moves and changes what was drawn.
+
+use egui::{CursorIcon, Key, Painter, Rect, Stroke};
+use glam::Vec2;
+use lightloom_core::constraint::Constraint;
+
+use super::pick::{self, Hit};
+use super::snap::Snap;
+use super::{Gesture, Ghost, Look, Tool, arrange, icon};
+use crate::editor::action::Action;
+use crate::editor::document::Edit;
+use crate::editor::selection::Selection;
+
+/// A drag shorter than this is a click, points of the screen.
+const CLICK: f32 = 3.0;
+
+/// Selects lines, walls and points of them; moves them; sets and removes points.
+#[derive(Default)]
+pub(super) struct Select {
+    over: Option<Hit>,
+    doing: Doing,
+    caught: Option<Vec2>,
+}
+
+/// What goes on while the button is down.
+#[derive(Default)]
+enum Doing {
+    #[default]
+    Nothing,
+    /// The button went down, and nothing came of it yet.
+    Pressed { at: Vec2, hit: Option<Hit>, selection: Selection },
+    /// What is selected follows the pointer.
+    Moving { from: Vec2, selection: Selection, base: Vec<(usize, Constraint)> },
+    /// A box is drawn.
+    Boxing { from: Vec2, to: Vec2 },
+}
+
+impl Select {
+    fn press(&mut self, p: Vec2, look: &Look) -> Vec<Action> {
+        let hit = pick::hit(p, look);
+        let before = &look.session.selection;
+        let selection = hit.map_or_else(|| before.clone(), |hit| clicked(hit, before, look));
+        self.doing = Doing::Pressed { at: p, hit, selection: selection.clone() };
+        if selection == *before { Vec::new() } else { vec![Action::Select(selection)] }
+    }
+
+    fn drag(&mut self, p: Vec2, look: &Look) -> Vec<Action> {
+        if let Doing::Pressed { at, hit, selection } = &self.doing
+            && at.distance(p) >= look.points(CLICK)
+        {
+            self.doing = match hit {
+                Some(hit) => {
+                    let base =
+                        arrange::chosen(look.project, selection).map(|(i, c)| (i, c.clone())).collect();
+                    Doing::Moving { from: grabbed(*hit, *at, look), selection: selection.clone(), base }
+                }
+                None => Doing::Boxing { from: *at, to: p },
+            };
+        }
+        match &mut self.doing {
+            Doing::Boxing { to, .. } => *to = p,
+            Doing::Moving { from, selection, base } if !base.is_empty() => {
+                let skip = |i: usize, k: usize| selection.moves(i, k);
+                let snap = Snap { from: Some(*from).filter(|_| look.held.shift), skip: &skip, own: &[] };
+                let snapped = snap.find(p, look);
+                self.caught = snapped.caught.then_some(snapped.at);
+                return vec![arrange::moved(base, selection, snapped.at - *from).into()];
+            }
+            _ => (),
+        }
+        Vec::new()
+    }
+
+    fn release(&mut self, look: &Look) -> Vec<Action> {
+        self.caught = None;
+        match std::mem::take(&mut self.doing) {
+            Doing::Moving { .. } => vec![Action::Settle],
+            Doing::Boxing { from, to } => {
+                let inside = pick::within(from, to, look);
+                vec![Action::Select(combined(&inside, look))]
+            }
+            Doing::Pressed { hit: None, .. } if !look.held.shift && !look.held.alt => {
+                vec![Action::Select(Selection::default())]
+            }
+            Doing::Pressed { .. } | Doing::Nothing => Vec::new(),
+        }
+    }
+
+    fn escape(&mut self, look: &Look) -> Vec<Action> {
+        self.caught = None;
+        match std::mem::take(&mut self.doing) {
+            Doing::Moving { .. } => vec![Action::Abort],
+            Doing::Nothing if !look.session.selection.is_empty() => {
+                vec![Action::Select(Selection::default())]
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The place that follows the pointer: of a point the point itself, so that it is what snaps.
+fn grabbed(hit: Hit, at: Vec2, look: &Look) -> Vec2 {
+    match hit {
+        Hit::Point(i, k) => {
+            let point = look.project.constraints.get(i).and_then(|c| c.points().get(k));
+            point.map_or(at, |&p| p.into())
+        }
+        Hit::Piece(..) => at,
+    }
+}
+
+/// What is selected after a click: more with Shift, less with Alt; a click on what is selected keeps the rest, so that
+/// all of it can be dragged.
+fn clicked(hit: Hit, before: &Selection, look: &Look) -> Selection {
+    let mut selection = before.clone();
+    match hit {
+        Hit::Point(i, k) if look.held.shift => selection.toggle_point(i, k),
+        Hit::Piece(i, ..) if look.held.shift => selection.toggle(i),
+        _ if look.held.alt => selection = combined(&Selection::one(hit.constraint()), look),
+        Hit::Point(i, k) if before.is_whole(i) || !before.moves(i, k) => selection = Selection::point(i, k),
+        Hit::Piece(i, ..) if !before.contains(i) => selection = Selection::one(i),
+        Hit::Piece(i, ..) if !before.is_whole(i) => selection = Selection::one(i),
+        Hit::Point(..) | Hit::Piece(..) => (),
+    }
+    selection
+}
+
+/// The selection with more or less of it, or this instead.
+fn combined(other: &Selection, look: &Look) -> Selection {
+    let mut selection = look.session.selection.clone();
+    if look.held.alt {
+        selection.subtract(other, |i| look.project.constraints.get(i).map_or(0, |c| c.points().len()));
+    } else if look.held.shift {
+        selection.extend(other);
+    } else {
+        selection = other.clone();
+    }
+    selection
+}
+
+/// Sets a point on the line under the pointer.
+fn insert(p: Vec2, look: &Look) -> Vec<Action> {
+    let Some(Hit::Piece(i, k, at)) = pick::hit(p, look) else { return Vec::new() };
+    let Some(constraint) = look.project.constraints.get(i) else { return Vec::new() };
+    let mut points = arrange::points(constraint);
+    points.insert(k + 1, at);
+    let change = Edit::Change(vec![(i, arrange::through(constraint, &points))]);
+    vec![change.into(), Action::Settle, Action::Select(Selection::point(i, k + 1))]
+}
+
+fn key(key: Key, look: &Look) -> Vec<Action> {
+    let (project, selection) = (look.project, &look.session.selection);
+    let arranged = match (key, look.arrow(key)) {
+        (Key::Delete | Key::Backspace, _) => arrange::delete(project, selection),
+        (_, Some(step)) => arrange::nudge(project, selection, step),
+        _ => None,
+    };
+    let Some((edit, after)) = arranged else { return Vec::new() };
+    vec![edit.into(), Action::Settle, Action::Select(after)]
+}
+
+impl Tool for Select {
+    fn name(&self) -> &'static str {
+        "Select"
+    }
+
+    fn key(&self) -> Key {
+        Key::V
+    }
+
+    fn hint(&self) -> &'static str {
+        "Click or drag a box to select (Shift adds, Alt takes out), drag to move, double click a line to set a point"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        let arrow: &[[f32; 2]] = &[
+            [0.22, 0.06],
+            [0.22, 0.84],
+            [0.42, 0.65],
+            [0.56, 0.95],
+            [0.69, 0.89],
+            [0.55, 0.6],
+            [0.82, 0.58],
+            [0.22, 0.06],
+            [0.22, 0.2],
+        ];
+        icon::lines(painter, square, stroke, &[arrow]);
+    }
+
+    fn cursor(&self) -> CursorIcon {
+        match (&self.doing, self.over) {
+            (Doing::Moving { .. }, _) | (Doing::Nothing, Some(Hit::Piece(..))) => CursorIcon::Move,
+            (Doing::Nothing, Some(Hit::Point(..))) => CursorIcon::PointingHand,
+            _ => CursorIcon::Default,
+        }
+    }
+
+    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+        match gesture {
+            Gesture::Hover(p) => {
+                self.over = pick::hit(p, look);
+                Vec::new()
+            }
+            Gesture::Press(p) => self.press(p, look),
+            Gesture::Drag(p) => self.drag(p, look),
+            Gesture::Release(_) => self.release(look),
+            Gesture::DoubleClick(p) => insert(p, look),
+            Gesture::Key(Key::Escape) => self.escape(look),
+            Gesture::Key(pressed) => key(pressed, look),
+        }
+    }
+
+    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+        let over = self.over.filter(|_| matches!(self.doing, Doing::Nothing));
+        let hover = over.map(|hit| Ghost::Hover(hit.constraint()));
+        let frame = match &self.doing {
+            Doing::Boxing { from, to } => Some(Ghost::Box(*from, *to)),
+            _ => None,
+        };
+        hover.into_iter().chain(frame).chain(self.caught.map(Ghost::Snap)).collect()
+    }
+
+    fn put_down(&mut self) {
+        *self = Self::default();
+    }
+
+    fn is_busy(&self) -> bool {
+        !matches!(self.doing, Doing::Nothing)
+    }
+}

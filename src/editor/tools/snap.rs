@@ -1,0 +1,108 @@
+//! Snapping: the pointer is caught by points, lines, directions and the grid that lie near.
+
+use glam::{Vec2, vec2};
+use lightloom_core::constraint::stroke;
+
+use super::Look;
+
+/// How near catches, points of the screen.
+const REACH: f32 = 5.0;
+/// Directions that catch: multiples of this, radians.
+const STEP: f32 = std::f32::consts::PI / 12.0;
+/// How near to such a direction, radians: close to where the way begins all directions are near in points.
+const NEAR: f32 = 0.05;
+
+/// Where the pointer counts as being.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Snapped {
+    /// The place, plane units.
+    pub(super) at: Vec2,
+    /// Whether something caught it.
+    pub(super) caught: bool,
+}
+
+/// What may catch the pointer.
+pub(super) struct Snap<'a> {
+    /// Where the way to the pointer begins: directions from there catch.
+    pub(super) from: Option<Vec2>,
+    /// Points besides those of the document.
+    pub(super) own: &'a [Vec2],
+    /// Points of the document that do not count: constraint and point.
+    pub(super) skip: &'a dyn Fn(usize, usize) -> bool,
+}
+
+impl Snap<'_> {
+    /// Everything of the document catches.
+    pub(super) const ALL: Self = Self { from: None, own: &[], skip: &|_, _| false };
+
+    /// Where the pointer at `p` counts as being. Shift allows nothing but straight ways.
+    pub(super) fn find(&self, p: Vec2, look: &Look) -> Snapped {
+        if let Some(from) = self.from.filter(|_| look.held.shift) {
+            return Snapped { at: straight(p, from), caught: false };
+        }
+        let off = look.held.ctrl || !look.session.snapping;
+        let caught = if off { None } else { self.to_point(p, look).or_else(|| self.to_others(p, look)) };
+        Snapped { at: caught.unwrap_or(p), caught: caught.is_some() }
+    }
+
+    fn to_point(&self, p: Vec2, look: &Look) -> Option<Vec2> {
+        let drawn = look.project.constraints.iter().enumerate().filter(|_| look.session.show.drawn);
+        let points = drawn.flat_map(|(i, constraint)| {
+            let points = constraint.points().iter().enumerate();
+            points.filter(move |(k, _)| !(self.skip)(i, *k)).map(|(_, &point)| Vec2::from(point))
+        });
+        nearest(p, points.chain(self.own.iter().copied()), look.points(REACH))
+    }
+
+    fn to_others(&self, p: Vec2, look: &Look) -> Option<Vec2> {
+        let drawn = look.project.constraints.iter().enumerate().filter(|_| look.session.show.drawn);
+        let along = drawn.flat_map(|(i, constraint)| {
+            let pieces = constraint.points().windows(2).enumerate();
+            pieces
+                .filter(move |(k, _)| !(self.skip)(i, *k) && !(self.skip)(i, k + 1))
+                .map(move |(_, piece)| stroke::nearest_on_segment(p, piece[0].into(), piece[1].into()))
+        });
+        let turned = self.from.map(|from| (from, straight(p, from)));
+        let turned = turned.filter(|(from, to)| p.distance(*to) < NEAR * p.distance(*from)).map(|(_, to)| to);
+        let node = look.session.show.grid.then(|| grid_node(p, look));
+        nearest(p, along.chain(turned).chain(node), look.points(REACH))
+    }
+}
+
+/// The point on the nearest straight way from `from`: a multiple of 15 degrees.
+pub(super) fn straight(p: Vec2, from: Vec2) -> Vec2 {
+    let way = p - from;
+    if way == Vec2::ZERO {
+        return p;
+    }
+    let direction = Vec2::from_angle((way.to_angle() / STEP).round() * STEP);
+    from + direction * way.dot(direction)
+}
+
+fn grid_node(p: Vec2, look: &Look) -> Vec2 {
+    let [x, y] = look.project.flow.grid.cells(look.extent);
+    let cells = vec2(x as f32, y as f32) / look.extent;
+    (p * cells).round() / cells
+}
+
+fn nearest(p: Vec2, candidates: impl Iterator<Item = Vec2>, reach: f32) -> Option<Vec2> {
+    let near = candidates.map(|c| (c.distance(p), c)).filter(|(distance, _)| *distance <= reach);
+    near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, c)| c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_ways_are_multiples_of_fifteen_degrees() {
+        for i in 0..200 {
+            let from = vec2(0.3, 0.4);
+            let angle = 0.1 * i as f32;
+            let to = straight(from + Vec2::from_angle(angle) * 0.2, from);
+            let turns = (to - from).to_angle() / STEP;
+            // Angles of f32 vectors of length 0.2.
+            assert!((turns - turns.round()).abs() < 1e-4, "{turns}");
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Places the target's picture: moves, turns and scales it.
+
+use egui::{CursorIcon, Key, Painter, Rect, Stroke};
+use glam::Vec2;
+use lightloom_core::project::{KeyFrame, Project, Shows};
+use lightloom_core::target::{ImageTarget, Placement};
+
+use super::snap::Snap;
+use super::{Gesture, Ghost, Look, Tool, icon};
+use crate::editor::action::Action;
+use crate::editor::document::Edit;
+use crate::editor::session::Session;
+
+/// How near a handle catches, points of the screen.
+const HANDLE: f32 = 9.0;
+/// How far the handle that turns stands off the picture, points of the screen.
+const STALK: f32 = 28.0;
+/// How near to multiples of 15 degrees a turn catches, degrees.
+const NEAR: f32 = 2.0;
+/// Smallest and largest width of a picture, plane units.
+const WIDTH: [f32; 2] = [0.005, 10.0];
+
+/// The picture that is placed: whose it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown<'a> {
+    /// Its key frame, by index.
+    pub key: usize,
+    /// The caustic that shows it alone; none where the key does.
+    pub caustic: Option<&'a str>,
+    /// The picture.
+    pub image: &'a ImageTarget,
+}
+
+/// The picture towards which the light flows at the playhead: of the first key that is not before it, and there of the
+/// caustic in focus if it shows one of its own.
+pub fn shown<'a>(project: &'a Project, session: &Session) -> Option<Shown<'a>> {
+    let after = project.keys.iter().position(|key| key.frame >= session.playhead);
+    let key = after.or_else(|| project.keys.len().checked_sub(1))?;
+    let name =
+        session.focus.caustic.and_then(|i| project.caustics.get(i)).map(|caustic| caustic.name.as_str());
+    let own =
+        name.filter(|name| project.keys[key].caustics.get(*name).is_some_and(|own| own.shows.is_some()));
+    match project.keys[key].shown_by(own) {
+        Shows::Image(image) => Some(Shown { key, caustic: own, image }),
+        Shows::PhysicalCaustic | Shows::Points(_) => None,
+    }
+}
+
+/// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
+pub fn target_corners(look: &Look) -> Option<[Vec2; 4]> {
+    Some(Frame::new(&shown(look.project, look.session)?.image.placement, look).corners())
+}
+
+impl Shown<'_> {
+    /// The keys of the project with this picture placed otherwise.
+    fn placed(&self, project: &Project, placement: &Placement) -> Vec<KeyFrame> {
+        let mut keys = project.keys.clone();
+        let shows = match self.caustic {
+            Some(name) => keys[self.key].caustics.get_mut(name).and_then(|own| own.shows.as_mut()),
+            None => Some(&mut keys[self.key].shows),
+        };
+        if let Some(Shows::Image(image)) = shows {
+            image.placement = placement.clone();
+        }
+        keys
+    }
+}
+
+/// A picture on the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    centre: Vec2,
+    /// Half of its width, with its direction.
+    right: Vec2,
+    /// Half of its height, with its direction.
+    up: Vec2,
+}
+
+impl Frame {
+    /// A picture whose size is not known yet counts as a square.
+    fn new(placement: &Placement, look: &Look) -> Self {
+        let size = look.picture.unwrap_or(Vec2::splat(100.0));
+        let (centre, x, y) = placement.frame(size, look.extent);
+        Self { centre, right: x * (0.5 * size.x), up: y * (0.5 * size.y) }
+    }
+
+    fn corners(&self) -> [Vec2; 4] {
+        let Self { centre, right, up } = *self;
+        [centre - right - up, centre + right - up, centre + right + up, centre - right + up]
+    }
+
+    fn stalk(&self, look: &Look) -> Vec2 {
+        self.centre + self.up + self.up.normalize_or(Vec2::Y) * look.points(STALK)
+    }
+
+    fn contains(&self, p: Vec2) -> bool {
+        let off = p - self.centre;
+        let inside = |axis: Vec2| off.dot(axis).abs() <= axis.length_squared();
+        inside(self.right) && inside(self.up)
+    }
+
+    fn placement(&self) -> Placement {
+        let width = 2.0 * self.right.length();
+        let rotate = self.right.to_angle().to_degrees();
+        let far = Vec2::splat(10.0);
+        Placement {
+            centre: Some(self.centre.clamp(-far, far).into()),
+            width: Some(width.clamp(WIDTH[0], WIDTH[1])),
+            rotate,
+        }
+    }
+}
+
+/// Which handle was taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Handle {
+    Inside,
+    Corner(usize),
+    Turn,
+}
+
+/// Places the picture of the key frame that follows the playhead.
+#[derive(Default)]
+pub(super) struct Place {
+    /// What was taken: the handle, where, and the picture as it was.
+    taken: Option<(Handle, Vec2, Frame)>,
+    over: Option<Handle>,
+}
+
+impl Place {
+    fn handle(p: Vec2, frame: &Frame, look: &Look) -> Option<Handle> {
+        let near = |q: Vec2| p.distance(q) <= look.points(HANDLE);
+        let corner = frame.corners().into_iter().position(near).map(Handle::Corner);
+        let turn = near(frame.stalk(look)).then_some(Handle::Turn);
+        corner.or(turn).or_else(|| frame.contains(p).then_some(Handle::Inside))
+    }
+
+    fn drag(&self, p: Vec2, look: &Look) -> Option<Frame> {
+        let (handle, from, frame) = self.taken?;
+        Some(match handle {
+            Handle::Inside => moved(frame, from, p, look),
+            Handle::Corner(corner) => scaled(frame, corner, p, look),
+            Handle::Turn => turned(frame, from, p, look),
+        })
+    }
+}
+
+fn moved(frame: Frame, from: Vec2, p: Vec2, look: &Look) -> Frame {
+    let middle = [look.extent / 2.0];
+    let snap = Snap { from: Some(frame.centre), own: &middle, ..Snap::ALL };
+    Frame { centre: snap.find(frame.centre + p - from, look).at, ..frame }
+}
+
+/// About the opposite corner; with Alt about the centre.
+fn scaled(frame: Frame, corner: usize, p: Vec2, look: &Look) -> Frame {
+    let corners = frame.corners();
+    let fixed = if look.held.alt { frame.centre } else { corners[(corner + 2) % 4] };
+    let diagonal = corners[corner] - fixed;
+    let width = 2.0 * frame.right.length();
+    let factor = (p - fixed).dot(diagonal) / diagonal.length_squared();
+    if !factor.is_finite() || width <= 0.0 {
+        return frame;
+    }
+    let factor = factor.clamp(WIDTH[0] / width, WIDTH[1] / width);
+    let centre = fixed + (frame.centre - fixed) * factor;
+    Frame { centre, right: frame.right * factor, up: frame.up * factor }
+}
+
+/// About the centre; near multiples of 15 degrees it catches, with Shift there is nothing else.
+fn turned(frame: Frame, from: Vec2, p: Vec2, look: &Look) -> Frame {
+    let by = (p - frame.centre).to_angle() - (from - frame.centre).to_angle();
+    let angle = (frame.right.to_angle() + by).to_degrees();
+    let even = (angle / 15.0).round() * 15.0;
+    let catches = look.session.snapping && !look.held.ctrl && (angle - even).abs() < NEAR;
+    let angle = if catches || look.held.shift { even } else { angle };
+    let turn = Vec2::from_angle(angle.to_radians());
+    Frame { right: turn * frame.right.length(), up: turn.perp() * frame.up.length(), ..frame }
+}
+
+impl Tool for Place {
+    fn name(&self) -> &'static str {
+        "Place target"
+    }
+
+    fn key(&self) -> Key {
+        Key::M
+    }
+
+    fn hint(&self) -> &'static str {
+        "Drag the picture to move it, a corner to scale it (Alt: about the middle), the knob to turn it; double click fits it"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        let lines: &[&[[f32; 2]]] = &[
+            &[[0.2, 0.26], [0.2, 0.86], [0.8, 0.86], [0.8, 0.26], [0.17, 0.26]],
+            &[[0.2, 0.74], [0.42, 0.5], [0.58, 0.66], [0.66, 0.58], [0.8, 0.72]],
+            &[[0.5, 0.26], [0.5, 0.06]],
+        ];
+        icon::lines(painter, square, stroke, lines);
+        painter.circle_filled(icon::at(square, [0.5, 0.06]), 0.09 * square.width(), stroke.color);
+    }
+
+    fn cursor(&self) -> CursorIcon {
+        match self.taken.map(|(handle, ..)| handle).or(self.over) {
+            Some(Handle::Inside) => CursorIcon::Move,
+            Some(Handle::Corner(0 | 2)) => CursorIcon::ResizeNeSw,
+            Some(Handle::Corner(_)) => CursorIcon::ResizeNwSe,
+            Some(Handle::Turn) => CursorIcon::Alias,
+            None => CursorIcon::Default,
+        }
+    }
+
+    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+        let Some(shown) = shown(look.project, look.session) else {
+            self.put_down();
+            let here = matches!(gesture, Gesture::Press(_));
+            let say = "The next key frame shows no picture that could be placed".to_owned();
+            return if here { vec![Action::Say(say)] } else { Vec::new() };
+        };
+        let frame = Frame::new(&shown.image.placement, look);
+        let ask = |placement: Placement| Action::from(Edit::Keys(shown.placed(look.project, &placement)));
+        match gesture {
+            Gesture::Hover(p) => self.over = Self::handle(p, &frame, look),
+            Gesture::Press(p) => self.taken = Self::handle(p, &frame, look).map(|handle| (handle, p, frame)),
+            Gesture::Drag(p) => return self.drag(p, look).map(|f| ask(f.placement())).into_iter().collect(),
+            Gesture::Release(_) if self.taken.take().is_some() => return vec![Action::Settle],
+            Gesture::Key(Key::Escape) if self.taken.take().is_some() => return vec![Action::Abort],
+            Gesture::DoubleClick(p) if frame.contains(p) => {
+                return vec![ask(Placement::default()), Action::Settle];
+            }
+            Gesture::Key(key) => {
+                let Some(step) = look.arrow(key) else { return Vec::new() };
+                let frame = Frame { centre: frame.centre + step, ..frame };
+                return vec![ask(frame.placement()), Action::Settle];
+            }
+            Gesture::Release(_) | Gesture::DoubleClick(_) => (),
+        }
+        Vec::new()
+    }
+
+    fn ghosts(&self, look: &Look) -> Vec<Ghost> {
+        let shown = shown(look.project, look.session);
+        let frame = shown.map(|shown| Frame::new(&shown.image.placement, look));
+        frame.map(|frame| Ghost::Frame(frame.corners(), frame.stalk(look))).into_iter().collect()
+    }
+
+    fn put_down(&mut self) {
+        *self = Self::default();
+    }
+
+    fn is_busy(&self) -> bool {
+        self.taken.is_some()
+    }
+}

@@ -1,0 +1,62 @@
+//! Draws walls.
+
+use egui::{Key, Painter, Rect, Stroke};
+use lightloom_core::constraint::{Constraint, Wall};
+
+use super::pen::{Pen, add};
+use super::{Gesture, Ghost, Look, Tool, icon};
+use crate::editor::action::Action;
+
+/// Draws walls: not through here.
+pub(super) struct DrawWall {
+    pen: Pen,
+}
+
+impl Default for DrawWall {
+    fn default() -> Self {
+        Self { pen: Pen::closing() }
+    }
+}
+
+impl Tool for DrawWall {
+    fn name(&self) -> &'static str {
+        "Wall"
+    }
+
+    fn key(&self) -> Key {
+        Key::W
+    }
+
+    fn hint(&self) -> &'static str {
+        "Drag to draw freehand, or click point by point; back at the first point the wall closes. Enter ends, Esc cancels"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        let lines: &[&[[f32; 2]]] = &[
+            &[[0.08, 0.18], [0.92, 0.18], [0.92, 0.82], [0.08, 0.82], [0.08, 0.15]],
+            &[[0.08, 0.5], [0.92, 0.5]],
+            &[[0.56, 0.18], [0.56, 0.5]],
+            &[[0.36, 0.5], [0.36, 0.82]],
+        ];
+        icon::lines(painter, square, stroke, lines);
+    }
+
+    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+        let Some(points) = self.pen.gesture(gesture, look) else { return Vec::new() };
+        let points = points.into_iter().map(Into::into).collect();
+        add(Constraint::Wall(Wall::new(points)), look)
+    }
+
+    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+        let thickness = Wall::new(Vec::new()).thickness;
+        std::iter::once(Ghost::Wall(self.pen.points(), thickness)).chain(self.pen.marks()).collect()
+    }
+
+    fn put_down(&mut self) {
+        self.pen.clear();
+    }
+
+    fn is_busy(&self) -> bool {
+        self.pen.is_busy()
+    }
+}

@@ -1,0 +1,37 @@
+//! Brings the view nearer.
+
+use egui::{CursorIcon, Key, Painter, Rect, Stroke};
+
+use super::{Grip, Tool, icon};
+
+/// Brings the view nearer; so does the wheel, with any tool.
+pub(super) struct Zoom;
+
+impl Tool for Zoom {
+    fn name(&self) -> &'static str {
+        "Zoom"
+    }
+
+    fn key(&self) -> Key {
+        Key::Z
+    }
+
+    fn hint(&self) -> &'static str {
+        "Click to come nearer, with Shift or Alt to step back, or drag; the wheel does so with any tool"
+    }
+
+    fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
+        icon::circle(painter, square, stroke, [0.42, 0.42], 0.32);
+        let lines: &[&[[f32; 2]]] =
+            &[&[[0.66, 0.66], [0.93, 0.93]], &[[0.42, 0.28], [0.42, 0.56]], &[[0.28, 0.42], [0.56, 0.42]]];
+        icon::lines(painter, square, stroke, lines);
+    }
+
+    fn cursor(&self) -> CursorIcon {
+        CursorIcon::ZoomIn
+    }
+
+    fn grip(&self) -> Grip {
+        Grip::Zoom
+    }
+}
