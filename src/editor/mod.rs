@@ -6,6 +6,7 @@ pub mod canvas;
 pub mod command;
 pub mod dialogs;
 pub mod document;
+pub mod export;
 pub mod keys;
 pub mod menu;
 pub mod palette;
