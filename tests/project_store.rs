@@ -228,6 +228,16 @@ fn a_light_of_another_kind_gets_the_values_it_had_and_keeps_what_is_unknown() {
 }
 
 #[test]
+fn what_is_unknown_stays_with_a_caustic_that_is_renamed() {
+    let written = after(STRANGE, |project| {
+        project.caustics[0].name = "crimson".into();
+        let key = project.keys[1].caustics.remove("red").unwrap();
+        project.keys[1].caustics.insert("crimson".into(), key);
+    });
+    assert_eq!(strangers_of(&written), strangers_of(STRANGE), "{written}");
+}
+
+#[test]
 fn an_unknown_member_that_would_get_a_meaning_gives_way_to_the_project() {
     let text = STRANGE.replacen("\"x_light\": \"key\"", "\"radius\": 1, \"radius\": 2", 1);
     let written = after(&text, |project| {

@@ -12,14 +12,18 @@ pub mod menu;
 pub mod palette;
 pub mod panels;
 pub mod playback;
+pub mod preferences;
 pub mod preview;
 pub mod selection;
 pub mod session;
 pub mod shortcuts;
+pub mod store;
 pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
+pub mod tour;
+pub mod welcome;
 
 mod app;
 

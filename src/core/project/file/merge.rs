@@ -69,7 +69,13 @@ fn members<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Vec<(String, Piec
             (Some(was), Some(now)) => merge(value, was, now),
             // It is new to the project, so what stood in the file meant nothing, or the default.
             (None, Some(now)) => fresh(now),
-            (Some(_), None) => continue,
+            (Some(gone), None) => match renamed(gone, was, now) {
+                Some(name) if members.iter().all(|(own, _)| own != name) => {
+                    members.push((name.to_owned(), Piece::Text(value.text)));
+                    continue;
+                }
+                _ => continue,
+            },
             (None, None) => Piece::Text(value.text),
         };
         members.push((name.clone(), piece));
@@ -92,6 +98,13 @@ fn members<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Vec<(String, Piec
         }
     }
     members
+}
+
+/// The name under which an object goes on that is gone under its old one: a caustic was renamed.
+fn renamed<'n>(gone: &Node, was: &Node, now: &'n Node) -> Option<&'n str> {
+    let same = |(name, value): &&(String, Node)| was.get(name).is_none() && value.text == gone.text;
+    let found = now.members().iter().find(same).filter(|(_, value)| matches!(value.kind, Kind::Object(_)));
+    found.map(|(name, _)| name.as_str())
 }
 
 /// What of a value that the file leaves to the defaults is no longer the default; none where all still is.
