@@ -24,7 +24,9 @@ pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
+pub mod tour;
 mod views;
+pub mod welcome;
 
 pub use app::App;
 pub use start::run;
