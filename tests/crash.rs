@@ -184,7 +184,7 @@ fn killed_fifty_times_nothing_older_than_two_seconds_is_lost() {
     let mut newest = original.project().seed;
 
     for round in 0..ROUNDS {
-        let life = if round % 10 == 9 { random_millis(2300, 3000) } else { random_millis(1, 300) };
+        let life = if round % 10 == 9 { random_millis(2300, 3000) } else { random_millis(1, 800) };
         let saves = round % 3 != 0;
         *said.lock().unwrap() = Said { saving: newest, saved: newest, ..Said::default() };
         let start = newest;
