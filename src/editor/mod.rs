@@ -3,6 +3,7 @@
 
 pub mod action;
 pub mod canvas;
+pub mod clipboard;
 pub mod command;
 pub mod document;
 pub mod panels;
