@@ -8,12 +8,15 @@ use lightloom_core::pipeline::Quality;
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 
-/// Paint where caustics shall flow, and export the animation.
+/// Paint where caustics shall flow, and export the animation. Without a command, the editor opens.
 #[derive(Parser)]
-#[command(version, about, arg_required_else_help = true)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
 pub(super) struct Cli {
     #[command(subcommand)]
-    pub(super) command: Command,
+    pub(super) command: Option<Command>,
+    /// The project to open in the editor.
+    #[arg(value_name = "PROJECT")]
+    pub(super) project: Option<PathBuf>,
 }
 
 #[derive(Subcommand)]

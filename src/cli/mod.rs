@@ -9,6 +9,7 @@ mod progress;
 mod render;
 mod report;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
@@ -19,6 +20,8 @@ use args::{Cli, Command};
 
 /// Exit code where all frames are there, but some hold values that had to be replaced.
 const BAD_FRAMES: u8 = 4;
+/// Exit code where there is no screen, or nothing that draws on it.
+const NO_WINDOW: u8 = 1;
 
 /// Parses the arguments, runs the command, returns its exit code (listed in the README).
 pub fn main() -> ExitCode {
@@ -31,18 +34,35 @@ pub fn main() -> ExitCode {
         }
     };
     let done = match &cli.command {
-        Command::Render(args) => render::run(args),
-        Command::Fit(args) => fit::run(args),
-        Command::Compare(args) => compare::run(args),
-        Command::Check(args) => check::run(args),
-        Command::Report(args) => report::run(args),
-        Command::Schema => schema(),
+        None => edit(cli.project.as_deref()),
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Fit(args)) => fit::run(args),
+        Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Check(args)) => check::run(args),
+        Some(Command::Report(args)) => report::run(args),
+        Some(Command::Schema) => schema(),
     };
     match done {
         Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("lightloom: {error}");
             ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+/// Opens the window. A project that is not there is told here, where a mistyped command is seen.
+fn edit(project: Option<&Path>) -> Result<u8, Error> {
+    if let Some(path) = project.filter(|path| !path.is_file()) {
+        let what =
+            format!("'{}' is neither a command nor a project file; see lightloom --help", path.display());
+        return Err(Error::value("PROJECT", what));
+    }
+    match crate::editor::run(project) {
+        Ok(()) => Ok(0),
+        Err(why) => {
+            eprintln!("lightloom: cannot open a window: {why}");
+            Ok(NO_WINDOW)
         }
     }
 }

@@ -30,10 +30,7 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
 /// Writes `path` through a temporary file beside it, which is flushed to the disk and then takes the name. If `fill` or
 /// the disk fails, the temporary file is removed and a file that had the name before is as it was.
 pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".lightloom-").suffix(".tmp");
     // A temporary file is private by default; a frame is for everyone whom the umask lets in.
@@ -43,9 +40,33 @@ pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io:
     let mut writer = BufWriter::with_capacity(1 << 20, temporary.as_file());
     let filled = fill(&mut writer).and_then(|()| writer.flush());
     drop(writer);
+    // Whoever may read and write the old file may the new one.
+    #[cfg(unix)]
+    let filled = filled.and_then(|()| match std::fs::metadata(path) {
+        Ok(old) if old.is_file() => temporary.as_file().set_permissions(old.permissions()),
+        _ => Ok(()),
+    });
     filled.and_then(|()| temporary.as_file().sync_all()).map_err(Error::io("write", path))?;
     temporary.persist(path).map_err(|failed| Error::io("write", path)(failed.error))?;
     Ok(())
+}
+
+/// Waits until the folder of `path` is on the disk too, so that a name given to a file there outlasts a power cut. Systems
+/// that offer no such thing for folders do it on their own.
+pub fn sync_folder_of(path: &Path) -> Result<()> {
+    let folder = folder_of(path);
+    #[cfg(unix)]
+    File::open(folder).and_then(|folder| folder.sync_all()).map_err(Error::io("write", folder))?;
+    #[cfg(not(unix))]
+    let _ = folder;
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
 }
 
 fn require_regular(path: &Path, metadata: &std::fs::Metadata) -> Result<()> {
@@ -78,6 +99,20 @@ mod tests {
         std::fs::write(&path, b"12345").unwrap();
         assert_eq!(read_regular_file(&path, 5).unwrap(), b"12345");
         assert!(matches!(read_regular_file(&path, 4), Err(Error::Limit { .. })));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn who_may_read_the_old_file_may_read_the_new_one() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("shared");
+        std::fs::write(&path, b"old").unwrap();
+        for mode in [0o664, 0o600] {
+            std::fs::set_permissions(&path, std::fs::Permissions::from_mode(mode)).unwrap();
+            write_atomic(&path, |file| file.write_all(b"new")).unwrap();
+            assert_eq!(std::fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
+        }
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct Session {
     pub views: Views,
     /// Where the plane view looks.
     pub plane: PlaneEye,
+    /// Where the shot view looks.
+    pub shot: ShotEye,
     /// From where the free look sees the scene; none until it was turned.
     pub orbit: Option<Orbit>,
     /// What is drawn over the light.
@@ -69,6 +71,21 @@ pub struct PlaneEye {
     pub zoom: f32,
 }
 
+/// Where the shot view looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShotEye {
+    /// Times the size at which the picture fits the view, 0.05 to 200.
+    pub zoom: f32,
+    /// How far the middle of the picture lies from the middle of the view, points.
+    pub offset: [f32; 2],
+}
+
+impl Default for ShotEye {
+    fn default() -> Self {
+        Self { zoom: 1.0, offset: [0.0; 2] }
+    }
+}
+
 /// A camera that looks at a point from a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
@@ -80,6 +97,15 @@ pub struct Orbit {
     pub elevation: f32,
     /// Distance from the target [m].
     pub distance: f32,
+}
+
+impl Orbit {
+    /// Where it looks from, world [m]; azimuth 0 looks along -z.
+    pub fn eye(&self) -> glam::Vec3 {
+        let (sin, cos) = self.azimuth.sin_cos();
+        let (up, out) = self.elevation.sin_cos();
+        self.target + self.distance * glam::vec3(out * sin, up, out * cos)
+    }
 }
 
 /// What is drawn over the light.
@@ -154,10 +180,14 @@ pub enum Panel {
     Drawn,
     /// The caustics.
     Caustics,
+    /// The key frames.
+    Keys,
     /// Meshes, lights, camera, receiver.
     Scene,
     /// Photons, passes, picture, files.
     Render,
+    /// Energy, walls, solver, time.
+    Numbers,
 }
 
 /// What the panels show in detail, by index.
@@ -184,6 +214,7 @@ impl Default for Session {
             marks: [None; 2],
             views: Views::default(),
             plane: PlaneEye::default(),
+            shot: ShotEye::default(),
             orbit: None,
             show: Shown::default(),
             hidden: BTreeSet::new(),

@@ -80,6 +80,15 @@ const MAX_ITERATIONS: usize = 500;
 /// Is shown the step and the positions of the guide photons there.
 pub type Tracks<'a> = &'a mut dyn FnMut(usize, &[Vec2]);
 
+/// Shows the photons at some moments while the fields are fitted to them.
+pub struct Moments<'a> {
+    /// Times within 0..=1, rising.
+    pub times: &'a [f64],
+    /// Is shown the index of a time and the positions of the guide photons then: those to which a [`Carrier`] of the
+    /// same photons would carry them.
+    pub show: Tracks<'a>,
+}
+
 /// What lies between two key frames: where the photons come from, where they go, and how.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<'a> {
@@ -117,7 +126,21 @@ impl<'a> Course<'a> {
 pub fn fit_segment(
     course: &Course,
     progress: &Progress,
+    tracks: Option<Tracks>,
+) -> Result<(Fields, FlowReport)> {
+    fit_moments(course, progress, tracks, None)
+}
+
+/// As [`fit_segment`], and shows the guides at any moments: where all photons are guides, a second way through the fields
+/// is spared.
+///
+/// # Errors
+/// As [`fit_segment`].
+pub fn fit_moments(
+    course: &Course,
+    progress: &Progress,
     mut tracks: Option<Tracks>,
+    mut moments: Option<Moments>,
 ) -> Result<(Fields, FlowReport)> {
     let Course { source, target, extent, settings, number, lines, walls } = *course;
     check_photons(source, target)?;
@@ -168,6 +191,12 @@ pub fn fit_segment(
         if fields.is_fitted_at(n) || Observer::awaits(step.start, step.length) {
             observer.stepped(&swarm, step.start, step.length);
             observer.steered(&swarm, step.start, &settings.fade);
+        }
+        if let Some(Moments { times, show }) = &mut moments {
+            for (i, &time) in times.iter().enumerate().filter(|(_, time)| fields.step_of(**time) == n) {
+                swarm.positions(time, &mut positions);
+                show(i, &positions);
+            }
         }
         let end = fields.time(n + 1);
         swarm.positions(end, &mut positions);

@@ -152,6 +152,22 @@ impl Obstacles {
         columns.into_par_iter().map(length).collect()
     }
 
+    /// Guidance of photons at `positions` in step `step`, bound for `targets`, `time_left` before t = 1.
+    pub(super) fn guidance(
+        &self,
+        step: usize,
+        time_left: f32,
+        (positions, targets): (&[Vec2], &[Vec2]),
+        progress: &Progress,
+    ) -> Result<Vec<Vec2>> {
+        let mut routes = vec![Route::NEW; positions.len()];
+        self.set_out(step, positions, targets, &mut routes, progress)?;
+        let detour = self.detour(step);
+        let columns = (routes.par_iter(), positions.par_iter(), targets.par_iter());
+        let guidance = |(route, &c, &b): (&Route, &Vec2, &Vec2)| route.guidance(detour, c, b, time_left);
+        Ok(columns.into_par_iter().map(guidance).collect())
+    }
+
     /// Mean length of the ways at the start, the measure of every speed limit.
     pub(super) fn mean_way(&self, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<f32> {
         let mut routes = vec![Route::NEW; source.len()];
@@ -185,6 +201,20 @@ impl Obstacles {
 impl Route {
     /// Straight on, nothing known yet.
     pub(super) const NEW: Self = Self { way: Way::STRAIGHT, state: State::Follows, line: false };
+
+    /// Guidance at `c` towards `b`, `time_left` before t = 1: along the way around the walls of `detour`, fast enough to
+    /// be there in time.
+    pub(super) fn guidance(&self, detour: Option<&Detour>, c: Vec2, b: Vec2, time_left: f32) -> Vec2 {
+        match (self.state, detour) {
+            _ if time_left <= 0.0 => Vec2::ZERO,
+            (State::Waits, _) => Vec2::ZERO,
+            (State::Follows, Some(detour)) if !self.way.is_straight() => {
+                let heading = (detour.heading(self.way, b) - c).normalize_or_zero();
+                heading * (detour.length(self.way, c, b) / time_left)
+            }
+            _ => (b - c) / time_left,
+        }
+    }
 }
 
 fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress) -> Result<Vec<Epoch>> {

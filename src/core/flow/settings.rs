@@ -115,6 +115,14 @@ const FIELD_BYTES_PER_NODE: u64 = 8;
 const MAX_BYTES: u64 = 8 << 30;
 
 impl GridSize {
+    /// No more than `most` cells along a side.
+    pub fn at_most(self, most: u32) -> Self {
+        match self {
+            Self::Longer(cells) => Self::Longer(cells.min(most)),
+            Self::Both(cells) => Self::Both(cells.map(|n| n.min(most))),
+        }
+    }
+
     /// Cells along x and y on a receiver of this extent.
     pub fn cells(self, extent: Vec2) -> [u32; 2] {
         match self {

@@ -7,6 +7,7 @@ use glam::Vec2;
 use super::advect::{Step, Swarm};
 use super::fade::Fade;
 use super::field::Field;
+use super::guidance::guidance;
 use super::obstacles::Obstacles;
 use super::report::Moving as _;
 use super::stage::Stage;
@@ -129,18 +130,70 @@ impl Fields {
         n as f64 / self.steps as f64
     }
 
+    /// Whether a field acts in step `n`: from the end of the fade on all photons go straight.
+    fn acts_in(&self, n: usize) -> bool {
+        n / self.substeps < self.nodes.len() && self.time(n) < self.fade.end()
+    }
+
+    /// The field at the share `x` of step `n`, in which one must act.
+    fn field(&self, n: usize, x: f32) -> Field {
+        let (node, part) = (n / self.substeps, n % self.substeps);
+        let (now, before) = (&self.nodes[node], &self.nodes[node.saturating_sub(1)]);
+        let since = (part as f32 + x) / self.substeps as f32;
+        let mut field = now.clone();
+        Field::blend(now, 1.0 + since, before, -since, &mut field);
+        field
+    }
+
+    /// Everything that moves photons at time `t`, clipped to 0..=1: the fitted field first, then the turbulence, whose
+    /// velocities add up. Empty once the fade has ended and all go straight.
+    pub fn at(&self, t: f64) -> Vec<Field> {
+        let t = t.clamp(0.0, 1.0);
+        let n = self.step_of(t);
+        if !self.acts_in(n) {
+            return Vec::new();
+        }
+        let x = (t * self.steps as f64 - n as f64) as f32;
+        std::iter::once(self.field(n, x)).chain(self.noise(t)).collect()
+    }
+
+    /// Guidance v of Eq. (2) at time `t` < 1 for photons at `positions`, bound for `targets` row by row: where walls stand,
+    /// along the ways around them. Plane units per unit of t.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    ///
+    /// # Panics
+    /// When the columns differ in length.
+    pub fn guidance(
+        &self,
+        t: f64,
+        positions: &[Vec2],
+        targets: &[Vec2],
+        progress: &Progress,
+    ) -> Result<Vec<Vec2>> {
+        assert_eq!(positions.len(), targets.len(), "each photon has one target");
+        match &self.obstacles {
+            None => Ok(guidance(positions, targets, t as f32)),
+            Some(obstacles) => {
+                let columns = (positions, targets);
+                obstacles.guidance(self.step_of(t.clamp(0.0, 1.0)), (1.0 - t) as f32, columns, progress)
+            }
+        }
+    }
+
+    /// The step that a photon is in at time `t`, 0..=1.
+    pub(super) fn step_of(&self, t: f64) -> usize {
+        ((t * self.steps as f64) as usize).min(self.steps - 1)
+    }
+
     /// Step `n`, whose field must be there unless the fade has ended.
     pub(super) fn step(&self, n: usize) -> Step {
         let (start, end) = (self.time(n), self.time(n + 1));
-        let (node, part) = (n / self.substeps, n % self.substeps);
-        let stages = self.nodes.get(node).filter(|_| start < self.fade.end()).map(|now| {
-            let before = &self.nodes[node.saturating_sub(1)];
+        let stages = self.acts_in(n).then(|| {
             [0.0, 0.5, 1.0].map(|x| {
-                let since = (part as f32 + x) / self.substeps as f32;
-                let mut field = now.clone();
-                Field::blend(now, 1.0 + since, before, -since, &mut field);
                 let t = start + f64::from(x) * (end - start);
-                Stage { field, noise: self.noise(t), rate: self.fade.rate(t) }
+                Stage { field: self.field(n, x), noise: self.noise(t), rate: self.fade.rate(t) }
             })
         });
         Step { number: n, left: self.steps - 1 - n, start, length: end - start, stages }
@@ -232,7 +285,7 @@ impl<'a> Carrier<'a> {
     fn enter(&mut self, t: f64, places: usize, progress: &Progress) -> Result<f64> {
         assert_eq!(places, self.targets.len(), "one place for each photon");
         let t = t.clamp(0.0, 1.0);
-        self.advance_to((t * self.fields.steps as f64) as usize, progress)?;
+        self.advance_to(self.fields.step_of(t), progress)?;
         Ok(t)
     }
 }

@@ -141,15 +141,7 @@ impl<'a> Walled<'a> {
         let detour = self.obstacles.detour(self.step);
         let columns = (out.par_iter_mut(), self.routes.par_iter(), self.at.par_iter(), targets.par_iter());
         columns.into_par_iter().for_each(|(out, route, &c, &b)| {
-            *out = match (route.state, detour) {
-                _ if time_left <= 0.0 => Vec2::ZERO,
-                (State::Waits, _) => Vec2::ZERO,
-                (State::Follows, Some(detour)) if !route.way.is_straight() => {
-                    let heading = (detour.heading(route.way, b) - c).normalize_or_zero();
-                    heading * (detour.length(route.way, c, b) / time_left)
-                }
-                _ => (b - c) / time_left,
-            }
+            *out = route.guidance(detour, c, b, time_left);
         });
     }
 }

@@ -82,10 +82,12 @@ impl Scout<'_> {
         let results: Vec<(Vec<bool>, Ledger)> = cells
             .par_chunks(128)
             .map(|chunk| {
-                self.progress.check()?;
                 let mut ledger = Ledger::default();
-                let landed = chunk.iter().map(|at| self.any_lands(level, *at, probes, &mut ledger)).collect();
-                Ok((landed, ledger))
+                let landed = chunk.iter().map(|at| {
+                    self.progress.check()?;
+                    Ok(self.any_lands(level, *at, probes, &mut ledger))
+                });
+                Ok((landed.collect::<Result<_>>()?, ledger))
             })
             .collect::<Result<_>>()?;
         results.iter().for_each(|(_, ledger)| self.ledger.add(*ledger));

@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 
 pub use aim::Aim;
 pub use path::Ledger;
-pub use trace::{TraceReport, Tracer};
+pub use trace::{Lesson, TraceReport, Tracer};
 
 /// Caustic photons in columns of equal length. Their order is such that the first n are an even sample of all.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,6 +6,7 @@
 //! left out, at random offset, and the others take over its flux in proportion. Only if luck is worse than five standard
 //! deviations are candidates added; the bias of that is far below the noise of a single photon.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -46,6 +47,15 @@ pub struct TraceReport {
 /// Traces the caustic photons of a scene, pass by pass.
 pub struct Tracer<'a> {
     scene: &'a Scene,
+    lesson: Lesson,
+}
+
+/// Where the lights of a scene must shine, learned once. It holds as long as meshes, lights, receiver and seed stay
+/// what they are. Cheap to clone.
+#[derive(Clone)]
+pub struct Lesson(Arc<Learned>);
+
+struct Learned {
     plan: Plan,
     seed: u64,
     /// Photons landed per candidate.
@@ -70,27 +80,37 @@ impl<'a> Tracer<'a> {
     /// As [`Self::new`], with emission narrowed less: to compare with, at many times the cost.
     pub fn aimed(scene: &'a Scene, aim: Aim, seed: u64, progress: &Progress) -> Result<Self> {
         let plan = Plan::new(scene, aim, seed, progress)?;
-        let mut tracer = Self { scene, plan, seed, rate: 0.0 };
-        if tracer.plan.cells.is_empty() {
-            return Err(why::no_caustic(scene, &tracer.plan.ledgers));
+        let mut learned = Learned { plan, seed, rate: 0.0 };
+        if learned.plan.cells.is_empty() {
+            return Err(why::no_caustic(scene, &learned.plan.ledgers));
         }
         for pilot in 0..PILOTS {
-            let batches = tracer.set(PILOT_PASS, pilot * PILOT, PILOT, progress)?;
+            let batches = learned.set(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
             let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
-            tracer.rate = cells.len() as f64 / PILOT as f64;
-            if !tracer.plan.activate(&cells) {
+            learned.rate = cells.len() as f64 / PILOT as f64;
+            if !learned.plan.activate(&cells) {
                 break;
             }
         }
-        if tracer.rate == 0.0 {
-            return Err(why::no_caustic(scene, &tracer.plan.ledgers));
+        if learned.rate == 0.0 {
+            return Err(why::no_caustic(scene, &learned.plan.ledgers));
         }
-        Ok(tracer)
+        Ok(Self { scene, lesson: Lesson(Arc::new(learned)) })
+    }
+
+    /// Traces on where another tracer has learned where to shine, in a scene of the same meshes, lights and receiver.
+    pub fn resume(scene: &'a Scene, lesson: Lesson) -> Self {
+        Self { scene, lesson }
+    }
+
+    /// What was learned, for [`Self::resume`].
+    pub fn lesson(&self) -> &Lesson {
+        &self.lesson
     }
 
     /// Photons landed per candidate sent.
     pub fn landing_rate(&self) -> f64 {
-        self.rate
+        self.lesson.0.rate
     }
 
     /// Traces exactly `count` caustic photons of a pass. Equal for equal (seed, pass, count), on any number of threads.
@@ -102,21 +122,22 @@ impl<'a> Tracer<'a> {
         }
         let mut batches: Vec<Batch> = Vec::new();
         let (mut landed, mut candidates) = (0, 0);
-        let expected = self.candidates_for(count as u64);
+        let learned = &*self.lesson.0;
+        let expected = learned.candidates_for(count as u64);
         while landed < count as u64 {
             if candidates > 100 * expected {
                 let what =
                     format!("only {landed} of {count} photons landed, far fewer than the pilot run promised");
                 return Err(Error::Numeric { stage: "trace", what });
             }
-            let wanted = self.candidates_for(count as u64 - landed);
-            batches.extend(self.set(pass, candidates, wanted, progress)?);
+            let wanted = learned.candidates_for(count as u64 - landed);
+            batches.extend(learned.set(self.scene, (pass, candidates, wanted), progress)?);
             candidates += wanted;
             landed = batches.iter().map(|batch| batch.photons.len() as u64).sum();
         }
         let mut ledger = Ledger::default();
         batches.iter().for_each(|batch| ledger.add(batch.ledger));
-        let offset = (Stream::new(self.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
+        let offset = (Stream::new(learned.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
         let factor = landed as f64 / count as f64 / candidates as f64;
         let photons = thin(batches, count as u64, landed, offset, factor as f32);
         let report = TraceReport {
@@ -127,7 +148,9 @@ impl<'a> Tracer<'a> {
         };
         Ok((photons, report))
     }
+}
 
+impl Learned {
     /// Candidates that yield `count` photons unless luck is worse than five standard deviations; whole batches.
     fn candidates_for(&self, count: u64) -> u64 {
         let count = count as f64;
@@ -138,14 +161,19 @@ impl<'a> Tracer<'a> {
         ((photons / rate / BATCH as f64).ceil() as u64).max(1) * BATCH
     }
 
-    /// Traces `count` candidates, a multiple of `BATCH`, spread over all cells; `first` is the index of the first in its
-    /// pass.
-    fn set(&self, pass: u64, first: u64, count: u64, progress: &Progress) -> Result<Vec<Batch>> {
+    /// Traces `count` candidates of a pass, a multiple of `BATCH`, spread over all cells; `first` is the index of the
+    /// first in its pass.
+    fn set(
+        &self,
+        scene: &Scene,
+        (pass, first, count): (u64, u64, u64),
+        progress: &Progress,
+    ) -> Result<Vec<Batch>> {
         (0..count / BATCH)
             .into_par_iter()
             .map(|batch| {
                 progress.check()?;
-                let batch = self.batch(pass, first, batch * BATCH, count);
+                let batch = self.batch(scene, (pass, first, count), batch * BATCH);
                 progress.advance(batch.photons.len() as u64);
                 Ok(batch)
             })
@@ -154,7 +182,7 @@ impl<'a> Tracer<'a> {
 
     /// Candidate i of a set takes the i-th of `count` equal shares of the cells: neighbours in a batch meet the same
     /// triangles, and find them in the cache.
-    fn batch(&self, pass: u64, first: u64, start: u64, count: u64) -> Batch {
+    fn batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
         let mut result = Batch::default();
         let share = |candidate: u64, within: f64| (candidate as f64 + within) / count as f64;
         let last = self.plan.cells.len() - 1;
@@ -168,8 +196,8 @@ impl<'a> Tracer<'a> {
             let cell = &self.plan.cells[at];
             let domain = &self.plan.domains[cell.domain as usize];
             let u = cell.corner.map(|corner| corner + rng.f32() * cell.size);
-            let Some((ray, media)) = domain.sample(self.scene, u, &mut rng) else { continue };
-            let landing = follow(self.scene, ray, cell.flux, media, &mut rng, &mut result.ledger);
+            let Some((ray, media)) = domain.sample(scene, u, &mut rng) else { continue };
+            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.ledger);
             if let Some(landing) = landing {
                 result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
                 result.cells.push(at as u32);

@@ -2,12 +2,11 @@
 
 use glam::Vec2;
 
-use super::light::{KeyPhotons, PassLight};
-use super::mover;
+use super::light::{KeyPhotons, Partners, PassLight};
+use super::mover::Kind;
 use super::supply::Supplies;
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, Method};
-use crate::photon::Tracer;
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -24,16 +23,14 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// The photons of `pass` at the first key.
+    /// The photons of `pass`, whose light is `light`, at the first key.
     pub(super) fn start(
         supplies: &'a Supplies,
-        tracer: Option<&Tracer>,
+        light: PassLight,
+        pass: u64,
         project: &'a Project,
         extent: Vec2,
-        (pass, count): (u64, usize),
-        progress: &Progress,
-    ) -> Result<Self> {
-        let light = supplies.light(tracer, pass, count, progress)?;
+    ) -> Self {
         let first = |group| {
             let at = supplies.key(0, group, &light, pass);
             match project.matching {
@@ -43,7 +40,7 @@ impl<'a> Batch<'a> {
             }
         };
         let at = (0..light.groups.len()).map(first).collect();
-        Ok(Self { supplies, light, pass, project, extent, key: 0, at })
+        Self { supplies, light, pass, project, extent, key: 0, at }
     }
 
     /// What the photons of the pass are made from.
@@ -88,7 +85,7 @@ impl<'a> Batch<'a> {
         if self.rests(group) || from.is_empty() {
             return Ok(None);
         }
-        mover::continuous_map(self.project, self.key, (from, points), self.extent, progress)
+        Kind::of(self.project, self.key, self.extent).map((from, points), self.extent, progress)
     }
 
     /// Where the photons of all groups shall go: row k of each is where photon k goes.
@@ -102,31 +99,39 @@ impl<'a> Batch<'a> {
     }
 
     /// Pairs the photons of a group with its points of the next key: row k of the result is where photon k shall go.
-    /// `map` is absent where rows are paired as given, where the group rests, and where the first pass had no photon of it.
-    pub(super) fn pair(
+    fn pair(
         &self,
         group: usize,
         next: KeyPhotons,
         map: Option<&ContinuousMap>,
         progress: &Progress,
     ) -> Result<KeyPhotons> {
+        Ok(self.partners(group, &next.positions, map, progress)?.arrange(next))
+    }
+
+    /// Which of its `points` at the next key each photon of a group goes to. `map` is absent where rows are paired as
+    /// given, where the group rests, and where the first pass had no photon of it.
+    pub(super) fn partners(
+        &self,
+        group: usize,
+        points: &[Vec2],
+        map: Option<&ContinuousMap>,
+        progress: &Progress,
+    ) -> Result<Partners> {
         let at = &self.at[group];
         if self.rests(group) {
-            return Ok(at.in_place(&next));
+            return Ok(Partners { order: Some(at.origin.clone()), bows: Vec::new() });
         }
         if at.positions.is_empty() {
-            return Ok(next);
+            return Ok(Partners::default());
         }
         let own = match map {
             Some(_) => None,
-            None => self.map(group, &next.positions, progress)?,
+            None => self.map(group, points, progress)?,
         };
-        let Some(map) = map.or(own.as_ref()) else { return Ok(next) };
-        let seed = self.supplies.seed();
-        let paired = map.pair(&at.positions, &next.positions, seed, self.pass, progress)?;
-        let mut next = next.permuted(&paired.matching.target_of);
-        next.bows = paired.bows;
-        Ok(next)
+        let Some(map) = map.or(own.as_ref()) else { return Ok(Partners::default()) };
+        let paired = map.pair(&at.positions, points, self.supplies.seed(), self.pass, progress)?;
+        Ok(Partners { order: Some(paired.matching.target_of), bows: paired.bows })
     }
 
     /// Moves on: the photons stand at the next key now.

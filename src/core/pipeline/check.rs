@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::Prepared;
 use super::grouping::notes_on_dark;
+use super::loader::Prepared;
 use super::plan::{LeftOut, Plan};
 use crate::photon::Tracer;
 use crate::project::{Project, Shows};

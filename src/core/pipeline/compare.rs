@@ -6,8 +6,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::acting;
+use super::loader::Prepared;
 use super::meter::Meter;
-use super::{Pipeline, Prepared, Rendered, Summary};
+use super::{Pipeline, Rendered, Summary};
 use crate::export::{Comparison as Sheet, Drawn, Overlay, Row, evenly_chosen, write_comparison};
 use crate::flow::Movement;
 use crate::matching::Method;
@@ -79,7 +80,7 @@ impl Pipeline {
         let variants = variants(project, frames)?;
         let prepared = variants.iter().map(|(_, variant)| {
             let mut meter = Meter::default();
-            self.prepare(variant, &mut meter).map(|prepared| (prepared, meter))
+            self.prepare(variant, &mut meter, progress).map(|prepared| (prepared, meter))
         });
         let prepared = prepared.collect::<Result<Vec<_>>>()?;
         for (prepared, _) in &prepared {

@@ -12,6 +12,7 @@ use crate::scene::Scene;
 use crate::{Error, Result};
 
 /// The groups of a project: its named caustics in their order, then the rest. One group where none is named.
+#[derive(Clone)]
 pub(super) struct Grouping {
     caustics: Vec<CausticDesc>,
     /// What belongs to each caustic.
@@ -19,6 +20,7 @@ pub(super) struct Grouping {
 }
 
 /// Which lights and meshes of the scene a caustic takes, by index.
+#[derive(Clone)]
 struct Members {
     lights: Vec<bool>,
     meshes: Vec<bool>,

@@ -30,6 +30,27 @@ pub(super) struct KeyPhotons {
     pub(super) bows: Vec<Vec2>,
 }
 
+/// Which of a group's points at a key each photon goes to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Partners {
+    /// Photon k goes to point `order[k]`, as the points are drawn; absent where to point k.
+    pub(super) order: Option<Vec<u32>>,
+    /// See [`KeyPhotons::bows`].
+    pub(super) bows: Vec<Vec2>,
+}
+
+impl Partners {
+    /// The points as they are drawn, each in the row of its photon.
+    pub(super) fn arrange(&self, points: KeyPhotons) -> KeyPhotons {
+        let mut arranged = match &self.order {
+            Some(order) => points.permuted(order),
+            None => points,
+        };
+        arranged.bows.clone_from(&self.bows);
+        arranged
+    }
+}
+
 impl KeyPhotons {
     /// Row k of the result is row `order[k]` of this, not yet paired.
     pub(super) fn permuted(&self, order: &[u32]) -> Self {
@@ -44,10 +65,5 @@ impl KeyPhotons {
             origin,
             bows: Vec::new(),
         }
-    }
-
-    /// The traced photons `next`, each in the row in which it stands here.
-    pub(super) fn in_place(&self, next: &Self) -> Self {
-        next.permuted(&self.origin)
     }
 }

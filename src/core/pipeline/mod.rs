@@ -10,6 +10,7 @@ mod compare;
 mod finish;
 mod grouping;
 mod light;
+mod loader;
 mod meter;
 mod motion;
 mod mover;
@@ -17,6 +18,8 @@ mod passes;
 mod plan;
 mod quality;
 mod ride;
+mod seen;
+mod sketch;
 mod slots;
 mod stage;
 mod summary;
@@ -26,8 +29,6 @@ mod tracks;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::Vec2;
-
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
 pub use grouping::CausticLight;
@@ -35,57 +36,28 @@ pub use meter::StageCost;
 pub use motion::FirstMove;
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
+pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
-use crate::flow::{FlowSettings, GridSize};
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
-use crate::render::{
-    Image, PlaneView, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
-};
-use crate::scene::{Scene, SceneDesc};
+use crate::render::{Image, PlaneView, ProgressiveRender, Visible, first_radius, layout_for};
 use crate::{Error, Progress, Result};
-use batch::Batch;
 use finish::{Finisher, Thumbnails};
+use loader::{Loader, Prepared};
 use meter::Meter;
 use motion::{Motion, MotionInput};
 use passes::{Account, Exposer};
-use slots::Slots;
+use seen::Seen;
 use stage::Stage;
 use summary::Done;
-use supply::Supplies;
 
 /// The stages of one project, with what they remember.
 pub struct Pipeline {
-    assets: AssetFolder,
-    scene: Stage<SceneDesc, LoadedScene>,
-    visible: Stage<ViewInput, Arc<Visible>>,
-    background: Stage<ViewInput, Arc<Image>>,
+    loader: Loader,
+    seen: Seen,
     motion: Stage<MotionInput, Arc<Motion>>,
-}
-
-/// A scene, and what the artist should know of it.
-type LoadedScene = (Arc<Scene>, Arc<Vec<String>>);
-
-/// What the camera's stages are made from.
-#[derive(Clone, PartialEq)]
-struct ViewInput {
-    scene: Option<SceneDesc>,
-    render: RenderSettings,
-    extent: Vec2,
-    seed: u64,
-    layout: Option<TextureLayout>,
-}
-
-/// What every command begins with.
-struct Prepared {
-    scene: Option<Arc<Scene>>,
-    extent: Vec2,
-    supplies: Supplies,
-    slots: Slots,
-    plan: Plan,
-    notes: Vec<String>,
 }
 
 /// A finished render, with what a comparison asks of it.
@@ -99,13 +71,7 @@ struct Rendered {
 impl Pipeline {
     /// A pipeline that has done nothing yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self {
-            assets,
-            scene: Stage::default(),
-            visible: Stage::default(),
-            background: Stage::default(),
-            motion: Stage::default(),
-        }
+        Self { loader: Loader::new(assets), seen: Seen::default(), motion: Stage::default() }
     }
 
     /// Renders the project's frames into the folder `out`, which must be there. `saved` is told of each file.
@@ -123,7 +89,7 @@ impl Pipeline {
         saved: &(dyn Fn(&Path) + Sync),
     ) -> Result<Summary> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
         self.frames(project, prepared, meter, out, progress, saved).map(|rendered| rendered.summary)
@@ -180,7 +146,7 @@ impl Pipeline {
     ) -> Result<Summary> {
         let mut meter = Meter::default();
         let project = &tracks::with_guides_alone(project);
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         if project.keys.len() < 2 {
             return Err(Error::value(
                 "keys",
@@ -206,7 +172,7 @@ impl Pipeline {
     /// Anything wrong with the project or its files; nothing that moves; cancelled.
     pub fn first_move(&mut self, project: &Project, progress: &Progress) -> Result<FirstMove> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
         motion::first_move(batch, project, prepared.extent, progress)
@@ -219,47 +185,14 @@ impl Pipeline {
     /// The first thing that is wrong.
     pub fn check(&mut self, project: &Project) -> Result<CheckReport> {
         let mut meter = Meter::default();
-        let prepared = self.prepare(project, &mut meter)?;
+        let prepared = self.prepare(project, &mut meter, &Progress::new())?;
         let progress = Progress::new();
         let tracer = learn(&prepared, project, &mut meter, &progress)?;
         CheckReport::new(project, &prepared, tracer.as_ref(), &progress)
     }
 
-    fn prepare(&mut self, project: &Project, meter: &mut Meter) -> Result<Prepared> {
-        project.check()?;
-        let frames = project.frames()?;
-        let assets = self.assets.clone();
-        meter.measure("load", || {
-            let mut notes = Vec::new();
-            let scene = match &project.scene {
-                None => None,
-                Some(desc) => {
-                    let load = |desc: &SceneDesc| {
-                        let (scene, notes) = Scene::load(desc, &|path, place| assets.resolve(path, place))?;
-                        Ok::<_, Error>((Arc::new(scene), Arc::new(notes)))
-                    };
-                    let (scene, scene_notes) = self.scene.get(desc.clone(), load)?;
-                    notes.extend(scene_notes.iter().cloned());
-                    Some(scene)
-                }
-            };
-            let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
-            let supplies = Supplies::load(project, scene.as_deref(), extent, &assets)?;
-            notes.extend(supplies.notes());
-            notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
-            notes.extend(stretch_note(project.flow.grid, extent));
-            notes.extend(acting::notes(project, extent));
-            notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
-            let slots = Slots::new(&project.keys, &frames);
-            let plan = plan::plan(
-                project,
-                extent,
-                frames.len(),
-                supplies.given_rows(project.matching)?,
-                supplies.is_fixed(project.render.photons as usize),
-            );
-            Ok(Prepared { scene, extent, supplies, slots, plan, notes })
-        })
+    fn prepare(&mut self, project: &Project, meter: &mut Meter, progress: &Progress) -> Result<Prepared> {
+        meter.measure("load", || self.loader.prepare(project, progress))
     }
 
     /// What the camera sees: the receiver through every pixel, and the picture without caustics.
@@ -271,28 +204,10 @@ impl Pipeline {
         progress: &Progress,
     ) -> Result<(Arc<Visible>, Arc<Image>)> {
         let (extent, passes) = (prepared.extent, prepared.plan.passes);
-        let scene = prepared.scene.as_deref();
-        let (render, seed) = (&project.render, project.seed);
-        let first = first_radius(render, extent);
-        let layout = layout_for(scene, extent, render, (first, radius_of_pass(first, passes - 1)));
-        // The photons change nothing here but the layout, and how a picture is shown changes nothing at all.
-        let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
-        let background = ViewInput { scene: project.scene.clone(), render: seen, extent, seed, layout: None };
-        let visible = ViewInput { layout: Some(layout), ..background.clone() };
-        let visible = meter.measure("visible", || {
-            self.visible.get(visible, |_| match scene {
-                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Ok(Arc::new(Visible::flat(extent, &layout, render))),
-            })
-        })?;
-        let background = match scene {
-            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
-            Some(scene) => meter.measure("background", || {
-                let make = |_: &_| crate::render::background(scene, render, seed, progress).map(Arc::new);
-                self.background.get(background, make)
-            })?,
-        };
-        Ok((visible, background))
+        let first = first_radius(&project.render, extent);
+        let radii = (first, radius_of_pass(first, passes - 1));
+        let layout = layout_for(prepared.scene.as_deref(), extent, &project.render, radii);
+        self.seen.look(project, prepared.scene.as_ref(), (extent, layout), meter, progress)
     }
 
     /// Matches and fits all segments.
@@ -310,45 +225,6 @@ impl Pipeline {
             motion::fit(batch, project, prepared.extent, meter, progress).map(Arc::new)
         })
     }
-}
-
-impl Prepared {
-    /// The photons of one pass at the first key.
-    fn start<'a>(
-        &'a self,
-        project: &'a Project,
-        tracer: Option<&Tracer>,
-        pass: u64,
-        progress: &Progress,
-    ) -> Result<Batch<'a>> {
-        let photons = (pass, self.plan.photons);
-        Batch::start(&self.supplies, tracer, project, self.extent, photons, &progress.inner())
-    }
-}
-
-/// A grid of long cells smooths more along them than across.
-fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
-    let [columns, rows] = grid.cells(extent).map(|n| n as f32);
-    let [width, height] = [extent.x / columns, extent.y / rows];
-    let stretch = width.max(height) / width.min(height);
-    (stretch > 2.0).then(|| {
-        format!(
-            "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
-        )
-    })
-}
-
-/// Steps in which photons cross more than a cell of the noise do not follow its swirls.
-fn swirl_note(flow: &FlowSettings) -> Option<String> {
-    let turbulence = flow.turbulence.as_ref()?;
-    let finest = *turbulence.grids.iter().max()?;
-    let needed = (turbulence.speed() * finest as f32).ceil();
-    (needed > flow.steps as f32).then(|| {
-        format!(
-            "flow.turbulence: in one step the photons cross {:.1} cells of the {finest} x {finest} noise; give flow.steps {needed} to follow its swirls",
-            needed / flow.steps as f32
-        )
-    })
 }
 
 /// Learns where the lights must aim, where photons must be traced.

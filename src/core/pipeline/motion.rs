@@ -2,19 +2,20 @@
 //! caustics share, save those that flow by themselves.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::Vec2;
 
 use super::acting::{Acting, all_acting};
 use super::batch::Batch;
 use super::grouping::{CausticLight, Grouping};
-use super::light::KeyPhotons;
+use super::light::{KeyPhotons, Partners};
 use super::meter::Meter;
 use super::mover;
 use super::summary::FlowNumbers;
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
-use crate::flow::{Course, Fields, FlowSettings, Movement, Mover};
+use crate::flow::{Course, Fields, FlowReport, FlowSettings, Moments, Movement, Mover};
 use crate::matching::{ContinuousMap, Method, mean_square_distance};
 use crate::project::{CausticDesc, CausticKey, KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
@@ -24,17 +25,17 @@ use crate::{Error, Progress, Result};
 pub(super) struct Segment {
     /// Where the light of each group goes at the next key; absent where rows are paired as given, where the group rests,
     /// and where there was no photon of it.
-    pub(super) maps: Vec<Option<ContinuousMap>>,
-    layers: Vec<Layer>,
+    pub(super) maps: Arc<Vec<Option<ContinuousMap>>>,
+    pub(super) layers: Vec<Layer>,
     /// What the pairing of pass 0 costs.
     pub(super) cost: Cost,
 }
 
 /// Groups that flow together.
-struct Layer {
-    groups: Vec<usize>,
+pub(super) struct Layer {
+    pub(super) groups: Vec<usize>,
     /// What moves their photons.
-    mover: Mover,
+    pub(super) mover: Mover,
 }
 
 /// How the light of a project moves; no segments where there is one key.
@@ -119,26 +120,66 @@ pub(super) fn fit(
     let mut motion = Motion { segments: Vec::new(), numbers: None, caustics };
     for (number, acting) in all_acting(project, extent).iter().enumerate() {
         progress.begin("match", 1);
-        let Paired { maps, next, cost } = meter.measure("match", || match_next(&batch, progress))?;
-        let mut segment = Segment { maps, layers: Vec::new(), cost };
-        for groups in layers(&batch) {
-            let source = &*column(&batch.at, &groups, |at| &at.positions);
-            let target = &*column(&next, &groups, |next| &next.positions);
-            let bows = &*column(&next, &groups, |next| &next.bows);
-            let (settings, Acting { lines, walls }) = (&project.flow, acting);
-            let course = Course { source, target, extent, settings, lines, walls, number };
-            let (mover, flow) = mover::mover(project.method, &course, bows, meter, progress)?;
-            let numbers = FlowNumbers::new(flow, &cost);
-            motion.numbers = Some(match motion.numbers.take() {
-                Some(sum) => sum.worst(numbers),
-                None => numbers,
-            });
-            segment.layers.push(Layer { groups, mover });
-        }
-        motion.segments.push(segment);
+        let Paired { maps, next, cost, .. } = meter.measure("match", || match_next(&batch, progress))?;
+        let leg = Leg { at: &batch.at, next: &next, acting, number, extent };
+        let (layers, reports) = leg.fit(layers(&batch), project, None, meter, progress)?;
+        let numbers = motion.numbers.into_iter().chain(FlowNumbers::of_segment(reports, &cost));
+        motion.numbers = numbers.reduce(FlowNumbers::worst);
+        motion.segments.push(Segment { maps: Arc::new(maps), layers, cost });
         batch.arrive(next);
     }
     Ok(motion)
+}
+
+/// The photons of all groups at a key and at the next, matched, and what acts between.
+pub(super) struct Leg<'a> {
+    pub(super) at: &'a [KeyPhotons],
+    /// Row by row.
+    pub(super) next: &'a [KeyPhotons],
+    pub(super) acting: &'a Acting,
+    /// Which segment it is, from 0.
+    pub(super) number: usize,
+    pub(super) extent: Vec2,
+}
+
+/// Moments at which photons are shown while they are fitted to.
+pub(super) struct LayerMoments<'a> {
+    /// Times within 0..=1, rising.
+    pub(super) times: &'a [f64],
+    /// Is shown the groups of a layer, the index of a time, and where their photons are then, group by group.
+    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+}
+
+impl Leg<'_> {
+    /// What moves each layer of groups, and how it does.
+    pub(super) fn fit(
+        &self,
+        layers: Vec<Vec<usize>>,
+        project: &Project,
+        mut moments: Option<LayerMoments>,
+        meter: &mut Meter,
+        progress: &Progress,
+    ) -> Result<(Vec<Layer>, Vec<FlowReport>)> {
+        let Self { at, next, acting: Acting { lines, walls }, number, extent } = *self;
+        let (mut fitted, mut reports) = (Vec::new(), Vec::new());
+        for groups in layers {
+            let source = &*column(at, &groups, |at| &at.positions);
+            let target = &*column(next, &groups, |next| &next.positions);
+            let bows = &*column(next, &groups, |next| &next.bows);
+            let course = Course { source, target, extent, settings: &project.flow, lines, walls, number };
+            let (mover, report) = match &mut moments {
+                None => mover::mover(project.method, &course, bows, None, meter, progress)?,
+                Some(LayerMoments { times, show }) => {
+                    let show = &mut |i: usize, positions: &[Vec2]| show(&groups, i, positions);
+                    let moments = Some(Moments { times, show });
+                    mover::mover(project.method, &course, bows, moments, meter, progress)?
+                }
+            };
+            fitted.push(Layer { groups, mover });
+            reports.push(report);
+        }
+        Ok((fitted, reports))
+    }
 }
 
 /// The photons of the first two key frames between which they move: row k of `target` is where photon k of `source` goes.
@@ -182,7 +223,7 @@ pub(super) fn first_move(
 }
 
 /// The groups that have photons to move until the next key, those together that share a field.
-fn layers(batch: &Batch) -> Vec<Vec<usize>> {
+pub(super) fn layers(batch: &Batch) -> Vec<Vec<usize>> {
     let grouping = batch.supplies().grouping();
     let moves = |group: &usize| !batch.rests(*group) && !batch.at[*group].positions.is_empty();
     let (own, shared): (Vec<_>, Vec<_>) =
@@ -204,10 +245,11 @@ fn column<'a>(
 }
 
 /// The photons' targets at the next key, group by group.
-struct Paired {
-    maps: Vec<Option<ContinuousMap>>,
-    next: Vec<KeyPhotons>,
-    cost: Cost,
+pub(super) struct Paired {
+    pub(super) maps: Vec<Option<ContinuousMap>>,
+    pub(super) partners: Vec<Partners>,
+    pub(super) next: Vec<KeyPhotons>,
+    pub(super) cost: Cost,
 }
 
 /// What the pairing of all groups costs, in squared plane units.
@@ -242,8 +284,10 @@ impl Cost {
     }
 }
 
-fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
-    let mut paired = Paired { maps: Vec::new(), next: Vec::new(), cost: Cost::default() };
+/// Pairs the photons of all groups with their points of the next key.
+pub(super) fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
+    let mut paired =
+        Paired { maps: Vec::new(), partners: Vec::new(), next: Vec::new(), cost: Cost::default() };
     for (group, at) in batch.at.iter().enumerate() {
         let (from, points) = (&at.positions, batch.next_points(group));
         let map = batch.map(group, &points.positions, &progress.inner())?;
@@ -251,7 +295,8 @@ fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
             Some(map) => map.lower_bound(from, &points.positions, progress)?,
             None => None,
         };
-        let next = batch.pair(group, points, map.as_ref(), &progress.inner())?;
+        let partners = batch.partners(group, &points.positions, map.as_ref(), &progress.inner())?;
+        let next = partners.arrange(points);
         if !batch.rests(group) && !from.is_empty() {
             let mean = match &map {
                 Some(map) => map.cost(from, &next.positions),
@@ -260,6 +305,7 @@ fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
             paired.cost.add(from.len(), mean, bound);
         }
         paired.maps.push(map);
+        paired.partners.push(partners);
         paired.next.push(next);
     }
     Ok(paired)

@@ -7,7 +7,7 @@ use glam::Vec2;
 use super::acting::{Acting, acting};
 use super::meter::Meter;
 use crate::constraint::{ActiveWall, Detour};
-use crate::flow::{Course, FlowReport, Movement, Mover, Paths, fit_segment, watch_paths};
+use crate::flow::{Course, FlowReport, Moments, Movement, Mover, Paths, fit_moments, watch_paths};
 use crate::matching::{AroundMap, ContinuousMap, Method, StylizedMap, transport_map};
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -15,53 +15,82 @@ use crate::{Progress, Result};
 /// Share of a segment that a wall stands to have a say in who goes where; others are only gone around.
 const LASTING: f64 = 0.5;
 
-/// The map by which the project's method pairs these points in segment `segment`; none where rows are paired as given.
-pub(super) fn continuous_map(
-    project: &Project,
-    segment: usize,
-    (from, to): (&[Vec2], &[Vec2]),
-    extent: Vec2,
-    progress: &Progress,
-) -> Result<Option<ContinuousMap>> {
-    Ok(match (project.matching, project.method) {
-        (Method::Given, _) => None,
-        (Method::Transport, Movement::Flow) => {
-            let Acting { walls, .. } = acting(project, segment, extent);
-            let lasting: Vec<&ActiveWall> =
-                walls.iter().filter(|wall| wall.window.duration() >= LASTING).collect();
-            if lasting.is_empty() {
-                Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?))
-            } else {
-                let detour = Arc::new(Detour::new(&lasting, extent, progress)?);
-                Some(ContinuousMap::Around(AroundMap::new(from, to, &detour, progress)?, detour))
-            }
-        }
-        (Method::Transport, Movement::Linear) => {
-            Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?))
-        }
-        (Method::Transport, Movement::Stylized) => {
-            Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?))
-        }
-    })
+/// By what the points of a segment are paired.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// Row by row.
+    Given,
+    /// Optimal transport along straight ways.
+    Straight,
+    /// Optimal transport along the ways around these walls.
+    Around(Vec<ActiveWall>),
+    /// The method of 2016.
+    Stylized,
 }
 
-/// What moves photons along a course by this method, and how they move. `bows` are those of their pairing.
+impl Kind {
+    /// By what the project pairs in segment `segment`.
+    pub(super) fn of(project: &Project, segment: usize, extent: Vec2) -> Self {
+        match (project.matching, project.method) {
+            (Method::Given, _) => Self::Given,
+            (Method::Transport, Movement::Linear) => Self::Straight,
+            (Method::Transport, Movement::Stylized) => Self::Stylized,
+            (Method::Transport, Movement::Flow) => {
+                let Acting { mut walls, .. } = acting(project, segment, extent);
+                walls.retain(|wall| wall.window.duration() >= LASTING);
+                if walls.is_empty() { Self::Straight } else { Self::Around(walls) }
+            }
+        }
+    }
+
+    /// The map between these points; none where rows are paired as given.
+    pub(super) fn map(
+        &self,
+        (from, to): (&[Vec2], &[Vec2]),
+        extent: Vec2,
+        progress: &Progress,
+    ) -> Result<Option<ContinuousMap>> {
+        Ok(match self {
+            Self::Given => None,
+            Self::Straight => Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?)),
+            Self::Around(walls) => {
+                let walls: Vec<&ActiveWall> = walls.iter().collect();
+                let detour = Arc::new(Detour::new(&walls, extent, progress)?);
+                Some(ContinuousMap::Around(AroundMap::new(from, to, &detour, progress)?, detour))
+            }
+            Self::Stylized => Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?)),
+        })
+    }
+}
+
+/// What moves photons along a course by this method, and how they move. `bows` are those of their pairing. `moments` are
+/// shown the photons that the method looks at.
 pub(super) fn mover(
     method: Movement,
     course: &Course,
     bows: &[Vec2],
+    moments: Option<Moments>,
     meter: &mut Meter,
     progress: &Progress,
 ) -> Result<(Mover, FlowReport)> {
     match method {
         Movement::Flow => meter.measure("fit", || {
-            let (fields, report) = fit_segment(course, progress, None)?;
+            let (fields, report) = fit_moments(course, progress, None, moments)?;
             Ok((Mover::Fields(fields), report))
         }),
         Movement::Stylized | Movement::Linear => meter.measure("watch", || {
             let Course { source, target, extent, settings, .. } = *course;
             let (guides, steps) = (settings.guides as usize, settings.steps as usize);
-            let report = watch_paths(&Paths::new(source, target, bows), extent, guides, steps, progress)?;
+            let paths = Paths::new(source, target, bows);
+            if let Some(Moments { times, show }) = moments {
+                let mut positions = vec![Vec2::ZERO; source.len()];
+                for (i, &time) in times.iter().enumerate() {
+                    progress.check()?;
+                    paths.positions(time, &mut positions);
+                    show(i, &positions);
+                }
+            }
+            let report = watch_paths(&paths, extent, guides, steps, progress)?;
             Ok((Mover::Paths, report))
         }),
     }

@@ -1,6 +1,5 @@
 //! Two named qualities of the same settings: the preview is the final render with smaller numbers.
 
-use crate::flow::GridSize;
 use crate::project::Project;
 
 /// How much work a picture is worth.
@@ -18,10 +17,7 @@ impl Quality {
         let mut project = project.clone();
         if self == Self::Preview {
             let flow = &mut project.flow;
-            flow.grid = match flow.grid {
-                GridSize::Longer(cells) => GridSize::Longer(cells.min(64)),
-                GridSize::Both(cells) => GridSize::Both(cells.map(|n| n.min(64))),
-            };
+            flow.grid = flow.grid.at_most(64);
             flow.steps = flow.steps.min(30);
             flow.guides = flow.guides.min(20_000);
             let render = &mut project.render;

@@ -1,5 +1,47 @@
 //! A stage remembers the input it was made from, so that a new gamma refits but traces nothing.
 
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// An input that equals only itself: the result of the stage before, which stays the very same while nothing before it
+/// changes.
+pub(super) struct Same<T: ?Sized>(Arc<T>);
+
+impl<T: ?Sized> Same<T> {
+    pub(super) fn of(result: &Arc<T>) -> Self {
+        Self(result.clone())
+    }
+}
+
+impl<T: ?Sized> PartialEq for Same<T> {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl<T: ?Sized> Clone for Same<T> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+/// By what a file is known to be the same as before.
+#[derive(Clone, PartialEq)]
+pub(super) struct Stamp {
+    path: PathBuf,
+    /// Time of the last change and bytes, where the system tells.
+    state: Option<(SystemTime, u64)>,
+}
+
+impl Stamp {
+    /// Of the file at `path`, as it is now.
+    pub(super) fn of(path: &Path) -> Self {
+        let state = path.metadata().ok().and_then(|file| Some((file.modified().ok()?, file.len())));
+        Self { path: path.to_owned(), state }
+    }
+}
+
 /// The last result of a stage, with the input that led to it.
 pub(super) struct Stage<I, O> {
     made: Option<(I, O)>,

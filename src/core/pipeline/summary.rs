@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::Prepared;
 use super::grouping::{CausticLight, notes_on_dark};
+use super::loader::Prepared;
 use super::meter::{Meter, StageCost};
 use super::motion::{Cost, Motion};
 use super::passes::Account;
@@ -31,10 +31,11 @@ pub struct FlowNumbers {
 }
 
 impl FlowNumbers {
-    /// Of one segment.
-    pub(super) fn new(flow: FlowReport, cost: &Cost) -> Self {
-        let transport_cost_ratio = cost.ratio(cost.bound);
-        Self { flow, transport_cost: cost.mean(), transport_cost_ratio, flux_ratio: 1.0 }
+    /// Of each layer of one segment.
+    pub(super) fn of_segment(reports: Vec<FlowReport>, cost: &Cost) -> impl Iterator<Item = Self> {
+        let (transport_cost, transport_cost_ratio) = (cost.mean(), cost.ratio(cost.bound));
+        let of = move |flow| Self { flow, transport_cost, transport_cost_ratio, flux_ratio: 1.0 };
+        reports.into_iter().map(of)
     }
 
     /// The worse of both in every number.
@@ -129,7 +130,7 @@ impl BadValues {
 }
 
 /// Light that walls could not lead to its target.
-fn note_on_walls(flow: &FlowReport) -> Option<String> {
+pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
     (flow.unreachable > 0).then(|| {
         format!(
             "walls shut {} photons off from their targets: these go straight through; leave a gap, or move the target",

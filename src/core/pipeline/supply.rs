@@ -1,27 +1,52 @@
 //! What the key frames show, ready to give the photons of any pass.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
 use super::grouping::{CausticLight, Grouping};
 use super::light::{GroupLight, KeyPhotons, PassLight};
+use super::stage::Stamp;
 use crate::flow::flux;
 use crate::matching::Method;
-use crate::photon::Tracer;
+use crate::photon::{Photons, Tracer};
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
 use crate::target::{PictureSampler, Points, load_points};
 use crate::{Error, Progress, Result};
 
 /// What a group shows at a key frame, resolved.
-enum Supply {
+pub(super) enum Supply {
     Physical,
     Picture(PictureSampler),
     Points(Points),
 }
 
+/// What the keys of a project showed last, resolved: a picture that they go on showing is not read again.
+#[derive(Default)]
+pub(super) struct Opened {
+    known: Vec<Known>,
+}
+
+/// Something that was opened.
+struct Known {
+    from: OpenInput,
+    supply: Arc<Supply>,
+    /// Whether a key still shows it.
+    shown: bool,
+}
+
+/// What a supply is made from.
+#[derive(PartialEq)]
+struct OpenInput {
+    shows: Shows,
+    extent: Vec2,
+    file: Option<Stamp>,
+}
+
 /// All key frames of a project, resolved.
+#[derive(Clone)]
 pub(super) struct Supplies {
     /// By key, then by group.
     shown: Vec<Vec<Arc<Supply>>>,
@@ -33,6 +58,8 @@ pub(super) struct Supplies {
     seed: u64,
     rho: f32,
     watts: f32,
+    /// The rows of point files that stand for all, where rows are paired as given and not all are wanted.
+    rows: Option<Vec<usize>>,
 }
 
 impl Supplies {
@@ -41,16 +68,19 @@ impl Supplies {
         project: &Project,
         scene: Option<&Scene>,
         extent: Vec2,
-        assets: &AssetFolder,
+        (assets, opened): (&AssetFolder, &mut Opened),
+        progress: &Progress,
     ) -> Result<Self> {
         let grouping = Grouping::resolve(project, scene)?;
         let mut notes = Vec::new();
+        opened.known.iter_mut().for_each(|known| known.shown = false);
         let mut open = |shows: &Shows, place: String| -> Result<Arc<Supply>> {
-            let supply = open(shows, &place, extent, assets)?;
-            if let Supply::Picture(picture) = &supply {
+            progress.check()?;
+            let supply = opened.get(shows, &place, extent, assets)?;
+            if let Supply::Picture(picture) = &*supply {
                 notes.extend(picture.notes().iter().cloned());
             }
-            Ok(Arc::new(supply))
+            Ok(supply)
         };
         let mut shown = Vec::new();
         for (i, key) in project.keys.iter().enumerate() {
@@ -63,6 +93,7 @@ impl Supplies {
             }
             shown.push(groups);
         }
+        opened.known.retain(|known| known.shown);
         let gains = (0..project.keys.len()).map(|key| grouping.gains(project, key)).collect();
         Ok(Self {
             shown,
@@ -73,6 +104,7 @@ impl Supplies {
             seed: project.seed,
             rho: project.flow.rho,
             watts: project.plane.watts,
+            rows: None,
         })
     }
 
@@ -119,6 +151,23 @@ impl Supplies {
         Ok(rows)
     }
 
+    /// The same of which at most `count` rows of the point files, the same of each, stand for all where rows are paired as
+    /// given; and how many photons that leaves of `count`.
+    pub(super) fn thinned(&self, method: Method, count: usize) -> Result<(Self, usize)> {
+        let mut thinned = self.clone();
+        let Some(rows) = self.given_rows(method)? else { return Ok((thinned, count)) };
+        if rows > count {
+            let row = |i: usize| (i as u128 * rows as u128 / count as u128) as usize;
+            thinned.rows = Some((0..count).map(row).collect());
+        }
+        Ok((thinned, rows.min(count)))
+    }
+
+    /// What all groups show at a key.
+    pub(super) fn shown_at(&self, key: usize) -> &[Arc<Supply>] {
+        &self.shown[key]
+    }
+
     /// Traces the photons of `pass`, where a key shows them or caustics are told apart.
     pub(super) fn light(
         &self,
@@ -127,11 +176,19 @@ impl Supplies {
         count: usize,
         progress: &Progress,
     ) -> Result<PassLight> {
-        let Some(tracer) = tracer.filter(|_| self.traces) else {
-            let total = DVec3::splat(f64::from(self.watts) / 3.0);
-            return Ok(PassLight { groups: vec![GroupLight { physical: None, total, count }] });
+        let photons = match tracer.filter(|_| self.traces) {
+            Some(tracer) => Some(tracer.trace(pass, count, progress)?.0),
+            None => None,
         };
-        let (photons, _) = tracer.trace(pass, count, progress)?;
+        Ok(self.light_of(photons, count))
+    }
+
+    /// The light of `count` photons: those that were traced, where any must be.
+    pub(super) fn light_of(&self, photons: Option<Photons>, count: usize) -> PassLight {
+        let Some(photons) = photons else {
+            let total = DVec3::splat(f64::from(self.watts) / 3.0);
+            return PassLight { groups: vec![GroupLight { physical: None, total, count }] };
+        };
         let shares = self.grouping.split(photons).into_iter().enumerate();
         let groups = shares.map(|(group, share)| GroupLight {
             total: share.total,
@@ -142,7 +199,7 @@ impl Supplies {
                 ..KeyPhotons::default()
             }),
         });
-        Ok(PassLight { groups: groups.collect() })
+        PassLight { groups: groups.collect() }
     }
 
     /// Whether photons must be traced.
@@ -181,7 +238,10 @@ impl Supplies {
                 return photons;
             }
             Supply::Picture(picture) => picture.sample(seed, pass, *count),
-            Supply::Points(points) => points.resampled(*count, seed, pass),
+            Supply::Points(points) => match &self.rows {
+                Some(rows) => points.rows(rows),
+                None => points.resampled(*count, seed, pass),
+            },
         };
         let flux = flux::share_out(*total * gain.as_dvec3(), &points.colours, *count);
         KeyPhotons { positions: points.positions, flux, ..KeyPhotons::default() }
@@ -199,17 +259,31 @@ impl Supplies {
     }
 }
 
-fn open(shows: &Shows, place: &str, extent: Vec2, assets: &AssetFolder) -> Result<Supply> {
-    Ok(match shows {
-        Shows::PhysicalCaustic => Supply::Physical,
-        Shows::Image(image) => {
-            let place = format!("{place}.image");
-            let path = assets.resolve(&image.file, &format!("{place}.file"))?;
-            Supply::Picture(PictureSampler::load(&path, image, extent, &place)?)
+impl Opened {
+    /// What `shows` means, which stands at `place`: as it is known, if its file is still the same.
+    fn get(&mut self, shows: &Shows, place: &str, extent: Vec2, assets: &AssetFolder) -> Result<Arc<Supply>> {
+        let file = match shows {
+            Shows::PhysicalCaustic => None,
+            Shows::Image(image) => Some(assets.resolve(&image.file, &format!("{place}.image.file"))?),
+            Shows::Points(points) => Some(assets.resolve(&points.file, &format!("{place}.points.file"))?),
+        };
+        let from = OpenInput { shows: shows.clone(), extent, file: file.as_deref().map(Stamp::of) };
+        if let Some(known) = self.known.iter_mut().find(|known| known.from == from) {
+            known.shown = true;
+            return Ok(known.supply.clone());
         }
-        Shows::Points(points) => {
-            let path = assets.resolve(&points.file, &format!("{place}.points.file"))?;
-            Supply::Points(load_points(&path)?)
+        let supply = Arc::new(open(shows, file.as_deref(), place, extent)?);
+        self.known.push(Known { from, supply: supply.clone(), shown: true });
+        Ok(supply)
+    }
+}
+
+fn open(shows: &Shows, file: Option<&Path>, place: &str, extent: Vec2) -> Result<Supply> {
+    Ok(match (shows, file) {
+        (Shows::Image(image), Some(path)) => {
+            Supply::Picture(PictureSampler::load(path, image, extent, &format!("{place}.image"))?)
         }
+        (Shows::Points(_), Some(path)) => Supply::Points(load_points(path)?),
+        _ => Supply::Physical,
     })
 }

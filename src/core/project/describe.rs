@@ -31,7 +31,7 @@ fn child<'a>(schema: &'a Value, node: &'a Value, name: &str) -> Option<&'a Value
 }
 
 /// Follows a `$ref` to its definition.
-fn resolve<'a>(schema: &'a Value, node: &'a Value) -> Option<&'a Value> {
+pub(super) fn resolve<'a>(schema: &'a Value, node: &'a Value) -> Option<&'a Value> {
     match node.get("$ref").and_then(Value::as_str) {
         Some(reference) => schema.pointer(reference.strip_prefix('#')?),
         None => Some(node),

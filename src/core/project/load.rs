@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use super::file::unknown;
 use super::{Project, VERSION, describe};
 use crate::{Error, Result};
 
 /// Larger files are no projects: photons and pictures stand in files of their own.
-const MOST_BYTES: u64 = 64 << 20;
+pub(super) const MOST_BYTES: u64 = 64 << 20;
 
 pub(super) fn load(path: &Path) -> Result<Project> {
     parse(&crate::files::read_regular_file(path, MOST_BYTES)?, path)
@@ -33,6 +34,28 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     })?;
     project.check().map_err(|error| in_file(error, path))?;
     Ok(project)
+}
+
+/// Like [`parse`], but what the format does not know is skipped; its places come beside the project.
+pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Vec<String>)> {
+    let strict = match parse(bytes, path) {
+        Ok(project) => return Ok((project, Vec::new())),
+        Err(error) => error,
+    };
+    let text = text(bytes, path)?;
+    let Some((known, unknown)) = unknown::without(text, &Project::json_schema()) else { return Err(strict) };
+    if unknown.is_empty() || newer_version(text).is_some() {
+        return Err(strict);
+    }
+    let read: Result<Project, _> =
+        serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(&known));
+    let project = read.map_err(|error| {
+        let field = error.path().to_string();
+        // Line and column are those of the shortened text.
+        Error::format(path, &field, what(error.inner(), &field))
+    })?;
+    project.check().map_err(|error| in_file(error, path))?;
+    Ok((project, unknown))
 }
 
 /// The version of a file that a later program wrote.

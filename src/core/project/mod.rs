@@ -11,6 +11,7 @@
 mod asset_path;
 mod caustic;
 mod describe;
+mod file;
 pub mod frames;
 mod keyframe;
 mod load;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 pub use asset_path::AssetFolder;
 pub(crate) use caustic::unknown;
 pub use caustic::{CausticDesc, CausticKey};
+pub use file::ProjectFile;
 pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
 pub use output::OutputSettings;
 
@@ -194,6 +196,11 @@ impl Project {
         self.keys.iter().flat_map(|key| {
             std::iter::once(&key.shows).chain(key.caustics.values().filter_map(|c| c.shows.as_ref()))
         })
+    }
+
+    /// Extent of the plane in plane units: the longer side is 1.
+    pub fn extent(&self) -> Vec2 {
+        self.scene.as_ref().map_or_else(|| self.plane.extent(), |scene| scene.receiver.extent())
     }
 
     /// Whether photons must be traced: a key shows the physical caustic, or caustics are told apart.

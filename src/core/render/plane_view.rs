@@ -3,8 +3,9 @@
 use glam::{Vec2, vec2};
 
 use super::visible::flat_pixel;
+use crate::Result;
 use crate::scene::camera::Camera;
-use crate::scene::{Receiver, Scene};
+use crate::scene::{Receiver, Scene, SceneDesc};
 
 /// Looks at the plane through a scene's camera, or straight on where there is no scene.
 #[derive(Clone, Debug)]
@@ -25,6 +26,21 @@ impl PlaneView {
         })
     }
 
+    /// The same from a scene's description, before its files are loaded.
+    ///
+    /// # Errors
+    /// A camera that looks nowhere, a receiver of no size.
+    pub fn of_desc(scene: Option<&SceneDesc>, extent: Vec2) -> Result<Self> {
+        let Some(scene) = scene else { return Ok(Self(Eye::Flat { extent })) };
+        let (camera, receiver) = scene.camera_and_receiver()?;
+        Ok(Self(Eye::Camera { camera, receiver }))
+    }
+
+    /// The view of a receiver through any camera.
+    pub fn through(camera: Camera, receiver: Receiver) -> Self {
+        Self(Eye::Camera { camera, receiver })
+    }
+
     /// The place of a plane point in a picture of `width` x `height` pixels, from its upper left corner; none behind the
     /// camera. Glass and mirrors in between are not seen.
     pub fn pixel_from_plane(&self, point: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
@@ -40,11 +56,48 @@ impl PlaneView {
             }
         }
     }
+
+    /// The plane point that is seen at `pixel` of a picture of `width` x `height` pixels, also beyond the receiver; none
+    /// where the picture shows no point of the plane.
+    pub fn plane_from_pixel(&self, pixel: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
+        let size = vec2(width as f32, height as f32);
+        match &self.0 {
+            Eye::Camera { camera, receiver } => {
+                let place = pixel / size * 2.0 - 1.0;
+                receiver.plane_from_ray(&camera.ray(place.x, -place.y, size.x / size.y))
+            }
+            Eye::Flat { extent } => {
+                let from_centre = (pixel - size * 0.5) * flat_pixel(*extent, size);
+                Some(*extent * 0.5 + vec2(from_centre.x, -from_centre.y))
+            }
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::scene::ReceiverDesc;
+
+    #[test]
+    fn pixel_and_plane_lead_back_to_each_other() {
+        let scene = SceneDesc {
+            receiver: ReceiverDesc { size: [1.2, 0.7], rotate: [10.0, 30.0, 0.0], ..Default::default() },
+            ..Default::default()
+        };
+        for view in [
+            PlaneView::of_desc(Some(&scene), scene.receiver.extent()).unwrap(),
+            PlaneView::new(None, Vec2::ONE),
+        ] {
+            for point in [vec2(0.1, 0.2), vec2(0.9, 0.5), vec2(0.4, 0.0)] {
+                let pixel = view.pixel_from_plane(point, [640, 360]).unwrap();
+                let back = view.plane_from_pixel(pixel, [640, 360]).unwrap();
+                // f32 in a picture of 640 pixels.
+                assert!(back.distance(point) < 1e-5, "{point} became {back}");
+            }
+        }
+    }
 
     #[test]
     fn the_flat_view_shows_the_whole_plane_upright_in_the_middle() {

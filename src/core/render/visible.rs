@@ -57,9 +57,9 @@ impl Visible {
         let watts = texel_area(layout, scene.receiver().metres_per_plane_unit()).recip();
         progress.begin("visible", height as u64);
         let rows = (0..height).into_par_iter().map(|y| {
-            progress.check()?;
             let mut row = Row::default();
             for x in 0..width {
+                progress.check()?;
                 let rng = &mut Stream::new(seed, Purpose::Visible, 0, (y * width + x) as u64);
                 let sampler = Sampler::new(rng.u32());
                 let mut samples = settings.camera_samples;

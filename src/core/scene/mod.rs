@@ -17,6 +17,7 @@ mod resolve;
 mod surface;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -31,7 +32,7 @@ pub use mesh::MeshDesc;
 pub use receiver::{Receiver, ReceiverDesc};
 pub use surface::{Hit, Primitive, Ray, SurfaceId};
 
-use crate::Result;
+use crate::{Progress, Result};
 use accel::Accel;
 
 /// What is lit, as saved in a project.
@@ -48,6 +49,16 @@ pub struct SceneDesc {
     pub receiver: ReceiverDesc,
     /// The sky that the camera, glass and mirrors see; it casts no caustics.
     pub environment: EnvironmentDesc,
+}
+
+impl SceneDesc {
+    /// The camera and the receiver, which need no file.
+    ///
+    /// # Errors
+    /// A camera that looks nowhere, a receiver of no size.
+    pub fn camera_and_receiver(&self) -> Result<(camera::Camera, Receiver)> {
+        Ok((self.camera.resolve("scene.camera")?, self.receiver.resolve("scene.receiver")?))
+    }
 }
 
 /// One object of a loaded scene: all triangles of one material of one [`MeshDesc`].
@@ -78,12 +89,31 @@ impl Mesh {
 
 /// A scene resolved from its description: checked, in world space, ready to be asked by rays.
 pub struct Scene {
-    meshes: Vec<Mesh>,
+    geometry: Arc<Geometry>,
     lights: Vec<LightDesc>,
     camera: camera::Camera,
     receiver: Receiver,
     environment: EnvironmentDesc,
+}
+
+/// All meshes of a scene, read and indexed: what stays when a light, the camera or the receiver is moved.
+pub struct Geometry {
+    meshes: Vec<Mesh>,
     accel: Accel,
+}
+
+impl Geometry {
+    /// Reads, checks and indexes meshes, with notes for the artist; `assets` as in [`Scene::load`].
+    ///
+    /// # Errors
+    /// The place of the first value or file that cannot be used; `Cancelled`.
+    pub fn load(
+        meshes: &[MeshDesc],
+        assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
+        progress: &Progress,
+    ) -> Result<(Self, Vec<String>)> {
+        resolve::geometry(meshes, assets, progress)
+    }
 }
 
 impl Scene {
@@ -94,29 +124,48 @@ impl Scene {
         desc: &SceneDesc,
         assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
     ) -> Result<(Self, Vec<String>)> {
-        resolve::load(desc, assets)
+        desc.check("scene")?;
+        let (geometry, mut notes) = Geometry::load(&desc.meshes, assets, &Progress::new())?;
+        let (scene, more) = Self::with(desc, Arc::new(geometry))?;
+        notes.extend(more);
+        Ok((scene, notes))
+    }
+
+    /// The scene of a description whose meshes are `geometry`, with notes for the artist.
+    ///
+    /// # Errors
+    /// `Value` names the first value that cannot be used.
+    pub fn with(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
+        resolve::scene(desc, geometry)
+    }
+
+    /// Its meshes.
+    pub fn geometry(&self) -> &Arc<Geometry> {
+        &self.geometry
     }
 
     /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
         let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
-        self.accel.intersect(ray, limit).or(floor)
+        self.geometry.accel.intersect(ray, limit).or(floor)
     }
 
     /// Whether anything, glass included, stands on the ray before `distance` [m]. The floor is no obstacle.
     pub fn occluded(&self, ray: &Ray, distance: f32) -> bool {
-        self.accel.occluded(ray, distance)
+        self.geometry.accel.occluded(ray, distance)
     }
 
     /// The glass solids that `point` lies in.
     pub fn media_at(&self, point: Vec3) -> Media {
         let mut media = Media::default();
         let ray = Ray::new(point, Vec3::new(0.37139, 0.80178, 0.46812).normalize());
-        let mut depth = vec![0_i32; self.meshes.len()];
-        self.accel.each_crossing(&ray, |mesh, leaving| depth[mesh as usize] += if leaving { 1 } else { -1 });
+        let mut depth = vec![0_i32; self.meshes().len()];
+        self.geometry
+            .accel
+            .each_crossing(&ray, |mesh, leaving| depth[mesh as usize] += if leaving { 1 } else { -1 });
         for (mesh, crossings) in depth.iter().enumerate() {
-            if *crossings > 0 && matches!(self.meshes[mesh].material, Material::Glass(_)) {
+            if *crossings > 0 && matches!(self.geometry.meshes[mesh].material, Material::Glass(_)) {
                 media.enter(mesh as u16);
             }
         }
@@ -126,14 +175,14 @@ impl Scene {
     /// The material of a surface.
     pub fn material(&self, surface: SurfaceId) -> &Material {
         match surface {
-            SurfaceId::Mesh(mesh) => &self.meshes[mesh as usize].material,
+            SurfaceId::Mesh(mesh) => &self.geometry.meshes[mesh as usize].material,
             SurfaceId::Receiver | SurfaceId::Floor => self.receiver.material(),
         }
     }
 
     /// All meshes; a [`SurfaceId::Mesh`] and the mesh column of the photons index this.
     pub fn meshes(&self) -> &[Mesh] {
-        &self.meshes
+        &self.geometry.meshes
     }
 
     /// All lights, checked, in the order of the project.
@@ -159,7 +208,7 @@ impl Scene {
     /// Lower and upper corner of everything: meshes, receiver, floor [m].
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let (mut lower, mut upper) = self.receiver.bounds();
-        for mesh in &self.meshes {
+        for mesh in self.meshes() {
             lower = lower.min(mesh.lower);
             upper = upper.max(mesh.upper);
         }

@@ -43,6 +43,11 @@ impl ReceiverDesc {
         check::within(place, "surround", &[self.surround], 0.0, 1e5)
     }
 
+    /// Width and height in plane units; the longer is 1.
+    pub fn extent(&self) -> Vec2 {
+        Vec2::from(self.size) / self.size[0].max(self.size[1])
+    }
+
     pub(super) fn resolve(&self, place: &str) -> Result<Receiver> {
         self.check(place)?;
         let [x, y, z] = self.rotate.map(f32::to_radians);
@@ -58,7 +63,7 @@ impl ReceiverDesc {
             y_axis,
             normal: turn * Vec3::Y,
             unit,
-            extent: vec2(width / unit, height / unit),
+            extent: self.extent(),
             surround: self.surround / unit,
             material: Material::Diffuse(Diffuse { albedo: self.albedo }),
         })
@@ -108,6 +113,12 @@ impl Receiver {
     pub fn plane_from_world(&self, point: Vec3) -> Vec2 {
         let offset = point - self.corner;
         vec2(offset.dot(self.x_axis), offset.dot(self.y_axis)) / self.unit
+    }
+
+    /// The plane point that a ray meets, also beyond the rectangle; none where it looks away from the plane.
+    pub fn plane_from_ray(&self, ray: &Ray) -> Option<Vec2> {
+        let t = (self.corner - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
+        (t > 0.0 && t < f32::INFINITY).then(|| self.plane_from_world(ray.origin + ray.direction * t))
     }
 
     /// Whether a plane point lies on the rectangle.

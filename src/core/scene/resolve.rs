@@ -1,27 +1,29 @@
 //! From a saved description to a scene: every value checked, every mesh read, what looks odd told.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::Vec3;
 
 use super::accel::Accel;
-use super::{Mesh, Scene, SceneDesc, mesh};
-use crate::{Error, Result};
+use super::{Geometry, Mesh, MeshDesc, Scene, SceneDesc, mesh};
+use crate::{Error, Progress, Result};
 
 /// Most meshes and most lights: photons name them by 16 bits.
 const MAX_OBJECTS: usize = u16::MAX as usize;
 
-/// See [`Scene::load`].
-pub(super) fn load(
-    desc: &SceneDesc,
+/// See [`Geometry::load`].
+pub(super) fn geometry(
+    descs: &[MeshDesc],
     assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
-) -> Result<(Scene, Vec<String>)> {
-    desc.check("scene")?;
+    progress: &Progress,
+) -> Result<(Geometry, Vec<String>)> {
     let mut notes = Vec::new();
     let mut meshes = Vec::new();
     let mut triangles = Vec::new();
-    for (index, mesh_desc) in desc.meshes.iter().enumerate() {
-        for part in mesh::load(mesh_desc, &format!("scene.meshes[{index}]"), assets, &mut notes)? {
+    for (index, mesh_desc) in descs.iter().enumerate() {
+        let place = format!("scene.meshes[{index}]");
+        for part in mesh::load(mesh_desc, &place, assets, &mut notes, progress)? {
             let corners = || part.triangles.iter().flat_map(|t| t.corners);
             let number = meshes.len() as u16;
             let lower = corners().fold(Vec3::INFINITY, Vec3::min);
@@ -40,11 +42,17 @@ pub(super) fn load(
             check_count("scene.meshes", meshes.len())?;
         }
     }
+    Ok((Geometry { accel: Accel::new(&triangles, progress)?, meshes }, notes))
+}
+
+/// See [`Scene::with`].
+pub(super) fn scene(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Scene, Vec<String>)> {
+    desc.check("scene")?;
     let receiver = desc.receiver.resolve("scene.receiver")?;
-    notes.extend(meshes.iter().filter_map(|mesh| size_hint(mesh, receiver.metres_per_plane_unit())));
+    let size = receiver.metres_per_plane_unit();
+    let notes = geometry.meshes.iter().filter_map(|mesh| size_hint(mesh, size)).collect();
     let scene = Scene {
-        accel: Accel::new(&triangles),
-        meshes,
+        geometry,
         lights: desc.lights.clone(),
         camera: desc.camera.resolve("scene.camera")?,
         receiver,

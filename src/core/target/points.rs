@@ -44,6 +44,20 @@ impl Points {
         Self { positions, colours }.with_mean_luminance_one()
     }
 
+    /// The points of these rows.
+    ///
+    /// # Panics
+    /// When there is no such row.
+    pub fn rows(&self, rows: &[usize]) -> Self {
+        let positions = rows.iter().map(|&row| self.positions[row]).collect();
+        let colours = if self.colours.is_empty() {
+            Vec::new()
+        } else {
+            rows.iter().map(|&row| self.colours[row]).collect()
+        };
+        Self { positions, colours }.with_mean_luminance_one()
+    }
+
     /// Scales the colours; colours without any light are dropped.
     pub(super) fn with_mean_luminance_one(mut self) -> Self {
         let sum: f64 = self.colours.iter().map(|colour| f64::from(luminance(*colour))).sum();

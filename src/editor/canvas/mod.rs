@@ -1,5 +1,6 @@
 //! The receiver seen flat: live light, what was drawn, the flow.
 
+mod glass;
 pub mod input;
 pub mod overlay;
 pub mod space;
@@ -11,6 +12,7 @@ use glam::Vec2;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
+pub use self::glass::{Glass, over};
 use self::input::Move;
 use self::overlay::Overlay;
 use self::space::Space;

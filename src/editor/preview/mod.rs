@@ -1,12 +1,53 @@
-//! What the worker finds out, and what the window shows of it.
+//! What the workers find out, and what the window shows of it. Nothing here waits: the window asks, and shows what there is.
 
+mod animator;
 mod coverage;
+pub mod gpu;
+mod looker;
+mod painter;
+mod stager;
+mod subject;
+mod target;
+mod wishes;
+pub mod worker;
+
+use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
+use lightloom_core::pipeline::{Shot, Sketch};
+use lightloom_core::project::Project;
+pub use looker::Seen;
+pub use painter::{Painted, Plane};
+pub use subject::Subject;
+pub use target::TargetPicture;
+pub use wishes::Wanted;
+
+use super::session::{Other, Session};
+use animator::{Animator, Found};
+use looker::Looker;
+use painter::Painter;
+use stager::Stager;
+use target::Targets;
+use wishes::Wishes;
 
 /// The newest results, and what is still being worked on.
-#[derive(Default)]
 pub struct Preview {
+    animator: Animator,
+    /// What the wipe compares with.
+    other: Animator,
+    compared: Option<(Subject, Other)>,
+    painter: Painter,
+    stager: Stager,
+    looker: Looker,
+    targets: Targets,
+    wishes: Wishes,
+    /// Whether the graphics card draws the photons.
+    by_card: bool,
+    subject: Option<Subject>,
+    frame: i32,
+    found: Found,
+    /// The light of the last version, shown until there is new one.
+    last: Option<Arc<Sketch>>,
     coverage: Coverage,
     problem: Option<String>,
     activity: Option<Activity>,
@@ -22,6 +63,158 @@ pub struct Activity {
 }
 
 impl Preview {
+    /// Nothing is worked on yet. `wake` is called from other threads whenever there is something new to see.
+    pub fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+        Self {
+            animator: Animator::new(wake.clone()),
+            other: Animator::new(wake.clone()),
+            compared: None,
+            painter: Painter::new(wake.clone()),
+            stager: Stager::new(wake.clone()),
+            looker: Looker::new(wake.clone()),
+            targets: Targets::new(wake),
+            wishes: Wishes::default(),
+            by_card: false,
+            subject: None,
+            frame: 0,
+            found: Found::default(),
+            last: None,
+            coverage: Coverage::default(),
+            problem: None,
+            activity: None,
+        }
+    }
+
+    /// Whether the graphics card shall draw the photons of the plane, or the processor.
+    pub fn draw_by_card(&mut self, by_card: bool) {
+        self.by_card = by_card;
+    }
+
+    /// Whether the graphics card draws the photons of the plane.
+    pub fn draws_photons(&self) -> bool {
+        self.by_card
+    }
+
+    /// Shows this subject as the session and the views want it from now on: to be called in every frame of the window.
+    pub fn follow(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
+        self.frame = session.playhead;
+        if self.subject.as_ref().is_none_or(|last| !last.is(subject)) {
+            self.last = self.sketch().cloned();
+            self.found = Found::default();
+            self.subject = Some(subject.clone());
+            self.animator.ask(subject.clone(), self.frame);
+            self.age(subject);
+        }
+        self.compare(subject, session);
+        self.receive();
+        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        self.targets.follow(subject, shown);
+        self.wish(subject, session, wanted);
+    }
+
+    /// Works out the other side of the wipe.
+    fn compare(&mut self, subject: &Subject, session: &Session) {
+        let Some(wipe) = session.compare else {
+            self.compared = None;
+            return;
+        };
+        if self.compared.as_ref().is_some_and(|(of, with)| of.is(subject) && *with == wipe.with) {
+            return;
+        }
+        self.compared = Some((subject.clone(), wipe.with));
+        let project = Arc::new(other(&subject.project, wipe.with));
+        self.other.ask(Subject { project, ..subject.clone() }, self.frame);
+    }
+
+    /// The frames of a new version show the old light, where there is any.
+    fn age(&mut self, subject: &Subject) {
+        let keys = &subject.project.keys;
+        let (Some(first), Some(last)) = (keys.first(), keys.last()) else { return };
+        let mut coverage = Coverage::new(first.frame..=last.frame, State::Missing);
+        if let Some(old) = &self.last {
+            (first.frame..=last.frame)
+                .filter(|&frame| old.frames().contains(&frame) && old.is_ready(frame))
+                .for_each(|frame| coverage.set(frame, State::Stale));
+        }
+        self.coverage = coverage;
+    }
+
+    /// Takes what was found out since the last time.
+    fn receive(&mut self) {
+        let panics =
+            [self.painter.panicked(), self.stager.panicked(), self.looker.panicked(), self.other.panicked()];
+        if let Some(words) = self.animator.panicked().or_else(|| panics.into_iter().flatten().next()) {
+            self.problem = Some(format!(
+                "the preview failed ({words}); the project is unharmed, and the next edit tries again"
+            ));
+            self.coverage.fill(State::Failed);
+        }
+        self.activity = self.animator.progress().and_then(|seen| {
+            let fraction = seen.fraction as f32;
+            Some(Activity { stage: seen.stage?, fraction })
+        });
+        let Some(found) = self.animator.found() else { return };
+        for (detail, sketch) in found.sketches.iter().enumerate() {
+            let Some(sketch) = sketch else { continue };
+            let is_seen = |seen: &Arc<Sketch>| Arc::ptr_eq(seen, sketch);
+            if self.found.sketches[detail].as_ref().is_some_and(is_seen) {
+                continue;
+            }
+            let state = [State::Draft, State::Preview, State::Fine][detail];
+            for frame in sketch.frames().filter(|&frame| sketch.is_ready(frame)) {
+                if self.coverage.of(frame) < state {
+                    self.coverage.set(frame, state);
+                }
+            }
+        }
+        self.problem = found.problem.clone();
+        if found.problem.is_some() {
+            self.coverage.fill(State::Failed);
+        }
+        self.found = found;
+    }
+
+    /// The best light there is for the frame that is shown; it may be of an older version while a newer one is worked on.
+    pub fn sketch(&self) -> Option<&Arc<Sketch>> {
+        let ready =
+            |sketch: &&Arc<Sketch>| sketch.frames().contains(&self.frame) && sketch.is_ready(self.frame);
+        let new = self.found.sketches.iter().rev().flatten();
+        new.clone().find(ready).or(self.last.as_ref()).or_else(|| new.clone().next())
+    }
+
+    /// The other side of the wipe at the frame that is shown.
+    fn other_sketch(&self) -> Option<Arc<Sketch>> {
+        self.compared.as_ref()?;
+        let found = self.other.found()?;
+        let ready = |sketch: &&Arc<Sketch>| sketch.is_ready(self.frame);
+        found.sketches.iter().rev().flatten().find(ready).cloned()
+    }
+
+    /// The newest pictures of the plane and the shot.
+    pub fn painted(&self) -> Painted {
+        self.painter.painted()
+    }
+
+    /// What the free look saw last.
+    pub fn look(&self) -> Seen {
+        self.looker.seen()
+    }
+
+    /// The shot's camera with the picture without caustics, as far as it is worked out.
+    pub fn shot(&self) -> Option<Arc<Shot>> {
+        self.stager.shot()
+    }
+
+    /// The picture towards which the light flows at the playhead.
+    pub fn target(&self) -> Option<TargetPicture> {
+        self.targets.found()
+    }
+
+    /// Whether what is shown is of the newest version.
+    pub fn is_current(&self) -> bool {
+        self.found.sketches.iter().any(Option::is_some)
+    }
+
     /// How far each frame is.
     pub fn coverage(&self) -> &Coverage {
         &self.coverage
@@ -35,5 +228,13 @@ impl Preview {
     /// What the worker does now; none while it waits.
     pub fn activity(&self) -> Option<&Activity> {
         self.activity.as_ref()
+    }
+}
+
+/// The project as it is compared with.
+fn other(project: &Project, with: Other) -> Project {
+    match with {
+        Other::Method(method) => Project { method, ..project.clone() },
+        Other::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }

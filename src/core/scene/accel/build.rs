@@ -5,6 +5,7 @@ use glam::Vec3;
 
 use super::wide::{Boxes, Triangles};
 use super::{Child, Node, Triangle};
+use crate::{Progress, Result};
 
 /// Bins per axis.
 const BINS: usize = 16;
@@ -57,10 +58,13 @@ struct Tree {
 }
 
 /// Nodes (the root first), leaves, and the order of the triangles in them. Deterministic.
-pub(super) fn build(triangles: &[Triangle]) -> (Vec<Node>, Vec<Triangles>, Vec<u32>) {
+pub(super) fn build(
+    triangles: &[Triangle],
+    progress: &Progress,
+) -> Result<(Vec<Node>, Vec<Triangles>, Vec<u32>)> {
     let mut items: Vec<Item> = triangles.iter().enumerate().map(item).collect();
-    let Tree { nodes, leaves } = subtree(&mut items, 0, triangles, 0);
-    (nodes, leaves, items.iter().map(|item| item.index).collect())
+    let Tree { nodes, leaves } = subtree(&mut items, 0, triangles, (0, progress))?;
+    Ok((nodes, leaves, items.iter().map(|item| item.index).collect()))
 }
 
 fn item((index, triangle): (usize, &Triangle)) -> Item {
@@ -73,7 +77,13 @@ fn bounds(items: &[Item]) -> Bounds {
 }
 
 /// The tree over `items`, the first of which is triangle `offset` of the final order.
-fn subtree(items: &mut [Item], offset: usize, triangles: &[Triangle], depth: usize) -> Tree {
+fn subtree(
+    items: &mut [Item],
+    offset: usize,
+    triangles: &[Triangle],
+    (depth, progress): (usize, &Progress),
+) -> Result<Tree> {
+    progress.check()?;
     let parts = eight_parts(items, depth);
     let mut rest = items;
     let mut tasks = Vec::with_capacity(parts.len());
@@ -91,18 +101,18 @@ fn subtree(items: &mut [Item], offset: usize, triangles: &[Triangle], depth: usi
     let large = start - offset > TASK;
     let build = |(part, start, _): (&mut [Item], usize, Bounds)| {
         if part.len() > LEAF {
-            return subtree(part, start, triangles, depth + 1);
+            return subtree(part, start, triangles, (depth + 1, progress));
         }
         let corners: Vec<_> = part.iter().map(|item| triangles[item.index as usize].corners).collect();
-        Tree { nodes: Vec::new(), leaves: vec![Triangles::new(&corners, start as u32)] }
+        Ok(Tree { nodes: Vec::new(), leaves: vec![Triangles::new(&corners, start as u32)] })
     };
     let children: Vec<Tree> = if large {
         use rayon::prelude::*;
-        tasks.into_par_iter().map(build).collect()
+        tasks.into_par_iter().map(build).collect::<Result<_>>()?
     } else {
-        tasks.into_iter().map(build).collect()
+        tasks.into_iter().map(build).collect::<Result<_>>()?
     };
-    join(boxes, children)
+    Ok(join(boxes, children))
 }
 
 /// A node over finished subtrees, whose indices move by what stands before them.
@@ -243,7 +253,7 @@ mod tests {
             (0..800).map(|k| triangle([Vec3::ZERO, Vec3::X, Vec3::Z].map(|v| v * 0.9_f32.powi(k)))).collect(),
         ];
         for triangles in &cases {
-            let (nodes, leaves, mut order) = build(triangles);
+            let (nodes, leaves, mut order) = build(triangles, &Progress::new()).unwrap();
             order.sort_unstable();
             assert!(order.into_iter().eq(0..triangles.len() as u32));
             assert!(leaves.len() <= triangles.len());

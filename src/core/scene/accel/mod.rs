@@ -9,6 +9,7 @@ use glam::Vec3;
 use wide::{Boxes, Nearest, Triangles, WideRay};
 
 use super::{Hit, Primitive, Ray, SurfaceId};
+use crate::{Progress, Result};
 
 /// One triangle with what a hit needs to know of it.
 #[derive(Clone, Copy, Debug)]
@@ -77,16 +78,19 @@ type Stack = ArrayVec<(f32, Child), { 7 * build::MAX_DEPTH + 8 }>;
 
 impl Accel {
     /// Builds the hierarchy. Degenerate triangles must be gone.
-    pub(super) fn new(triangles: &[Triangle]) -> Self {
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn new(triangles: &[Triangle], progress: &Progress) -> Result<Self> {
         if triangles.is_empty() {
-            return Self { nodes: Vec::new(), leaves: Vec::new(), surfaces: Vec::new() };
+            return Ok(Self { nodes: Vec::new(), leaves: Vec::new(), surfaces: Vec::new() });
         }
-        let (nodes, leaves, order) = build::build(triangles);
+        let (nodes, leaves, order) = build::build(triangles, progress)?;
         let surface = |i: &u32| {
             let Triangle { normals, mesh, .. } = triangles[*i as usize];
             Surface { normals, mesh }
         };
-        Self { nodes, leaves, surfaces: order.iter().map(surface).collect() }
+        Ok(Self { nodes, leaves, surfaces: order.iter().map(surface).collect() })
     }
 
     /// The nearest triangle before `limit`, other than the one the ray leaves.

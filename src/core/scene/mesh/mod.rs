@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub(super) use super::accel::Triangle;
 use super::check;
 use super::material::{Diffuse, Material};
-use crate::{Error, Result};
+use crate::{Error, Progress, Result};
 
 /// One mesh file placed in the scene, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -104,9 +104,12 @@ pub(super) fn load(
     place: &str,
     assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
     notes: &mut Vec<String>,
+    progress: &Progress,
 ) -> Result<Vec<Part>> {
+    progress.check()?;
     let path = assets(&desc.file, &format!("{place}.file"))?;
-    let mut file = obj::read(&path)?;
+    let mut file = obj::read(&path, progress)?;
+    progress.check()?;
     transform(&mut file, &desc.transform, &path)?;
     let materials = match &desc.material {
         Some(material) => {
@@ -121,6 +124,7 @@ pub(super) fn load(
         if faces.is_empty() {
             continue;
         }
+        progress.check()?;
         let triangles = clean::triangles(&file, &faces, desc.smooth, &material, &name, notes);
         if !triangles.is_empty() {
             parts.push(Part { name, material, triangles });

@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::Vec3;
 
 use crate::files::read_regular_file;
-use crate::{Error, Result};
+use crate::{Error, Progress, Result};
 
 /// Largest file read [bytes].
 const MAX_BYTES: u64 = 8 << 30;
@@ -40,8 +40,8 @@ pub(super) struct ObjFile {
 }
 
 /// Reads a file.
-pub(super) fn read(path: &Path) -> Result<ObjFile> {
-    parse(&read_regular_file(path, MAX_BYTES)?, path)
+pub(super) fn read(path: &Path, progress: &Progress) -> Result<ObjFile> {
+    parse(&read_regular_file(path, MAX_BYTES)?, path, progress)
 }
 
 /// The text of a file: UTF-8 with or without a byte order mark; other bytes (in names) are replaced.
@@ -71,11 +71,14 @@ pub(super) fn lines(text: &str, mut each: impl FnMut(usize, &str) -> Result<()>)
     if joined.is_empty() { Ok(()) } else { each(text.lines().count(), &joined) }
 }
 
-fn parse(bytes: &[u8], path: &Path) -> Result<ObjFile> {
+fn parse(bytes: &[u8], path: &Path, progress: &Progress) -> Result<ObjFile> {
     let text = text(bytes, path)?;
     let mut reader = Reader { path, file: ObjFile::default(), material: 0, bad: 0, first_bad: 0 };
     reader.file.materials.push(String::new());
-    lines(&text, |number, line| reader.line(number, line))?;
+    lines(&text, |number, line| {
+        progress.check()?;
+        reader.line(number, line)
+    })?;
     if reader.bad > 0 {
         let what = format!(
             "{} vertices or normals are no finite numbers; export the mesh again without them",

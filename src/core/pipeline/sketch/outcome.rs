@@ -1,0 +1,254 @@
+//! What a sketch holds: photons at every frame, and the fields that moved them.
+
+use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use super::Detail;
+use super::field::FieldAt;
+use crate::flow::{Fields, flux};
+use crate::pipeline::grouping::CausticLight;
+use crate::pipeline::light::KeyPhotons;
+use crate::pipeline::meter::StageCost;
+use crate::pipeline::motion::Segment;
+use crate::pipeline::passes::{between, total};
+use crate::pipeline::plan::LeftOut;
+use crate::pipeline::summary::FlowNumbers;
+use crate::project::Moment;
+use crate::{Progress, Result};
+
+/// Photons at the frames of a project, from the first key to the last, and what moved them. It never changes: while work
+/// goes on, new ones with more frames are handed out, which share what they have in common.
+///
+/// Rows are photons: row i is the same photon at every frame. The photons of each named caustic follow each other, and
+/// the rest comes last.
+#[derive(Clone)]
+pub struct Sketch {
+    pub(super) course: Arc<Course>,
+    /// By frame; absent until worked out.
+    pub(super) frames: Vec<Option<Arc<[Vec2]>>>,
+    /// By segment; absent until fitted.
+    pub(super) segments: Vec<Option<Arc<Segment>>>,
+    pub(super) numbers: Option<FlowNumbers>,
+    pub(super) stages: Vec<StageCost>,
+    pub(super) notes: Vec<String>,
+}
+
+/// What is known of a sketch before anything flows.
+pub(super) struct Course {
+    pub(super) detail: Detail,
+    pub(super) extent: Vec2,
+    /// Number of the first frame.
+    pub(super) first: i32,
+    /// By frame.
+    pub(super) moments: Vec<Moment>,
+    pub(super) stops: Vec<Stop>,
+    pub(super) groups: Vec<(Option<String>, Range<usize>)>,
+    pub(super) caustics: Vec<CausticLight>,
+    pub(super) left_out: Vec<LeftOut>,
+    /// Brightness asked for at later keys than the first.
+    pub(super) rho: f64,
+}
+
+/// All photons at a key.
+pub(super) struct Stop {
+    pub(super) positions: Arc<[Vec2]>,
+    flux: Vec<Vec3>,
+    /// Flux of all photons, and what they should have without rho, watts.
+    watts: f64,
+    asked: f64,
+}
+
+impl Stop {
+    /// The photons `at` a key, group by group; `asked` is the flux that they should have but for rho, watts.
+    pub(super) fn new(at: &[KeyPhotons], asked: f64) -> Self {
+        let positions = at.iter().flat_map(|group| &group.positions).copied().collect();
+        let flux: Vec<Vec3> = at.iter().flat_map(|group| &group.flux).copied().collect();
+        let watts = total(&flux);
+        Self { positions, flux, watts, asked }
+    }
+}
+
+impl Sketch {
+    /// How much work it was worth.
+    pub fn detail(&self) -> Detail {
+        self.course.detail
+    }
+
+    /// Size of the plane; its longer side is 1.
+    pub fn extent(&self) -> Vec2 {
+        self.course.extent
+    }
+
+    /// The frames, from the first key to the last.
+    pub fn frames(&self) -> RangeInclusive<i32> {
+        let first = self.course.first;
+        first..=first + self.frames.len() as i32 - 1
+    }
+
+    /// Photons at every frame.
+    pub fn photons(&self) -> usize {
+        self.course.stops.first().map_or(0, |stop| stop.positions.len())
+    }
+
+    /// The named caustics in their order, then the rest, without a name: their rows.
+    pub fn groups(&self) -> &[(Option<String>, Range<usize>)] {
+        &self.course.groups
+    }
+
+    /// Whether the photons of a frame are worked out; those of frames outside are at the nearest key.
+    pub fn is_ready(&self, frame: i32) -> bool {
+        self.frames[self.slot(frame)].is_some()
+    }
+
+    /// Where all photons are at a frame, plane units; none before it is worked out. Frames outside show the nearest key.
+    pub fn positions(&self, frame: i32) -> Option<&[Vec2]> {
+        self.frames[self.slot(frame)].as_deref()
+    }
+
+    /// RGB flux of all photons at a frame, watts, into `out`, which grows or shrinks to fit.
+    pub fn flux(&self, frame: i32, out: &mut Vec<Vec3>) {
+        out.resize(self.photons(), Vec3::ZERO);
+        let ([from, to], time) = self.stops(frame);
+        flux::blend(&from.flux, &to.flux, time as f32, out);
+    }
+
+    /// Flux of all photons at a frame over that of the source, times rho, colour and brightness as they are asked for:
+    /// 1 but for rounding. None where no light is asked for.
+    pub fn energy(&self, frame: i32) -> Option<f64> {
+        let ([from, to], time) = self.stops(frame);
+        let key = self.moment(frame).segment;
+        let rho = |key: usize| if key == 0 { 1.0 } else { self.course.rho };
+        let last = self.course.stops.len() - 1;
+        let asked = between([from.asked * rho(key), to.asked * rho((key + 1).min(last))], time);
+        (asked > 0.0).then(|| between([from.watts, to.watts], time) / asked)
+    }
+
+    /// The fields that act at a frame: the one that caustics share, and those of caustics that flow by themselves. None
+    /// before they are fitted, where the method has none, and from the end of the fade on, where photons go straight.
+    pub fn fields(&self, frame: i32) -> Vec<FieldAt> {
+        let moment = self.moment(frame);
+        let layers = self.segments.get(moment.segment).into_iter().flatten().flat_map(|s| &s.layers);
+        let field = |groups: &[usize], fields: &Fields| {
+            let rows = groups.iter().map(|&group| self.course.groups[group].1.clone()).collect();
+            FieldAt::new(fields.at(moment.time), rows)
+        };
+        layers.filter_map(|layer| field(&layer.groups, layer.mover.fields()?)).collect()
+    }
+
+    /// What the fit leaves undone at a frame: for each photon, guidance minus the velocity of its field, plane units per
+    /// segment; zero for those that no field moves there. None before the frame is worked out.
+    ///
+    /// # Errors
+    /// `Cancelled`; around walls ways must be found anew.
+    pub fn residuals(&self, frame: i32, progress: &Progress) -> Result<Option<Vec<Vec2>>> {
+        let Moment { segment, time } = self.moment(frame);
+        let Some(positions) = self.positions(frame) else { return Ok(None) };
+        let mut residuals = vec![Vec2::ZERO; positions.len()];
+        let targets = self.targets(frame);
+        for layer in self.segments.get(segment).into_iter().flatten().flat_map(|s| &s.layers) {
+            let Some(fields) = layer.mover.fields() else { continue };
+            let acting = fields.at(time);
+            for rows in layer.groups.iter().map(|&group| self.course.groups[group].1.clone()) {
+                if acting.is_empty() {
+                    continue;
+                }
+                let at = &positions[rows.clone()];
+                let guidance = fields.guidance(time, at, &targets[rows.clone()], progress)?;
+                for ((out, v), &p) in residuals[rows].iter_mut().zip(guidance).zip(at) {
+                    *out = v - acting.iter().map(|field| field.velocity(p)).sum::<Vec2>();
+                }
+            }
+        }
+        Ok(Some(residuals))
+    }
+
+    /// Where the photons of a frame are bound for: their places at the next key, row by row.
+    pub fn targets(&self, frame: i32) -> &[Vec2] {
+        &self.stops(frame).0[1].positions
+    }
+
+    /// The way of the photon in row `row` over the frames that are worked out, with their numbers. None for a row that
+    /// there is not.
+    pub fn track(&self, row: usize) -> Vec<(i32, Vec2)> {
+        let at =
+            |(frame, positions): (i32, &Option<Arc<[Vec2]>>)| Some((frame, *positions.as_ref()?.get(row)?));
+        self.frames().zip(&self.frames).filter_map(at).collect()
+    }
+
+    /// The rows of the `count` photons nearest to `point` at a frame, the nearest first.
+    pub fn nearest(&self, frame: i32, point: Vec2, count: usize) -> Vec<usize> {
+        let positions = self.positions(frame).unwrap_or_default();
+        let mut rows: Vec<usize> = (0..positions.len()).collect();
+        let by_distance = |a: &usize, b: &usize| {
+            let distance = |row: usize| positions[row].distance_squared(point);
+            distance(*a).total_cmp(&distance(*b)).then(a.cmp(b))
+        };
+        if count < rows.len() {
+            rows.select_nth_unstable_by(count, by_distance);
+            rows.truncate(count);
+        }
+        rows.sort_unstable_by(by_distance);
+        rows
+    }
+
+    /// The numbers of the flow, the worst over all segments; none before all is worked out, and where nothing moves.
+    pub fn numbers(&self) -> Option<&FlowNumbers> {
+        self.numbers.as_ref()
+    }
+
+    /// The light of each named caustic, and of the rest; empty where none is named.
+    pub fn caustics(&self) -> &[CausticLight] {
+        &self.course.caustics
+    }
+
+    /// What this project does not need.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.course.left_out
+    }
+
+    /// What the artist should know.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Seconds of the stages that ran for it, so far; what was remembered from before does not appear.
+    pub fn stages(&self) -> &[StageCost] {
+        &self.stages
+    }
+
+    /// Flux of all photons over that of the source, times the colour and brightness asked for, at the key where it is
+    /// farthest from 1; between two keys it is between theirs.
+    pub(super) fn flux_ratio(&self) -> f64 {
+        let ratios = self.course.stops.iter().filter(|s| s.asked > 0.0).map(|stop| stop.watts / stop.asked);
+        ratios.reduce(|a, b| if (b - 1.0).abs() > (a - 1.0).abs() { b } else { a }).unwrap_or(1.0)
+    }
+
+    pub(super) fn slot(&self, frame: i32) -> usize {
+        let last = self.frames.len() as i64 - 1;
+        (i64::from(frame) - i64::from(self.course.first)).clamp(0, last) as usize
+    }
+
+    pub(super) fn moment(&self, frame: i32) -> Moment {
+        self.course.moments[self.slot(frame)]
+    }
+
+    /// The keys around a frame, and the time between them. With one key, that one twice.
+    fn stops(&self, frame: i32) -> ([&Stop; 2], f64) {
+        let Moment { segment, time } = self.moment(frame);
+        let stops = &self.course.stops;
+        ([&stops[segment], &stops[(segment + 1).min(stops.len() - 1)]], time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sketches_go_from_thread_to_thread() {
+        fn shared<T: Send + Sync>() {}
+        shared::<Sketch>();
+    }
+}

@@ -1,0 +1,166 @@
+//! The worker that makes pictures of one moment: the plane, the shot, the free look.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use egui::{Color32, ColorImage};
+use glam::Vec3;
+use lightloom_core::pipeline::{Exposure, Shot, Sketch};
+use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
+use rayon::prelude::*;
+
+use super::gpu::Swarm;
+use super::worker::{Turn, Worker};
+
+/// The light of one moment, and how it is shown.
+#[derive(Clone)]
+pub(super) struct Moment {
+    pub(super) sketch: Arc<Sketch>,
+    pub(super) frame: i32,
+    /// Which groups of photons are shown.
+    pub(super) shown: Vec<bool>,
+}
+
+/// What shall be painted.
+#[derive(Clone)]
+pub(super) struct Wish {
+    pub(super) moment: Moment,
+    /// The other side of the wipe.
+    pub(super) other: Option<Moment>,
+    pub(super) view: ViewSettings,
+    pub(super) paper: Paper,
+    /// How the plane is wanted.
+    pub(super) plane: Plane,
+    /// The camera's view of the plane, where the shot is wanted.
+    pub(super) shot: Option<Arc<Shot>>,
+}
+
+/// How the plane is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Plane {
+    /// Not at all.
+    Hidden,
+    /// As a picture of so many pixels along its longer side.
+    Picture(usize),
+    /// As photons for the graphics card.
+    Photons,
+}
+
+/// What was painted last.
+#[derive(Clone, Default)]
+pub struct Painted {
+    /// Counts the pictures, so that each is uploaded once.
+    pub number: u64,
+    /// The frame they show.
+    pub frame: i32,
+    /// The plane: this flow, and what it is compared with.
+    pub plane: [Option<Arc<ColorImage>>; 2],
+    /// Its photons, where the graphics card draws them.
+    pub swarm: [Option<Arc<Swarm>>; 2],
+    /// The shot.
+    pub shot: [Option<Arc<ColorImage>>; 2],
+}
+
+/// Paints the newest moment that was asked for.
+pub(super) struct Painter {
+    worker: Worker<Wish>,
+    painted: Arc<Mutex<Painted>>,
+}
+
+impl Painter {
+    /// `wake` is called when a picture is done.
+    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+        let painted: Arc<Mutex<Painted>> = Arc::default();
+        let theirs = painted.clone();
+        let seen = wake.clone();
+        let worker = Worker::new("pictures", wake, move || {
+            let (painted, seen) = (theirs.clone(), seen.clone());
+            let mut easel = Easel::default();
+            move |wish: Wish, turn: &Turn| {
+                // A picture takes less than the patience of a viewer, and while one scrubs a newer moment always waits:
+                // each is finished, or none would ever be seen.
+                let picture = turn.shielded(|_| easel.paint(&wish));
+                let mut painted = painted.lock().unwrap_or_else(PoisonError::into_inner);
+                *painted = Painted { number: painted.number + 1, ..picture };
+                drop(painted);
+                seen();
+            }
+        });
+        Self { worker, painted }
+    }
+
+    pub(super) fn ask(&self, wish: Wish) {
+        self.worker.ask(wish);
+    }
+
+    /// The newest pictures.
+    pub(super) fn painted(&self) -> Painted {
+        self.painted.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// What a panic of the worker said, once.
+    pub(super) fn panicked(&self) -> Option<String> {
+        self.worker.panicked()
+    }
+}
+
+/// Buffers kept from picture to picture.
+#[derive(Default)]
+struct Easel {
+    exposure: Exposure,
+}
+
+impl Easel {
+    fn paint(&mut self, wish: &Wish) -> Painted {
+        let view = wish.view.view();
+        let mut painted = Painted { frame: wish.moment.frame, ..Painted::default() };
+        let moments = [Some(&wish.moment), wish.other.as_ref()];
+        for (side, moment) in moments.into_iter().enumerate() {
+            let Some(moment) = moment else { continue };
+            match wish.plane {
+                Plane::Hidden => {}
+                Plane::Picture(pixels) => {
+                    let image = self.plane(moment, pixels, wish.paper);
+                    painted.plane[side] = image.map(|image| Arc::new(shown(&image, &view)));
+                }
+                Plane::Photons => painted.swarm[side] = swarm(moment).map(Arc::new),
+            }
+            if let Some(shot) = &wish.shot {
+                let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
+                painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
+            }
+        }
+        painted
+    }
+
+    fn expose(&mut self, moment: &Moment, resolution: usize) -> Option<&ReceiverTexture> {
+        self.exposure.expose(&moment.sketch, moment.frame, resolution, &moment.shown)
+    }
+
+    fn plane(&mut self, moment: &Moment, pixels: usize, paper: Paper) -> Option<Image> {
+        let light = self.expose(moment, pixels)?;
+        Some(plane_picture(light, moment.sketch.extent(), paper))
+    }
+}
+
+/// The photons of a moment that are shown.
+fn swarm(Moment { sketch, frame, shown }: &Moment) -> Option<Swarm> {
+    let positions = sketch.positions(*frame)?;
+    let mut flux = Vec::new();
+    sketch.flux(*frame, &mut flux);
+    for (group, (_, rows)) in sketch.groups().iter().enumerate() {
+        if shown.get(group) == Some(&false) {
+            flux[rows.clone()].fill(Vec3::ZERO);
+        }
+    }
+    Some(Swarm::new(positions, &flux, Exposure::radius(sketch)))
+}
+
+/// The picture as the screen shows it.
+pub(super) fn shown(image: &Image, view: &View) -> ColorImage {
+    let pixel = |&linear: &Vec3| {
+        let [r, g, b] = (view.encode(linear) * 255.0 + 0.5).to_array().map(|v| v as u8);
+        Color32::from_rgb(r, g, b)
+    };
+    let pixels = image.pixels.par_iter().map(pixel).collect();
+    ColorImage::new([image.width, image.height], pixels)
+}

@@ -1,0 +1,281 @@
+//! A thread that does the newest thing it was asked for: a newer request makes the older one stop.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use lightloom_core::Progress;
+use lightloom_core::progress::Snapshot;
+
+/// A thread with one slot for what it shall do next.
+pub struct Worker<Q> {
+    shared: Arc<Shared<Q>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// How long shielded work is left alone, although something newer waits.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+struct Shared<Q> {
+    state: Mutex<State<Q>>,
+    changed: Condvar,
+}
+
+struct State<Q> {
+    next: Option<Q>,
+    /// The work that goes on; none while the thread waits.
+    current: Option<Progress>,
+    /// Since when a newer request does not stop it.
+    shielded: Option<Instant>,
+    closed: bool,
+    panicked: Option<String>,
+}
+
+/// One request's time on the thread.
+pub struct Turn<'a> {
+    /// Cancelled when a newer request comes.
+    pub progress: Progress,
+    shield: &'a dyn Fn(bool),
+}
+
+impl Turn<'_> {
+    /// Does something short that is finished even when a newer request comes meanwhile: else nothing would ever be seen
+    /// while requests come quickly, as from a slider.
+    pub fn shielded<T>(&self, work: impl FnOnce(&Progress) -> T) -> T {
+        (self.shield)(true);
+        let done = work(&self.progress);
+        (self.shield)(false);
+        done
+    }
+}
+
+impl<Q> Shared<Q> {
+    fn state(&self) -> MutexGuard<'_, State<Q>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn shield(&self, up: bool) {
+        let mut state = self.state();
+        state.shielded = up.then(Instant::now);
+        if let (false, true, Some(current)) = (up, state.next.is_some(), &state.current) {
+            current.cancel();
+        }
+    }
+}
+
+impl<Q: Send + 'static> Worker<Q> {
+    /// Starts a thread called `name`. `make` builds what does the work, on that thread, and again after a panic. Without a
+    /// thread, which the system may refuse, requests are answered by nobody and [`Self::panicked`] says so.
+    pub fn new<W: FnMut(Q, &Turn)>(
+        name: &str,
+        wake: impl Fn() + Send + 'static,
+        make: impl Fn() -> W + Send + 'static,
+    ) -> Self {
+        let state = State { next: None, current: None, shielded: None, closed: false, panicked: None };
+        let shared = Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new() });
+        let theirs = shared.clone();
+        let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
+            while run(&theirs, &make) {
+                wake();
+            }
+        });
+        if let Err(error) = &thread {
+            shared.state().panicked = Some(format!("the system starts no thread for {name}: {error}"));
+        }
+        Self { shared, thread: thread.ok() }
+    }
+
+    /// Asks for this in place of everything asked for before.
+    pub fn ask(&self, request: Q) {
+        let mut state = self.shared.state();
+        state.next = Some(request);
+        let left_alone = state.shielded.is_some_and(|since| since.elapsed() < PATIENCE);
+        if let Some(current) = state.current.as_ref().filter(|_| !left_alone) {
+            current.cancel();
+        }
+        self.shared.changed.notify_one();
+    }
+
+    /// Whether something is worked on or waits for it.
+    pub fn is_busy(&self) -> bool {
+        let state = self.shared.state();
+        state.current.is_some() || state.next.is_some()
+    }
+
+    /// How far the work is that goes on.
+    pub fn progress(&self) -> Option<Snapshot> {
+        self.shared.state().current.as_ref().map(Progress::snapshot)
+    }
+
+    /// What a panic said, once: the work was given up, the thread goes on with the next request.
+    pub fn panicked(&self) -> Option<String> {
+        self.shared.state().panicked.take()
+    }
+}
+
+/// Works until there is a panic (then true) or the end.
+fn run<Q, W: FnMut(Q, &Turn)>(shared: &Shared<Q>, make: &impl Fn() -> W) -> bool {
+    let worked = catch_unwind(AssertUnwindSafe(|| {
+        let mut work = make();
+        while let Some((request, progress)) = next(shared) {
+            let shield = |up: bool| shared.shield(up);
+            work(request, &Turn { progress, shield: &shield });
+            shared.state().current = None;
+        }
+    }));
+    let Err(panic) = worked else { return false };
+    let mut state = shared.state();
+    (state.current, state.shielded) = (None, None);
+    state.panicked = Some(what(&*panic));
+    true
+}
+
+/// Waits for the next request; none at the end.
+fn next<Q>(shared: &Shared<Q>) -> Option<(Q, Progress)> {
+    let mut state = shared.state();
+    loop {
+        if state.closed {
+            return None;
+        }
+        if let Some(request) = state.next.take() {
+            let progress = Progress::new();
+            state.current = Some(progress.clone());
+            return Some((request, progress));
+        }
+        state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+    }
+}
+
+/// The words of a panic.
+pub fn what(panic: &(dyn std::any::Any + Send)) -> String {
+    let words = panic.downcast_ref::<String>().map(String::as_str);
+    words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason was given").to_owned()
+}
+
+impl<Q> Drop for Worker<Q> {
+    /// Stops the work and waits for the thread.
+    fn drop(&mut self) {
+        {
+            let mut state = self.shared.state();
+            state.closed = true;
+            if let Some(current) = &state.current {
+                current.cancel();
+            }
+            self.shared.changed.notify_one();
+        }
+        if let Some(thread) = self.thread.take() {
+            // A panic of the thread was told already.
+            let _ = thread.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::sync::mpsc::channel;
+
+    use super::*;
+
+    #[test]
+    fn the_newest_request_wins_and_stale_work_stops() {
+        let (done, seen) = channel();
+        let worker = Worker::new(
+            "test",
+            || {},
+            move || {
+                let done = done.clone();
+                move |request: u32, turn: &Turn| {
+                    // Request 1 never ends by itself.
+                    while request == 1 && !turn.progress.is_cancelled() {
+                        std::thread::sleep(Duration::from_millis(1));
+                    }
+                    done.send((request, turn.progress.is_cancelled())).unwrap();
+                }
+            },
+        );
+        worker.ask(1);
+        while worker.progress().is_none() {
+            std::thread::yield_now();
+        }
+        worker.ask(2);
+        assert_eq!(seen.recv().unwrap(), (1, true));
+        assert_eq!(seen.recv().unwrap(), (2, false));
+    }
+
+    #[test]
+    fn shielded_work_is_finished_before_the_newer_request_is_taken() {
+        let (done, seen) = channel();
+        let worker = Worker::new(
+            "test",
+            || {},
+            move || {
+                let done = done.clone();
+                move |request: u32, turn: &Turn| {
+                    let stopped = turn.shielded(|progress| {
+                        std::thread::sleep(Duration::from_millis(20));
+                        progress.is_cancelled()
+                    });
+                    done.send((request, stopped, turn.progress.is_cancelled())).unwrap();
+                }
+            },
+        );
+        worker.ask(1);
+        while worker.progress().is_none() {
+            std::thread::yield_now();
+        }
+        worker.ask(2);
+        assert_eq!(seen.recv().unwrap(), (1, false, true));
+        assert_eq!(seen.recv().unwrap(), (2, false, false));
+    }
+
+    #[test]
+    fn a_panic_is_told_and_the_next_request_is_answered() {
+        let (done, seen) = channel();
+        let worker = Worker::new(
+            "test",
+            || {},
+            move || {
+                let done = done.clone();
+                move |request: u32, _: &Turn| {
+                    assert_ne!(request, 1, "one is too much");
+                    done.send(request).unwrap();
+                }
+            },
+        );
+        worker.ask(1);
+        let told = loop {
+            if let Some(told) = worker.panicked() {
+                break told;
+            }
+            std::thread::yield_now();
+        };
+        assert!(told.contains("one is too much"), "{told}");
+        worker.ask(2);
+        assert_eq!(seen.recv().unwrap(), 2);
+    }
+
+    #[test]
+    fn dropping_it_stops_the_work() {
+        let worker = Worker::new(
+            "test",
+            || {},
+            || {
+                |(): (), turn: &Turn| {
+                    while !turn.progress.is_cancelled() {
+                        std::thread::sleep(Duration::from_millis(1));
+                    }
+                }
+            },
+        );
+        worker.ask(());
+        while worker.progress().is_none() {
+            std::thread::yield_now();
+        }
+        let begun = Instant::now();
+        drop(worker);
+        // It would wait for ever if the work were not stopped; the minute is for a busy machine.
+        assert!(begun.elapsed() < Duration::from_secs(60));
+    }
+}

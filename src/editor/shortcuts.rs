@@ -1,0 +1,144 @@
+//! Keys in words, and the sheet of all of them.
+
+use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
+
+use super::command::{COMMANDS, Entry, Menu};
+
+/// A key and what it does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// The group it is listed in.
+    pub group: &'static str,
+    /// What it does.
+    pub name: String,
+    /// The key in words.
+    pub key: String,
+}
+
+/// The sheet.
+#[derive(Clone, Debug, Default)]
+pub struct Sheet {
+    /// Whether it is seen.
+    pub open: bool,
+    filter: String,
+}
+
+/// A shortcut in words, such as "Ctrl+Shift+S".
+pub fn words(shortcut: &KeyboardShortcut) -> String {
+    shortcut.format(&ModifierNames::NAMES, cfg!(target_os = "macos"))
+}
+
+/// The name of a command with its key, for tooltips.
+pub fn with_key(entry: &Entry) -> String {
+    entry
+        .shortcut
+        .as_ref()
+        .map_or_else(|| entry.name.to_owned(), |s| format!("{} ({})", entry.name, words(s)))
+}
+
+/// What the mouse and held keys do everywhere, which no list of commands knows.
+const GESTURES: [(&str, &str); 10] = [
+    ("Zoom at the pointer", "Wheel"),
+    ("Move the view", "Middle button, drag"),
+    ("Add to the selection", "Shift+Click"),
+    ("Straight lines, steps of 15°", "Hold Shift"),
+    ("Draw without snapping", "Hold Ctrl"),
+    ("End what is being drawn", "Enter"),
+    ("Break off what is being drawn or dragged", "Escape"),
+    ("Take the last point back", "Backspace"),
+    ("Nudge the selection", "Arrow keys"),
+    ("Reset a setting to its default", "Double click"),
+];
+
+/// All shortcuts: of the tools, of the commands, and the gestures.
+pub fn lines(tools: &[(&'static str, Key)]) -> Vec<Line> {
+    let tool = |(name, key): &(&'static str, Key)| Line {
+        group: "Tools",
+        name: (*name).into(),
+        key: key.name().into(),
+    };
+    let command = |entry: &Entry| {
+        let shortcut = entry.shortcut.as_ref()?;
+        Some(Line { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
+    };
+    let gesture = |(name, key): &(&str, &str)| Line {
+        group: "Mouse and keys",
+        name: (*name).into(),
+        key: (*key).into(),
+    };
+    tools
+        .iter()
+        .map(tool)
+        .chain(COMMANDS.iter().filter_map(command))
+        .chain(GESTURES.iter().map(gesture))
+        .collect()
+}
+
+/// What a menu is called.
+pub fn group(menu: Menu) -> &'static str {
+    match menu {
+        Menu::File => "File",
+        Menu::Edit => "Edit",
+        Menu::Play => "Play",
+        Menu::View => "View",
+        Menu::Help => "Help",
+    }
+}
+
+impl Sheet {
+    /// Shows the sheet where it is open.
+    pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
+        if !self.open {
+            return;
+        }
+        let filter = self.filter.to_lowercase();
+        let found = |line: &Line| {
+            format!("{} {} {}", line.group, line.name, line.key).to_lowercase().contains(&filter)
+        };
+        let lines: Vec<Line> = lines(tools).into_iter().filter(found).collect();
+        let window =
+            egui::Window::new("Shortcuts").open(&mut self.open).collapsible(false).resizable([false, true]);
+        let placed = window
+            .default_size([700.0, 460.0])
+            .default_pos(ctx.content_rect().center() - egui::vec2(350.0, 260.0));
+        placed.show(ctx, |ui| {
+            let field =
+                TextEdit::singleline(&mut self.filter).hint_text("Search").desired_width(f32::INFINITY);
+            ui.add(field).accessible_name("Search shortcuts");
+            ui.add_space(6.0);
+            ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+                if lines.is_empty() {
+                    ui.weak("No key does that.");
+                }
+                ui.columns(2, |columns| {
+                    let half = halves(&lines);
+                    list(&mut columns[0], &lines[..half]);
+                    list(&mut columns[1], &lines[half..]);
+                });
+            });
+        });
+    }
+}
+
+/// Where the second column begins: at the group's begin that leaves both about as long.
+fn halves(lines: &[Line]) -> usize {
+    let begins =
+        (0..=lines.len()).filter(|&i| i == lines.len() || i == 0 || lines[i].group != lines[i - 1].group);
+    begins.min_by_key(|i| i.abs_diff(lines.len().div_ceil(2))).unwrap_or(0)
+}
+
+fn list(ui: &mut egui::Ui, lines: &[Line]) {
+    for group in lines.chunk_by(|a, b| a.group == b.group) {
+        ui.add_space(4.0);
+        ui.strong(group[0].group);
+        Grid::new(group[0].group).num_columns(2).min_col_width(130.0).spacing([12.0, 3.0]).show(ui, |ui| {
+            for line in group {
+                ui.label(&line.name);
+                ui.label(
+                    RichText::new(&line.key).monospace().background_color(ui.visuals().extreme_bg_color),
+                );
+                ui.end_row();
+            }
+        });
+    }
+}

@@ -1,0 +1,217 @@
+//! The autosave journal: every change of the open document is on the disk within about half a second, outside the user's file.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use lightloom_core::project::{Project, ProjectFile};
+use lightloom_core::{Error, Result};
+use serde::{Deserialize, Serialize};
+
+use super::slot::Slot;
+use super::{Fingerprint, Recovery, disk};
+
+/// How long a change waits for others to be written with it.
+const GATHER: Duration = Duration::from_millis(400);
+/// How long to wait before a failed write is tried again.
+const RETRY: Duration = Duration::from_secs(2);
+
+/// The document as it is after a change. Making one copies nothing but pointers.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// The document's file; none where it was never saved.
+    pub path: Option<PathBuf>,
+    /// What the document is called when it is offered for recovery.
+    pub title: String,
+    /// The file the project came from.
+    pub file: Arc<ProjectFile>,
+    /// The project as it is now.
+    pub project: Arc<Project>,
+    /// The content of the document's file when it was last read or saved; none where it was never saved.
+    pub seen: Option<Fingerprint>,
+}
+
+/// A journal's file.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Entry {
+    pub(super) path: Option<PathBuf>,
+    pub(super) title: String,
+    /// When the change was made, seconds since 1970.
+    pub(super) time: u64,
+    pub(super) seen: Option<Fingerprint>,
+    /// The project file as it would have been saved.
+    pub(super) text: String,
+}
+
+/// The journal of one open document. Dropped without [`clean`](Self::clean), it writes what it still has and leaves its
+/// file to be recovered.
+#[derive(Debug)]
+pub struct Journal {
+    messages: Option<Sender<Message>>,
+    writer: Option<JoinHandle<()>>,
+    problem: Problem,
+}
+
+enum Message {
+    Note(Box<Note>, SystemTime),
+    Clean,
+}
+
+impl Journal {
+    /// A journal in `folder`, which is made when there is something to write.
+    pub fn start(folder: PathBuf) -> Self {
+        Self::run(folder, None)
+    }
+
+    /// The journal of a recovered document goes on in the file it was found in: so there is no moment at which the work
+    /// stands nowhere.
+    pub fn resume(recovery: Recovery) -> Self {
+        let slot = recovery.into_slot();
+        Self::run(slot.file().parent().unwrap_or(Path::new(".")).to_owned(), Some(slot))
+    }
+
+    fn run(folder: PathBuf, slot: Option<Slot>) -> Self {
+        let (messages, inbox) = channel();
+        let problem = Problem::default();
+        let writer = Writer { folder, slot, problem: problem.clone() };
+        let thread = std::thread::Builder::new().name("journal".into());
+        let writer = match thread.spawn(move || writer.serve(&inbox)) {
+            Ok(writer) => Some(writer),
+            Err(error) => {
+                problem.set(Some(format!("changes are not kept for recovery: {error}; save often")));
+                None
+            }
+        };
+        Self { messages: Some(messages), writer, problem }
+    }
+
+    /// Writes the document down soon. Costs the caller microseconds.
+    pub fn note(&self, note: Note) {
+        self.send(Message::Note(Box::new(note), SystemTime::now()));
+    }
+
+    /// All that was noted until now stands in the user's file, or the user does not want it: removes the journal's file.
+    /// After a save call it only if nothing was changed since the save was asked for.
+    pub fn clean(&self) {
+        self.send(Message::Clean);
+    }
+
+    /// Why the last change could not be written; none while all is well.
+    pub fn problem(&self) -> Option<String> {
+        self.problem.get()
+    }
+
+    fn send(&self, message: Message) {
+        if self.writer.as_ref().is_some_and(JoinHandle::is_finished) {
+            self.problem.set(Some("changes are no longer kept for recovery; save and start anew".into()));
+        }
+        if let Some(messages) = &self.messages {
+            // Fails only where the thread is gone, which was just said.
+            let _ = messages.send(message);
+        }
+    }
+}
+
+impl Drop for Journal {
+    fn drop(&mut self) {
+        // The closed channel ends the thread, after it has written what it has.
+        self.messages = None;
+        if let Some(writer) = self.writer.take() {
+            let _ = writer.join();
+        }
+    }
+}
+
+/// What the thread has to say to the window.
+#[derive(Clone, Debug, Default)]
+struct Problem(Arc<Mutex<Option<String>>>);
+
+impl Problem {
+    fn set(&self, problem: Option<String>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = problem;
+    }
+
+    fn get(&self) -> Option<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+struct Writer {
+    folder: PathBuf,
+    slot: Option<Slot>,
+    problem: Problem,
+}
+
+/// The newest change that is not written yet, and when it is due.
+struct Pending {
+    due: Instant,
+    note: Box<Note>,
+    time: SystemTime,
+}
+
+impl Writer {
+    fn serve(mut self, inbox: &Receiver<Message>) {
+        let mut pending: Option<Pending> = None;
+        loop {
+            let wait = pending.as_ref().map(|pending| pending.due.saturating_duration_since(Instant::now()));
+            let message = match wait {
+                None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                // Due is due, also while changes keep coming in.
+                Some(Duration::ZERO) => Err(RecvTimeoutError::Timeout),
+                Some(wait) => inbox.recv_timeout(wait),
+            };
+            match message {
+                Ok(Message::Note(note, time)) => {
+                    let due = pending.map_or_else(|| Instant::now() + GATHER, |pending| pending.due);
+                    pending = Some(Pending { due, note, time });
+                }
+                Ok(Message::Clean) => {
+                    pending = None;
+                    let cleared = self.slot.as_ref().map_or(Ok(()), Slot::clear);
+                    self.problem.set(cleared.err().map(|error| error.to_string()));
+                }
+                Err(RecvTimeoutError::Timeout) => pending = pending.and_then(|pending| self.attempt(pending)),
+                Err(RecvTimeoutError::Disconnected) => {
+                    pending.and_then(|pending| self.attempt(pending));
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Writes a change; gives it back for another attempt where that failed.
+    fn attempt(&mut self, pending: Pending) -> Option<Pending> {
+        let written = self.write(&pending);
+        let failed = written.is_err();
+        self.problem.set(
+            written.err().map(|error| format!("changes are not kept for recovery: {error}; save often")),
+        );
+        failed.then(|| Pending { due: Instant::now() + RETRY, ..pending })
+    }
+
+    fn write(&mut self, Pending { note, time, .. }: &Pending) -> Result<()> {
+        let entry = Entry {
+            // JSON knows no path that is not UTF-8: such a document is offered as one without file.
+            path: note.path.as_ref().filter(|path| path.to_str().is_some()).map(|path| absolute(path)),
+            title: note.title.clone(),
+            time: time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+            seen: note.seen,
+            text: note.file.text_of(&note.project)?,
+        };
+        let bytes = serde_json::to_vec(&entry)
+            .map_err(|e| Error::value("journal", format!("cannot be written as JSON: {e}")))?;
+        let slot = match self.slot.take() {
+            Some(slot) => slot,
+            None => Slot::new(&self.folder)?,
+        };
+        let slot = self.slot.insert(slot);
+        disk::write(slot.file(), &bytes)
+    }
+}
+
+/// The same path from wherever the editor is started next.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}

@@ -1,0 +1,102 @@
+//! What a crash left: documents whose editor is gone.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use lightloom_core::project::ProjectFile;
+use lightloom_core::{Error, Result, files};
+
+use super::journal::Entry;
+use super::slot::Slot;
+use super::{Fingerprint, disk};
+
+/// A journal holds one project file of 64 MiB at most, with escapes.
+const MOST_BYTES: u64 = 160 << 20;
+
+/// Work that no editor has open and no file holds. While this exists no other editor offers it; dropped, it is offered
+/// again at the next start.
+pub struct Recovery {
+    /// The user's file; none where the document was never saved.
+    pub path: Option<PathBuf>,
+    /// What the document is called.
+    pub title: String,
+    /// How long ago the last change was made.
+    pub age: Duration,
+    /// The project as it was last, or why it cannot be read.
+    pub work: Result<Arc<ProjectFile>>,
+    /// The content of the user's file when the lost editor last read or saved it.
+    pub seen: Option<Fingerprint>,
+    /// Whether the user's file holds something else by now: the editor was lost right after saving, or another program
+    /// wrote it. Then the file may be newer than this work.
+    pub file_changed: bool,
+    slot: Slot,
+}
+
+impl Recovery {
+    /// Removes the work for good.
+    ///
+    /// # Errors
+    /// Names the file and the system's reason.
+    pub fn discard(self) -> Result<()> {
+        self.slot.clear()
+    }
+
+    pub(super) fn into_slot(self) -> Slot {
+        self.slot
+    }
+}
+
+impl fmt::Debug for Recovery {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_struct("Recovery").field("title", &self.title).field("age", &self.age).finish_non_exhaustive()
+    }
+}
+
+/// What can be recovered from `folder`, the newest first. Reads files: not for the window's own thread. Work that stands in
+/// the user's file after all is cleared away and not offered.
+pub fn recoverable(folder: &Path) -> Vec<Recovery> {
+    disk::sweep(folder);
+    let mut found: Vec<_> = Slot::abandoned(folder).into_iter().filter_map(look_into).collect();
+    found.sort_by_key(|recovery| recovery.age);
+    found
+}
+
+fn look_into(slot: Slot) -> Option<Recovery> {
+    let file = slot.file().to_owned();
+    let read = files::read_regular_file(&file, MOST_BYTES).and_then(|bytes| {
+        let broken = |e| Error::format(&file, "", format!("is no recovery file: {e}; discard it"));
+        serde_json::from_slice::<Entry>(&bytes).map_err(broken)
+    });
+    let entry = match read {
+        Ok(entry) => entry,
+        Err(error) => {
+            let title = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let age = std::fs::metadata(&file).and_then(|data| data.modified()).map_or(Duration::ZERO, since);
+            return Some(Recovery {
+                path: None,
+                title,
+                age,
+                work: Err(error),
+                seen: None,
+                file_changed: false,
+                slot,
+            });
+        }
+    };
+    let in_file = entry.path.as_ref().and_then(|path| files::read_regular_file(path, MOST_BYTES).ok());
+    if in_file.as_ref().is_some_and(|bytes| bytes == entry.text.as_bytes()) && slot.clear().is_ok() {
+        return None;
+    }
+    let file_changed = in_file.zip(entry.seen).is_some_and(|(bytes, seen)| Fingerprint::of(&bytes) != seen);
+    let named = entry.path.as_deref().unwrap_or(&file);
+    let work = ProjectFile::parse(entry.text.as_bytes(), named).map(|(work, _)| Arc::new(work));
+    let age = UNIX_EPOCH.checked_add(Duration::from_secs(entry.time)).map_or(Duration::ZERO, since);
+    Some(Recovery { path: entry.path, title: entry.title, age, work, seen: entry.seen, file_changed, slot })
+}
+
+/// How long ago it was; nothing where it is still to come.
+fn since(time: SystemTime) -> Duration {
+    time.elapsed().unwrap_or_default()
+}

@@ -1,0 +1,196 @@
+//! The thread that opens and saves, so that the window never waits for a disk.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use lightloom_core::project::{Project, ProjectFile};
+use lightloom_core::{Error, Result, files};
+
+use super::{Fingerprint, Folders, Preferences, Recovery, disk, recoverable};
+
+/// No project file is larger; a larger file is not replaced by one.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// What the saver is asked to do; answers come in the same order.
+#[derive(Debug)]
+pub enum Request {
+    /// Read a project file.
+    Open(PathBuf),
+    /// Write one.
+    Save(Save),
+    /// Look for work that a crash left.
+    LookForLost,
+    /// Remove such work for good.
+    Discard(Box<Recovery>),
+    /// Write the preferences.
+    Remember(Box<Preferences>),
+}
+
+/// A project to be saved.
+#[derive(Clone, Debug)]
+pub struct Save {
+    /// Where to.
+    pub path: PathBuf,
+    /// The file it came from.
+    pub file: Arc<ProjectFile>,
+    /// The project as it is now.
+    pub project: Arc<Project>,
+    /// What the file at `path` must still hold; none: whatever is there may be replaced, for the user was asked.
+    pub seen: Option<Fingerprint>,
+}
+
+/// What came of a request.
+#[derive(Debug)]
+pub enum Answer {
+    /// A file was read, or not.
+    Opened(PathBuf, Result<Opened>),
+    /// A project was written, or not; then the old file is as it was.
+    Saved(Save, Result<Saved>),
+    /// Nothing was written: another program changed the file since this one last read or wrote it. Sent again with `seen`
+    /// none, the request replaces the other program's work.
+    ChangedOnDisk(Save),
+    /// What can be recovered, the newest first.
+    Lost(Vec<Recovery>),
+    /// A request without an answer of its own failed, for this reason.
+    Failed(String),
+}
+
+/// A file that was read.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// Its project and text.
+    pub file: Arc<ProjectFile>,
+    /// What of it this program does not know.
+    pub notes: Vec<String>,
+    /// Its content.
+    pub seen: Fingerprint,
+}
+
+/// A file that was written.
+#[derive(Clone, Debug)]
+pub struct Saved {
+    /// Its content now.
+    pub seen: Fingerprint,
+    /// Why there is no backup of what stood there before, if there is none.
+    pub note: Option<String>,
+}
+
+/// Opens and saves on a thread of its own. Dropped, it first does all that it was asked.
+#[derive(Debug)]
+pub struct Saver {
+    requests: Option<Sender<Request>>,
+    answers: Receiver<Answer>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Saver {
+    /// Starts it. `wake` is called on its thread after each answer; the window then asks for it.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
+        let (requests, inbox) = channel::<Request>();
+        let (outbox, answers) = channel();
+        let serve = move || {
+            for request in inbox {
+                let answer = catch_unwind(AssertUnwindSafe(|| answer(&folders, request)));
+                let failed = || Some(Answer::Failed("an internal error; the file may not be saved".into()));
+                let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
+                if outbox.send(answer).is_err() {
+                    // The window is gone; what it asked for is done all the same.
+                    continue;
+                }
+                wake();
+            }
+        };
+        let thread = std::thread::Builder::new().name("saver".into()).spawn(serve);
+        let thread = thread.map_err(Error::io("start a thread for", "files"))?;
+        Ok(Self { requests: Some(requests), answers, thread: Some(thread) })
+    }
+
+    /// Asks for something to be done; returns at once.
+    pub fn ask(&self, request: Request) {
+        if let Some(requests) = &self.requests {
+            // The thread ends only after this sender.
+            let _ = requests.send(request);
+        }
+    }
+
+    /// The next answer that is there; none while there is none.
+    pub fn answer(&self) -> Option<Answer> {
+        self.answers.try_recv().ok()
+    }
+}
+
+impl Drop for Saver {
+    fn drop(&mut self) {
+        self.requests = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn answer(folders: &Folders, request: Request) -> Option<Answer> {
+    let failed = |result: Result<()>| result.err().map(|error| Answer::Failed(error.to_string()));
+    match request {
+        Request::Open(path) => {
+            let opened = open(&path);
+            Some(Answer::Opened(path, opened))
+        }
+        Request::Save(request) => Some(match save(folders, &request) {
+            Ok(Some(saved)) => Answer::Saved(request, Ok(saved)),
+            Ok(None) => Answer::ChangedOnDisk(request),
+            Err(error) => Answer::Saved(request, Err(error)),
+        }),
+        Request::LookForLost => Some(Answer::Lost(recoverable(&folders.recovery()))),
+        Request::Discard(recovery) => failed(recovery.discard()),
+        Request::Remember(preferences) => failed(preferences.save(&folders.config)),
+    }
+}
+
+fn open(path: &Path) -> Result<Opened> {
+    let bytes = files::read_regular_file(path, MOST_BYTES)?;
+    let (file, notes) = ProjectFile::parse(&bytes, path)?;
+    Ok(Opened { file: Arc::new(file), notes, seen: Fingerprint::of(&bytes) })
+}
+
+/// Saves; none where the file holds something else than was seen.
+fn save(folders: &Folders, request: &Save) -> Result<Option<Saved>> {
+    // Through a link the file behind it is written; the link stays.
+    let path = request.path.canonicalize().unwrap_or_else(|_| request.path.clone());
+    let old = present(&path)?;
+    if let (Some(old), Some(seen)) = (&old, request.seen)
+        && Fingerprint::of(old) != seen
+    {
+        return Ok(None);
+    }
+    let text = request.file.save(&path, &request.project)?;
+    let backup = old.filter(|old| old != text.as_bytes()).map(|old| keep(folders, &path, &old));
+    if let Some(folder) = path.parent() {
+        disk::sweep(folder);
+    }
+    let note = backup.and_then(Result::err).map(|error| format!("saved, but without backup: {error}"));
+    Ok(Some(Saved { seen: Fingerprint::of(text.as_bytes()), note }))
+}
+
+/// What stands at `path` now; none where nothing does. Refuses what must not be replaced.
+fn present(path: &Path) -> Result<Option<Vec<u8>>> {
+    match std::fs::metadata(path) {
+        Ok(data) if data.permissions().readonly() => {
+            Err(Error::format(path, "", "is write-protected; save under another name"))
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Ok(_) | Err(_) => files::read_regular_file(path, MOST_BYTES).map(Some),
+    }
+}
+
+/// Puts the last version of a file aside. Files of the same name from different folders do not get into each other's way.
+fn keep(folders: &Folders, path: &Path, old: &[u8]) -> Result<()> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let folder = Fingerprint::of(path.as_os_str().as_encoded_bytes()).short();
+    disk::write(&folders.backups().join(format!("{name}.{folder}.bak")), old)
+}

@@ -1,0 +1,120 @@
+//! The examples from which a new project can begin.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use lightloom_core::Result;
+use lightloom_core::project::Project;
+
+use super::document::Document;
+
+/// An example.
+#[derive(Clone, Copy, Debug)]
+pub struct Template {
+    /// What it is called.
+    pub name: &'static str,
+    /// What it is about.
+    pub line: &'static str,
+    /// Its file in the folder of the examples.
+    pub file: &'static str,
+    /// A small picture of it, PNG, 240 x 150 pixels.
+    pub picture: &'static [u8],
+}
+
+macro_rules! picture {
+    ($name:literal) => {
+        include_bytes!(concat!("../../assets/templates/", $name, ".png"))
+    };
+}
+
+/// All examples; the first is what a first start shows.
+pub const TEMPLATES: [Template; 6] = [
+    Template {
+        name: "Letters, free",
+        line: "A letter becomes another on a bare plane: the quickest to try things on.",
+        file: "letters_free.json",
+        picture: picture!("letters_free"),
+    },
+    Template {
+        name: "Letters",
+        line: "The same with lines and walls that were drawn.",
+        file: "letters.json",
+        picture: picture!("letters"),
+    },
+    Template {
+        name: "Dark glass",
+        line: "The caustic of a glass of wine turns into a flower.",
+        file: "dark_glass.json",
+        picture: picture!("dark_glass"),
+    },
+    Template {
+        name: "Bottles",
+        line: "Three bottles; walls and lines lead their light around each other.",
+        file: "bottles.json",
+        picture: picture!("bottles"),
+    },
+    Template {
+        name: "Rabbit",
+        line: "The light of a glass rabbit becomes a star through turbulence.",
+        file: "rabbit.json",
+        picture: picture!("rabbit"),
+    },
+    Template {
+        name: "Loop",
+        line: "Begins and ends with the same light, and runs round for ever.",
+        file: "loop.json",
+        picture: picture!("loop"),
+    },
+];
+
+/// Where the examples stand: beside the program, in the current folder, or where the program was built. Their meshes and
+/// pictures are in its neighbour `assets`.
+pub fn folder() -> Option<&'static Path> {
+    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let find = || {
+        let program = std::env::current_exe().ok();
+        let beside = program.as_deref().and_then(Path::parent);
+        let installed = beside.map(|bin| bin.join("../share/lightloom/projects"));
+        [beside.map(|bin| bin.join("projects")), installed]
+            .into_iter()
+            .flatten()
+            .chain([PathBuf::from("projects"), Path::new(env!("CARGO_MANIFEST_DIR")).join("projects")])
+            .find(|folder| folder.join(TEMPLATES[0].file).is_file())
+            .and_then(|folder| folder.canonicalize().ok())
+    };
+    FOLDER.get_or_init(find).as_deref()
+}
+
+/// Reads an example. Reads a file: not on the thread of the window.
+///
+/// # Errors
+/// The examples are not installed, or the file is wrong.
+pub fn load(template: &Template) -> Result<Project> {
+    let Some(folder) = folder() else {
+        let what =
+            "the folder 'projects' of the examples is neither beside the program nor in the current folder";
+        return Err(lightloom_core::Error::value(template.name, what));
+    };
+    Project::load(&folder.join(template.file))
+}
+
+/// The file that a document's paths are relative to: its own, or that of a new project among the examples.
+pub fn file_of(document: &Document) -> PathBuf {
+    let new = || folder().unwrap_or(Path::new(".")).join("untitled.json");
+    document.path().map_or_else(new, Path::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn every_example_can_be_read_and_has_a_picture_that_can_be_shown() {
+        for template in TEMPLATES {
+            load(&template).unwrap();
+            let picture = image::load_from_memory(template.picture).unwrap();
+            assert_eq!((picture.width(), picture.height()), (240, 150), "{}", template.name);
+        }
+    }
+}

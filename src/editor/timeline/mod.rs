@@ -1,0 +1,105 @@
+//! The time line: transport, ruler, key frames, what is worked out, and when each constraint acts.
+
+mod commands;
+mod drag;
+mod icons;
+mod keys;
+mod moves;
+mod ruler;
+mod scale;
+mod spans;
+mod stripe;
+mod thumbnails;
+mod transport;
+
+use egui::{Align2, FontId, PointerButton, Rect, Ui, pos2};
+
+pub use commands::carry_out;
+pub use moves::{add_key, remove_key};
+pub use thumbnails::{Thumbnail, Thumbnails};
+
+use super::panels::Desk;
+use super::playback;
+use drag::Dragging;
+use scale::{Scale, Seen};
+
+/// Width of the names at the left, points.
+const GUTTER: f32 = 84.0;
+
+/// The time line of the window.
+#[derive(Default)]
+pub struct Timeline {
+    /// The part of the time axis that is seen; none for all frames.
+    seen: Option<Seen>,
+    drag: Dragging,
+    thumbnails: Thumbnails,
+}
+
+impl Timeline {
+    /// Shows the time line and asks for what is done with it. Returns where the play button is.
+    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk) -> Rect {
+        let play = self.transport(ui, desk);
+        ui.add_space(2.0);
+        let area = ui.available_rect_before_wrap();
+        ui.allocate_rect(area, egui::Sense::hover());
+        let track = area.with_min_x(area.left() + GUTTER);
+        let scale = self.scale(track, desk);
+        let lane = |top: f32, height: f32| Rect::from_x_y_ranges(track.x_range(), top..=top + height);
+        let ruler = lane(area.top(), ruler::HEIGHT);
+        let stripe = lane(ruler.bottom(), stripe::HEIGHT);
+        let keys = lane(stripe.bottom(), keys::HEIGHT);
+        ruler::show(ui, ruler, &scale, desk);
+        stripe::show(ui, stripe, &scale, desk);
+        self.keys(ui, keys, &scale, desk);
+        title(ui, area, ruler, "Frames");
+        title(ui, area, keys, "Key frames");
+        let bars = Rect::from_min_max(pos2(area.left(), keys.bottom() + 2.0), area.max);
+        if bars.height() >= spans::ROW {
+            self.spans(ui, bars, &scale, desk);
+        }
+        let over = Rect::from_min_max(track.min, pos2(track.right(), area.bottom()));
+        ruler::playhead(ui, over, &scale, desk.session.playhead);
+        self.navigate(ui, ruler.union(keys), &scale, desk);
+        play
+    }
+
+    /// The key frames' pictures, for other lists that show them.
+    pub fn thumbnails(&mut self) -> &mut Thumbnails {
+        &mut self.thumbnails
+    }
+
+    /// Height at which all bars are seen with as many lanes as the document has, points.
+    pub fn height(desk: &Desk) -> f32 {
+        let bars = spans::shown(desk.document.project(), &desk.session.selection).len();
+        30.0 + ruler::HEIGHT + stripe::HEIGHT + keys::HEIGHT + 8.0 + spans::ROW * bars.clamp(1, 5) as f32
+    }
+
+    fn scale(&self, track: Rect, desk: &Desk) -> Scale {
+        let whole = playback::whole(desk.document.project());
+        Scale::new(track.x_range(), self.seen.unwrap_or_else(|| Seen::all(&whole, track.width())))
+    }
+
+    /// The wheel zooms about the pointer, with Shift or sideways it moves; so does dragging with the middle button.
+    fn navigate(&mut self, ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
+        let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| rect.contains(*at)) else { return };
+        if ui.ctx().layer_id_at(at) != Some(ui.layer_id()) {
+            return;
+        }
+        let (scroll, zoom, drag) = ui.input(|i| {
+            let drag = if i.pointer.button_down(PointerButton::Middle) { i.pointer.delta().x } else { 0.0 };
+            (i.smooth_scroll_delta(), i.zoom_delta(), drag)
+        });
+        let factor = f64::from(zoom) * f64::from(scroll.y / 240.0).exp2();
+        let seen = if factor != 1.0 { scale.zoomed(factor, at.x) } else { scale.panned(scroll.x + drag) };
+        if factor != 1.0 || scroll.x + drag != 0.0 {
+            self.seen = Some(seen.kept_near(&playback::whole(desk.document.project())));
+        }
+    }
+}
+
+/// The name of a lane in the gutter.
+fn title(ui: &Ui, area: Rect, lane: Rect, text: &str) {
+    let place = pos2(area.left() + GUTTER - 8.0, lane.center().y);
+    let colour = ui.visuals().weak_text_color();
+    ui.painter().text(place, Align2::RIGHT_CENTER, text, FontId::proportional(11.5), colour);
+}

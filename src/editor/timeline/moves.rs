@@ -1,0 +1,159 @@
+//! What can be done to key frames and spans, as edits.
+
+use lightloom_core::constraint::{Constraint, Span};
+use lightloom_core::project::{KeyFrame, Project};
+
+use crate::editor::document::Edit;
+
+/// The frames that a project may hold.
+const FRAMES: std::ops::RangeInclusive<i32> = -1_000_000..=1_000_000;
+
+/// Key `index` at `frame`, or as near to it as its neighbours let it; none where it is there already.
+pub(super) fn retime(keys: &[KeyFrame], index: usize, frame: i32) -> Option<Edit> {
+    let lowest = index.checked_sub(1).map_or(*FRAMES.start(), |before| keys[before].frame + 1);
+    let highest = keys.get(index + 1).map_or(*FRAMES.end(), |after| after.frame - 1);
+    let frame = frame.clamp(lowest, highest.max(lowest));
+    let mut keys = keys.to_vec();
+    let key = keys.get_mut(index).filter(|key| key.frame != frame)?;
+    key.frame = frame;
+    Some(Edit::Keys(keys))
+}
+
+/// A new key at `frame` that shows what the key before it shows; none where a key stands there.
+pub fn add_key(project: &Project, frame: i32) -> Option<Edit> {
+    let keys = &project.keys;
+    let after = keys.partition_point(|key| key.frame < frame);
+    let taken = keys.get(after).is_some_and(|key| key.frame == frame);
+    let model = keys.get(after.saturating_sub(1)).filter(|_| !taken && FRAMES.contains(&frame))?;
+    let mut keys = keys.clone();
+    keys.insert(after, KeyFrame { frame, ..model.clone() });
+    Some(Edit::Keys(keys))
+}
+
+/// A copy of key `index` in the middle before the next, or ten frames after the last.
+pub(super) fn duplicate(project: &Project, index: usize) -> Option<Edit> {
+    let keys = &project.keys;
+    let key = keys.get(index)?;
+    let frame = match keys.get(index + 1) {
+        Some(next) => key.frame + (next.frame - key.frame) / 2,
+        None => key.frame + 10,
+    };
+    // Between neighbours without a frame between them there is no room.
+    let copy = KeyFrame { frame, ..key.clone() };
+    let room = frame != key.frame && FRAMES.contains(&frame);
+    room.then(|| {
+        Edit::Keys(
+            keys[..=index].iter().cloned().chain([copy]).chain(keys[index + 1..].iter().cloned()).collect(),
+        )
+    })
+}
+
+/// The keys without one of them; none where it is the only one.
+pub fn remove_key(project: &Project, index: usize) -> Option<Edit> {
+    let keys = &project.keys;
+    (keys.len() > 1 && index < keys.len()).then(|| {
+        let mut keys = keys.clone();
+        keys.remove(index);
+        Edit::Keys(keys)
+    })
+}
+
+/// Gives a constraint a span, or lets it act always.
+pub(super) fn span(project: &Project, index: usize, span: Option<Span>) -> Option<Edit> {
+    let mut constraint = project.constraints.get(index)?.clone();
+    let own = match &mut constraint {
+        Constraint::DirectedLine(line) => &mut line.span,
+        Constraint::Wall(wall) => &mut wall.span,
+    };
+    let changes = std::mem::replace(own, span) != span;
+    changes.then(|| Edit::Change(vec![(index, constraint)]))
+}
+
+/// A part of a span's bar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// Its first frame.
+    From,
+    /// Its last.
+    To,
+    /// Both at once.
+    Middle,
+}
+
+impl Part {
+    /// The span after this part of it was dragged by `frames`; ends do not pass each other.
+    pub(super) fn dragged(self, span: Span, frames: i32) -> Span {
+        let fit = |frame: i32| frame.clamp(*FRAMES.start(), *FRAMES.end());
+        match self {
+            Self::From => Span { from: fit(span.from.saturating_add(frames)).min(span.to), ..span },
+            Self::To => Span { to: fit(span.to.saturating_add(frames)).max(span.from), ..span },
+            Self::Middle => {
+                let by = frames.clamp(FRAMES.start() - span.from, FRAMES.end() - span.to);
+                Span { from: span.from + by, to: span.to + by, ..span }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::path::Path;
+
+    use super::*;
+
+    fn project(frames: &[i32]) -> Project {
+        let key =
+            |frame: &i32| format!(r#"{{"frame":{frame},"shows":{{"image":{{"file":"{frame}.png"}}}}}}"#);
+        let keys: Vec<_> = frames.iter().map(key).collect();
+        let text = format!(r#"{{"lightloom":1,"keys":[{}]}}"#, keys.join(","));
+        Project::parse(text.as_bytes(), Path::new("test.json")).unwrap()
+    }
+
+    fn frames(edit: Option<Edit>) -> Vec<i32> {
+        let Some(Edit::Keys(keys)) = edit else { panic!("an edit of the keys") };
+        keys.iter().map(|key| key.frame).collect()
+    }
+
+    #[test]
+    fn a_key_stops_beside_its_neighbours() {
+        let keys = project(&[1, 20, 40]).keys;
+        assert_eq!(frames(retime(&keys, 1, 30)), [1, 30, 40]);
+        assert_eq!(frames(retime(&keys, 1, 99)), [1, 39, 40]);
+        assert_eq!(frames(retime(&keys, 1, -99)), [1, 2, 40]);
+        assert_eq!(frames(retime(&keys, 2, i32::MAX)), [1, 20, 1_000_000]);
+        assert_eq!(retime(&keys, 1, 20), None);
+    }
+
+    #[test]
+    fn a_new_key_shows_what_the_one_before_it_shows() {
+        let project = project(&[1, 20]);
+        let Some(Edit::Keys(keys)) = add_key(&project, 7) else { panic!("a new key") };
+        assert_eq!((keys[1].frame, &keys[1].shows), (7, &project.keys[0].shows));
+        assert_eq!(frames(add_key(&project, -5)), [-5, 1, 20]);
+        assert_eq!(frames(add_key(&project, 30)), [1, 20, 30]);
+        assert_eq!(add_key(&project, 20), None);
+    }
+
+    #[test]
+    fn copies_stand_after_their_key_and_need_room() {
+        assert_eq!(frames(duplicate(&project(&[1, 21]), 0)), [1, 11, 21]);
+        assert_eq!(frames(duplicate(&project(&[1, 21]), 1)), [1, 21, 31]);
+        assert_eq!(duplicate(&project(&[1, 2]), 0), None);
+    }
+
+    #[test]
+    fn the_last_key_stays() {
+        assert_eq!(frames(remove_key(&project(&[1, 21]), 0)), [21]);
+        assert_eq!(remove_key(&project(&[1]), 0), None);
+    }
+
+    #[test]
+    fn ends_of_a_span_do_not_pass_each_other() {
+        let span = Span { from: 10, to: 20, fade: 2 };
+        assert_eq!(Part::From.dragged(span, 50), Span { from: 20, ..span });
+        assert_eq!(Part::To.dragged(span, -50), Span { to: 10, ..span });
+        assert_eq!(Part::Middle.dragged(span, -15), Span { from: -5, to: 5, ..span });
+        assert_eq!(Part::Middle.dragged(span, i32::MAX).to, 1_000_000);
+    }
+}

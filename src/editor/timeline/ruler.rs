@@ -1,0 +1,134 @@
+//! The ruler: frame numbers and seconds, scrubbing, the marks between which it is played, the playhead.
+
+use egui::{
+    Align2, CursorIcon, FontId, Id, PointerButton, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
+    pos2, vec2,
+};
+
+use super::commands::go;
+use super::scale::Scale;
+use crate::editor::panels::Desk;
+use crate::editor::playback;
+use crate::editor::theme;
+
+/// Height, points.
+pub(super) const HEIGHT: f32 = 34.0;
+
+/// Shows the ruler and asks for the frame to which it is dragged.
+pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
+    let frame = desk.session.playhead;
+    response.widget_info(|| WidgetInfo::slider(true, f64::from(frame), "Time ruler"));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
+    ticks(ui, rect, scale, desk);
+    let held = response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary);
+    if held && let Some(at) = response.interact_pointer_pos() {
+        let frame = scale.frame(at.x);
+        if frame != desk.session.playhead || desk.session.playing {
+            go(desk, frame);
+        }
+    }
+    marks(ui, rect, scale, desk);
+    response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(
+        "Drag to scrub. The wheel zooms, with Shift it moves along; I and O mark from where to where it plays.",
+    )
+}
+
+fn ticks(ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
+    let project = desk.document.project();
+    let (fps, first) = (playback::fps(project), *playback::whole(project).start());
+    let painter = ui.painter_at(rect);
+    let [step, tick] = scale.steps();
+    let visuals = ui.visuals();
+    let (strong, weak) = (visuals.text_color(), visuals.weak_text_color());
+    if tick as f32 * scale.per_frame() >= 4.0 {
+        for frame in scale.multiples(tick) {
+            let x = painter.round_to_pixel_center(scale.x(frame as f64));
+            painter.vline(x, rect.bottom() - 4.0..=rect.bottom(), Stroke::new(1.0, weak.gamma_multiply(0.5)));
+        }
+    }
+    for frame in scale.multiples(step) {
+        let x = painter.round_to_pixel_center(scale.x(frame as f64));
+        painter.vline(x, rect.bottom() - 8.0..=rect.bottom(), Stroke::new(1.0, weak));
+        let seconds = (frame - i64::from(first)) as f64 / fps;
+        let font = FontId::proportional(11.5);
+        painter.text(pos2(x + 4.0, rect.top() + 3.0), Align2::LEFT_TOP, frame, font, strong);
+        let text =
+            if step as f64 / fps < 0.1 { format!("{seconds:.2} s") } else { format!("{seconds:.1} s") };
+        painter.text(
+            pos2(x + 4.0, rect.top() + 17.0),
+            Align2::LEFT_TOP,
+            text,
+            FontId::proportional(9.5),
+            weak,
+        );
+    }
+}
+
+/// What is not played is shaded; the handles of the marks can be dragged.
+fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
+    let project = desk.document.project().clone();
+    let played = playback::played(&project, desk.session);
+    let (from, to) = (scale.x(f64::from(*played.start())), scale.x(f64::from(*played.end())));
+    let shade = ui.visuals().panel_fill.gamma_multiply(0.7);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(
+        Rect::from_x_y_ranges(rect.left()..=from.max(rect.left()), rect.y_range()),
+        0.0,
+        shade,
+    );
+    painter.rect_filled(
+        Rect::from_x_y_ranges(to.min(rect.right())..=rect.right(), rect.y_range()),
+        0.0,
+        shade,
+    );
+    for (end, name) in ["In mark", "Out mark"].into_iter().enumerate() {
+        let Some(frame) = desk.session.marks[end] else { continue };
+        let x = scale.x(f64::from(frame));
+        let grip = Rect::from_center_size(pos2(x, rect.center().y), vec2(12.0, rect.height()));
+        if !rect.intersects(grip) {
+            continue;
+        }
+        let response = ui.interact(grip, Id::unique(("mark", end)), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(frame), name));
+        if response.dragged()
+            && let Some(at) = response.interact_pointer_pos()
+        {
+            desk.session.marks[end] = Some(bounded(scale.frame(at.x), end, desk.session.marks[1 - end]));
+        }
+        if response.double_clicked() {
+            desk.session.marks[end] = None;
+        }
+        let inwards = if end == 0 { 7.0 } else { -7.0 };
+        let painter = ui.painter_at(rect);
+        let colour = theme::ACCENT;
+        let (top, bottom) = (rect.top() + 1.0, rect.bottom() - 1.0);
+        let bracket = vec![pos2(x + inwards, top), pos2(x, top), pos2(x, bottom), pos2(x + inwards, bottom)];
+        painter.add(Shape::line(bracket, Stroke::new(2.0, colour)));
+        response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
+            "{name} at frame {frame}. Drag to move it, double click to take it away."
+        ));
+    }
+}
+
+/// Marks do not pass each other.
+fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
+    match (end, other) {
+        (0, Some(to)) => frame.min(to),
+        (1, Some(from)) => frame.max(from),
+        _ => frame,
+    }
+}
+
+/// The playhead over all lanes, with its frame number in the ruler.
+pub(super) fn playhead(ui: &Ui, area: Rect, scale: &Scale, frame: i32) {
+    let painter = ui.painter_at(area);
+    let x = painter.round_to_pixel_center(scale.x(f64::from(frame)));
+    painter.vline(x, area.y_range(), Stroke::new(1.5, theme::ACCENT));
+    let text = painter.layout_no_wrap(frame.to_string(), FontId::proportional(11.5), egui::Color32::WHITE);
+    let half = (text.size().x / 2.0 + 5.0).max(11.0);
+    let flag = Rect::from_min_max(pos2(x - half, area.top()), pos2(x + half, area.top() + 17.0));
+    painter.rect_filled(flag, 4.0, theme::ACCENT);
+    painter.galley(flag.center() - text.size() / 2.0, text, egui::Color32::WHITE);
+}
