@@ -4,6 +4,7 @@
 pub mod action;
 mod app;
 pub mod canvas;
+pub mod clipboard;
 pub mod command;
 pub mod dialogs;
 pub mod document;
