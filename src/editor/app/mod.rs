@@ -45,6 +45,8 @@ pub struct App {
     card: Card,
     /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
     external: bool,
+    /// What was asked for from outside.
+    asked: Vec<Action>,
     /// What the status bar says, until something else happens.
     word: String,
 }
@@ -100,6 +102,7 @@ impl App {
             preferences: setup.preferences,
             card: setup.card,
             external: false,
+            asked: Vec::new(),
             word: String::new(),
             document: setup.document,
         };
@@ -128,13 +131,19 @@ impl App {
         &self.preview
     }
 
+    /// Asks for something as a panel would; it is done in the next frame of the window.
+    pub fn ask(&mut self, action: Action) {
+        self.asked.push(action);
+    }
+
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.name(), tool.key())).collect();
-        let mut actions: Vec<Action> = keys::pressed(&ctx, &tools, self.toolbox.tool().is_busy());
+        let mut actions = std::mem::take(&mut self.asked);
+        actions.extend(keys::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
         for action in actions {
