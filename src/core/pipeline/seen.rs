@@ -28,6 +28,9 @@ struct ViewInput {
     layout: Option<TextureLayout>,
 }
 
+/// How the picture without caustics is drawn.
+type Draw = fn(&Scene, &RenderSettings, u64, &Progress) -> Result<Image>;
+
 impl Seen {
     /// The texels of a layout through every pixel, and the picture without caustics. The plane has this extent.
     pub(super) fn look(
@@ -35,6 +38,7 @@ impl Seen {
         project: &Project,
         scene: Option<&Arc<Scene>>,
         (extent, layout): (Vec2, TextureLayout),
+        draw: Draw,
         meter: &mut Meter,
         progress: &Progress,
     ) -> Result<(Arc<Visible>, Arc<Image>)> {
@@ -52,7 +56,7 @@ impl Seen {
         let background = match scene {
             None => Arc::new(Image::new(render.width as usize, render.height as usize)),
             Some(scene) => meter.measure("background", || {
-                let make = |_: &_| crate::render::background(scene, render, seed, progress).map(Arc::new);
+                let make = |_: &_| draw(scene, render, seed, progress).map(Arc::new);
                 self.background.get(input, make)
             })?,
         };
