@@ -50,7 +50,7 @@ impl Seen {
         let visible = meter.measure("visible", || {
             self.visible.get(visible, |_| match scene {
                 Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Ok(Arc::new(Visible::flat(extent, &layout, render))),
+                None => Visible::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
         let background = match scene {
