@@ -20,7 +20,7 @@ impl App {
             Action::Playhead(frame) => self.session.playhead = frame,
             Action::Solo(groups) => self.session.solo = groups,
             Action::Probe(row) => self.session.probe = row,
-            Action::Open(_) | Action::New(_) => {}
+            Action::Open(_) | Action::New(_) | Action::Pick(_) => {}
             Action::Say(words) => self.word = words,
         }
         self.keep_selection();
