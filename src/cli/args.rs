@@ -11,16 +11,16 @@ use lightloom_core::{Error, Result};
 /// Paint where caustics shall flow, and export the animation. Without a command, the editor opens.
 #[derive(Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
-pub(super) struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
-    pub(super) command: Option<Command>,
+    pub(crate) command: Option<Command>,
     /// The project to open in the editor.
     #[arg(value_name = "PROJECT")]
-    pub(super) project: Option<PathBuf>,
+    pub(crate) project: Option<PathBuf>,
 }
 
 #[derive(Subcommand)]
-pub(super) enum Command {
+pub(crate) enum Command {
     /// Render a project's frames.
     Render(RenderArgs),
     /// Fit the flow without rendering: photon tracks, flux and fields as NPY and NPZ.
@@ -36,57 +36,57 @@ pub(super) enum Command {
 }
 
 #[derive(Args)]
-pub(super) struct RenderArgs {
+pub(crate) struct RenderArgs {
     #[command(flatten)]
-    pub(super) project: ProjectArgs,
+    pub(crate) project: ProjectArgs,
     /// Folder for the frames, the contact sheet and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Args)]
-pub(super) struct FitArgs {
+pub(crate) struct FitArgs {
     #[command(flatten)]
-    pub(super) project: ProjectArgs,
+    pub(crate) project: ProjectArgs,
     /// Folder for tracks.npy, flux.npy, fields.npz and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Args)]
-pub(super) struct ReportArgs {
+pub(crate) struct ReportArgs {
     #[command(flatten)]
-    pub(super) project: ProjectArgs,
+    pub(crate) project: ProjectArgs,
     /// Folder for gamma.svg, gamma.csv and gamma.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Args)]
-pub(super) struct CompareArgs {
+pub(crate) struct CompareArgs {
     /// Without --frames, six frames are compared.
     #[command(flatten)]
-    pub(super) project: ProjectArgs,
+    pub(crate) project: ProjectArgs,
     /// Folder for compare.png, compare.json and a folder of frames for each method; made if it is not there.
     #[arg(long, value_name = "DIR")]
-    pub(super) out: PathBuf,
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Args)]
-pub(super) struct CheckArgs {
+pub(crate) struct CheckArgs {
     #[command(flatten)]
-    pub(super) project: ProjectArgs,
+    pub(crate) project: ProjectArgs,
 }
 
 /// The project, and what differs from it in this run.
 #[derive(Args)]
-pub(super) struct ProjectArgs {
+pub(crate) struct ProjectArgs {
     /// The project file.
     #[arg(value_name = "PROJECT")]
-    pub(super) path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
     #[arg(long, allow_hyphen_values = true)]
-    pub(super) frames: Option<String>,
+    pub(crate) frames: Option<String>,
     /// Picture size, such as 1280x720.
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
@@ -110,10 +110,10 @@ pub(super) struct ProjectArgs {
     seed: Option<u64>,
     /// Let the project read meshes and pictures from anywhere, not only from its own folder.
     #[arg(long)]
-    pub(super) allow_external: bool,
+    pub(crate) allow_external: bool,
     /// Print the summary as JSON.
     #[arg(long)]
-    pub(super) json: bool,
+    pub(crate) json: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -124,7 +124,7 @@ enum QualityName {
 
 impl ProjectArgs {
     /// The project as this run shall do it.
-    pub(super) fn load(&self) -> Result<Project> {
+    pub(crate) fn load(&self) -> Result<Project> {
         let quality = match self.quality {
             QualityName::Preview => Quality::Preview,
             QualityName::Final => Quality::Final,
@@ -154,7 +154,7 @@ impl ProjectArgs {
     }
 
     /// Sets the number of threads for the whole process; it is set once.
-    pub(super) fn set_threads(&self) -> Result<()> {
+    pub(crate) fn set_threads(&self) -> Result<()> {
         let Some(threads) = self.threads else { return Ok(()) };
         if !(1..=1024).contains(&threads) {
             return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));

@@ -1,13 +1,12 @@
 //! What every command that works does around its work: Ctrl-C, the folder, the progress, the summary.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use lightloom_core::flow::Movement;
-use lightloom_core::pipeline::{Comparison, Pipeline, Summary};
+use lightloom_core::pipeline::{Comparison, Pipeline, Summary, prepare_folder, write_report};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::GammaResponse;
-use lightloom_core::{Error, Progress, Result};
+use lightloom_core::{Progress, Result};
 
 use super::args::ProjectArgs;
 use super::progress::{Display, Lines};
@@ -69,9 +68,9 @@ pub(super) fn run<T: Outcome>(
     args.set_threads()?;
     let project = args.load()?;
     let assets = AssetFolder::new(&args.path, args.allow_external)?;
-    prepare_folder(out, &args.path, &project)?;
+    prepare_folder(out, &args.path, &project, "--out")?;
     for folder in T::folders() {
-        prepare_folder(&out.join(folder), &args.path, &project)?;
+        prepare_folder(&out.join(folder), &args.path, &project, "--out")?;
     }
     let progress = Progress::new();
     stop_on_interrupt(&progress);
@@ -98,50 +97,10 @@ fn stop_on_interrupt(progress: &Progress) {
     }
 }
 
-/// Makes the output folder, and tries whether files can be made in it before hours of work go there. No file of the
-/// project may take the place of one that it is made from.
-fn prepare_folder(dir: &Path, project_path: &Path, project: &Project) -> Result<()> {
-    if dir.is_file() {
-        return Err(Error::value("--out", format!("'{}' is a file; name a folder", dir.display())));
-    }
-    std::fs::create_dir_all(dir).map_err(Error::io("create the folder", dir))?;
-    tempfile::Builder::new().tempfile_in(dir).map_err(Error::io("write into the folder", dir))?;
-    let folder = dir.canonicalize().map_err(Error::io("find the folder", dir))?;
-    let base = project_path.parent().unwrap_or(Path::new(""));
-    let inputs = project.files().into_iter().map(|file| base.join(file)).chain([project_path.to_owned()]);
-    for input in
-        inputs.filter_map(|path| path.canonicalize().ok()).filter(|path| path.parent() == Some(&folder))
-    {
-        let name = input.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if OUTPUTS.contains(&name.as_str()) || project.output.writes(&name) {
-            let what = format!(
-                "'{name}' there is what the project is made from, and would be overwritten; name another folder"
-            );
-            return Err(Error::value("--out", what));
-        }
-    }
-    Ok(())
-}
-
-/// What stands in an output folder beside the frames.
-const OUTPUTS: [&str; 10] = [
-    "summary.json",
-    "contact_sheet.png",
-    "tracks.npy",
-    "flux.npy",
-    "fields.npz",
-    "compare.png",
-    "compare.json",
-    "gamma.svg",
-    "gamma.csv",
-    "gamma.json",
-];
-
 /// Writes the summary as JSON, and prints it so or as a few lines.
 fn conclude<T: Outcome>(summary: &T, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
-    let path = dir.join(T::FILE);
-    lightloom_core::files::write_atomic(&path, |file| file.write_all(text.as_bytes()))?;
+    write_report(dir, T::FILE, &text)?;
     let shown = if json { text } else { summary.to_text() };
     Lines::Out.say(shown.trim_end());
     Ok(())

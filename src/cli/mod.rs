@@ -1,6 +1,6 @@
 //! The commands: arguments in, files and exit codes out. No algorithm lives here.
 
-mod args;
+pub(crate) mod args;
 mod check;
 mod compare;
 mod fit;

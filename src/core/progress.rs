@@ -2,16 +2,34 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use crate::{Error, Result};
 
 /// Shared by the thread that works and the one that watches. Cheap to clone.
 #[derive(Clone, Default)]
 pub struct Progress {
-    cancelled: Arc<AtomicBool>,
+    control: Arc<Control>,
     work: Arc<Work>,
+}
+
+/// What the watcher wants of the work.
+#[derive(Default)]
+struct Control {
+    cancelled: AtomicBool,
+    abandoned: AtomicBool,
+    /// Whether `pause` holds a begin: asked often, and cheaper than its lock.
+    paused: AtomicBool,
+    pause: Mutex<Pause>,
+    goes_on: Condvar,
+}
+
+/// Since when the work rests, and how long it rested before.
+#[derive(Default)]
+struct Pause {
+    since: Option<Instant>,
+    before: Duration,
 }
 
 #[derive(Default)]
@@ -26,6 +44,8 @@ struct Work {
 struct Road {
     expected: Vec<(&'static str, f64)>,
     stage: Option<(&'static str, Instant)>,
+    /// How long the work had rested when the stage began.
+    rested: Duration,
     /// Index of the stage at work in `expected`.
     at: Option<usize>,
 }
@@ -51,47 +71,107 @@ impl Progress {
 
     /// Declares the stages ahead, in order, with the seconds each is expected to take.
     pub fn set_road(&self, stages: Vec<(&'static str, f64)>) {
-        *self.road() = Road { expected: stages, stage: None, at: None };
+        *self.road() = Road { expected: stages, ..Road::default() };
     }
 
     /// Work inside a stage that counts for itself: cancelled with the whole, but not shown.
     pub fn inner(&self) -> Self {
-        Self { cancelled: self.cancelled.clone(), work: Arc::default() }
+        Self { control: self.control.clone(), work: Arc::default() }
     }
 
     /// Begins a stage of `total` units of work: the next of that name on the road.
     pub fn begin(&self, stage: &'static str, total: u64) {
         self.work.done.store(0, Relaxed);
         self.work.total.store(total.max(1), Relaxed);
+        let rested = self.rested();
         let mut road = self.road();
         road.stage = Some((stage, Instant::now()));
+        road.rested = rested;
         let from = road.at.map_or(0, |at| at + 1);
         let next = road.expected.iter().skip(from).position(|(name, _)| *name == stage);
         road.at = next.map(|i| from + i).or(road.at);
     }
 
-    /// Counts `units` of the stage as done.
+    /// Counts `units` of the stage as done. Rests here while the work is paused.
     pub fn advance(&self, units: u64) {
         self.work.done.fetch_add(units, Relaxed);
+        self.rest();
     }
 
-    /// Asks the work to stop; it does within a fraction of a second.
+    /// Asks the work to stop; it does within a fraction of a second, also where it is paused. What is complete is kept.
     pub fn cancel(&self) {
-        self.cancelled.store(true, Relaxed);
+        self.control.cancelled.store(true, Relaxed);
+        self.resume();
     }
 
     /// Whether someone asked to stop.
     pub fn is_cancelled(&self) -> bool {
-        self.cancelled.load(Relaxed)
+        self.control.cancelled.load(Relaxed)
     }
 
-    /// `Err(Cancelled)` once someone asked to stop.
+    /// As [`Self::cancel`], but what is complete is not wanted either: no more files are written.
+    pub fn abandon(&self) {
+        self.control.abandoned.store(true, Relaxed);
+        self.cancel();
+    }
+
+    /// Whether nothing of the work is wanted any more.
+    pub fn is_abandoned(&self) -> bool {
+        self.control.abandoned.load(Relaxed)
+    }
+
+    /// Lets the work rest at the next place where it asks whether it may go on. All its threads wait there, so that they must
+    /// be threads that nothing else needs.
+    pub fn pause(&self) {
+        let mut pause = self.paused();
+        if !self.is_cancelled() && pause.since.is_none() {
+            pause.since = Some(Instant::now());
+            self.control.paused.store(true, Relaxed);
+        }
+    }
+
+    /// Lets paused work go on.
+    pub fn resume(&self) {
+        let mut pause = self.paused();
+        let rested = pause.since.take().map_or(Duration::ZERO, |since| since.elapsed());
+        pause.before += rested;
+        self.control.paused.store(false, Relaxed);
+        self.control.goes_on.notify_all();
+    }
+
+    /// Whether the work rests, or will as soon as it asks.
+    pub fn is_paused(&self) -> bool {
+        self.control.paused.load(Relaxed)
+    }
+
+    /// How long the work rested so far.
+    pub fn rested(&self) -> Duration {
+        let pause = self.paused();
+        pause.before + pause.since.map_or(Duration::ZERO, |since| since.elapsed())
+    }
+
+    /// `Err(Cancelled)` once someone asked to stop. Rests here while the work is paused.
     pub fn check(&self) -> Result<()> {
+        self.rest();
         if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
+    }
+
+    fn rest(&self) {
+        if !self.is_paused() {
+            return;
+        }
+        let resting = |pause: &mut Pause| pause.since.is_some();
+        let gone_on = self.control.goes_on.wait_while(self.paused(), resting);
+        drop(gone_on.unwrap_or_else(PoisonError::into_inner));
+    }
+
+    fn paused(&self) -> MutexGuard<'_, Pause> {
+        self.control.pause.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// How far it is now.
     pub fn snapshot(&self) -> Snapshot {
+        let rested = self.rested();
         let total = self.work.total.load(Relaxed).max(1) as f64;
         let fraction = (self.work.done.load(Relaxed) as f64 / total).min(1.0);
         let road = self.road();
@@ -101,7 +181,8 @@ impl Progress {
             None => (0.0, 0.0, sum(&road.expected)),
         };
         // The expectation carries until enough of the stage is done to judge by its own pace.
-        let elapsed = road.stage.map_or(0.0, |(_, since)| since.elapsed().as_secs_f64());
+        let elapsed = road.stage.map_or(Duration::ZERO, |(_, since)| since.elapsed());
+        let elapsed = elapsed.saturating_sub(rested.saturating_sub(road.rested)).as_secs_f64();
         let stage_left =
             if fraction > 0.05 { elapsed / fraction * (1.0 - fraction) } else { now * (1.0 - fraction) };
         Snapshot {
@@ -157,5 +238,68 @@ mod tests {
         assert_eq!(progress.snapshot().fraction, 0.0);
         progress.cancel();
         assert!(inner.check().is_err());
+    }
+
+    /// Counts in a thread until the work is cancelled; the count so far.
+    fn counting(progress: &Progress) -> (Arc<AtomicU64>, std::thread::JoinHandle<Result<()>>) {
+        let count = Arc::new(AtomicU64::new(0));
+        let (progress, counter) = (progress.clone(), count.clone());
+        let work = move || {
+            loop {
+                progress.inner().check()?;
+                counter.fetch_add(1, Relaxed);
+                std::thread::yield_now();
+            }
+        };
+        (count, std::thread::spawn(work))
+    }
+
+    fn wait_until(what: impl Fn() -> bool) {
+        while !what() {
+            std::thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn paused_work_rests_until_it_goes_on() {
+        let progress = Progress::new();
+        let (count, worker) = counting(&progress);
+        wait_until(|| count.load(Relaxed) > 0);
+        progress.pause();
+        // The count may rise once more: the work asked just before.
+        let at = count.load(Relaxed);
+        std::thread::sleep(Duration::from_millis(50));
+        assert!(count.load(Relaxed) <= at + 1, "{} after {at}", count.load(Relaxed));
+        assert!(progress.is_paused() && progress.rested() >= Duration::from_millis(50));
+        progress.resume();
+        wait_until(|| count.load(Relaxed) > at + 1);
+        progress.cancel();
+        assert!(matches!(worker.join(), Ok(Err(Error::Cancelled))));
+    }
+
+    #[test]
+    fn paused_work_can_be_cancelled() {
+        let progress = Progress::new();
+        progress.pause();
+        let (count, worker) = counting(&progress);
+        progress.abandon();
+        assert!(matches!(worker.join(), Ok(Err(Error::Cancelled))));
+        assert_eq!(count.load(Relaxed), 0);
+        assert!(progress.is_abandoned() && !progress.is_paused());
+        // What is cancelled does not rest any more.
+        progress.pause();
+        assert!(!progress.is_paused() && progress.check().is_err());
+    }
+
+    #[test]
+    fn a_rest_does_not_make_the_rest_look_longer() {
+        let progress = Progress::new();
+        progress.begin("render", 10);
+        progress.advance(5);
+        progress.pause();
+        let before = progress.snapshot().remaining;
+        std::thread::sleep(Duration::from_millis(80));
+        // Half is done: what remains is what was worked, without the rest of 80 ms.
+        assert!(progress.snapshot().remaining < before + 0.04);
     }
 }

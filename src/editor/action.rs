@@ -7,6 +7,7 @@ use super::command::Command;
 use super::document::Edit;
 use super::pick::Pick;
 use super::selection::Selection;
+use super::session::Panel;
 
 /// Something asked for in one frame of the window.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +22,10 @@ pub enum Action {
     Command(Command),
     /// Take another tool, by its place in the list of tools.
     Tool(usize),
+    /// Bring a panel to the front.
+    Panel(Panel),
+    /// Put in what the clipboard holds as text.
+    Paste(String),
     /// Select what was drawn.
     Select(Selection),
     /// Go to a frame.

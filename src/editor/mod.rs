@@ -4,8 +4,14 @@
 pub mod action;
 mod app;
 pub mod canvas;
+pub mod clipboard;
 pub mod command;
+pub mod dialogs;
 pub mod document;
+pub mod export;
+pub mod keys;
+pub mod menu;
+pub mod palette;
 pub mod panels;
 pub mod pick;
 pub mod playback;
@@ -19,7 +25,9 @@ pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
+pub mod tour;
 mod views;
+pub mod welcome;
 
 pub use app::App;
 pub use start::run;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::acting;
 use super::loader::Prepared;
 use super::meter::Meter;
-use super::{Pipeline, Rendered, Summary};
+use super::{Pipeline, Rendered, Summary, Work};
 use crate::export::{Comparison as Sheet, Drawn, Overlay, Row, evenly_chosen, write_comparison};
 use crate::flow::Movement;
 use crate::matching::Method;
@@ -92,7 +92,8 @@ impl Pipeline {
         for ((method, variant), (prepared, meter)) in variants.iter().zip(prepared) {
             let folder = out.join(method.name());
             std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
-            match self.frames(variant, prepared, meter, &folder, progress, saved) {
+            let work = Work { out: &folder, progress, saved, onlooker: &() };
+            match self.frames(variant, prepared, meter, &work) {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {
                     let rendered = rendered?;

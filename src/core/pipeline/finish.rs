@@ -11,7 +11,7 @@ use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, shee
 use crate::flow::Movement;
 use crate::project::Project;
 use crate::render::{Image, PlaneView, ProgressiveRender, View, Visible};
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
 const SHEET_PICTURES: usize = 12;
@@ -50,6 +50,9 @@ impl Finisher<'_> {
             .frames
             .par_iter()
             .map(|&(frame, slot)| {
+                if progress.is_abandoned() {
+                    return Err(Error::Cancelled);
+                }
                 let (repairs, beauty) = self.frame(frame, slot, &view)?;
                 if on_sheet.contains(&frame) {
                     let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
@@ -69,6 +72,16 @@ impl Finisher<'_> {
         sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay)?;
         (self.saved)(&path);
         Ok((BadValues::sum(&repairs), thumbnails))
+    }
+
+    /// A frame as it stands in screen values, none where it is not among the frames of this run.
+    pub(super) fn picture(&self, slots: &Slots, frame: i32) -> Result<Option<Image>> {
+        let Some(&(_, slot)) = slots.frames.iter().find(|(number, _)| *number == frame) else {
+            return Ok(None);
+        };
+        let (texture, _) = self.render.mean(slot)?;
+        let beauty = self.background.plus(&self.visible.gather(&texture));
+        Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
     /// Writes one frame in all formats; returns its beauty picture.

@@ -14,6 +14,8 @@ mod loader;
 mod meter;
 mod motion;
 mod mover;
+mod onlooker;
+mod output_folder;
 mod passes;
 mod plan;
 mod quality;
@@ -34,6 +36,8 @@ pub use compare::{Compared, Comparison};
 pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;
+pub use onlooker::Onlooker;
+pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
 pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
@@ -58,6 +62,14 @@ pub struct Pipeline {
     loader: Loader,
     seen: Seen,
     motion: Stage<MotionInput, Arc<Motion>>,
+}
+
+/// Where a render goes, and who is told of it.
+struct Work<'a> {
+    out: &'a Path,
+    progress: &'a Progress,
+    saved: &'a (dyn Fn(&Path) + Sync),
+    onlooker: &'a dyn Onlooker,
 }
 
 /// A finished render, with what a comparison asks of it.
@@ -88,11 +100,28 @@ impl Pipeline {
         progress: &Progress,
         saved: &(dyn Fn(&Path) + Sync),
     ) -> Result<Summary> {
+        self.render_before(project, out, progress, saved, &())
+    }
+
+    /// As [`Pipeline::render`], before an onlooker who sees the frames grow.
+    ///
+    /// # Errors
+    /// As [`Pipeline::render`].
+    pub fn render_before(
+        &mut self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+        onlooker: &dyn Onlooker,
+    ) -> Result<Summary> {
         let mut meter = Meter::default();
         let prepared = self.prepare(project, &mut meter, progress)?;
         prepared.plan.require_memory()?;
         progress.set_road(prepared.plan.stages.clone());
-        self.frames(project, prepared, meter, out, progress, saved).map(|rendered| rendered.summary)
+        onlooker.planned(&prepared.plan);
+        let work = Work { out, progress, saved, onlooker };
+        self.frames(project, prepared, meter, &work).map(|rendered| rendered.summary)
     }
 
     /// All stages of a render after the first look at the project.
@@ -101,19 +130,15 @@ impl Pipeline {
         project: &Project,
         prepared: Prepared,
         mut meter: Meter,
-        out: &Path,
-        progress: &Progress,
-        saved: &(dyn Fn(&Path) + Sync),
+        work: &Work,
     ) -> Result<Rendered> {
+        let &Work { out, progress, saved, onlooker } = work;
         let (visible, background) = self.look(project, &prepared, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let motion = self.move_photons(project, &prepared, tracer.as_ref(), &mut meter, progress)?;
 
         let first = first_radius(&project.render, prepared.extent);
         let render = ProgressiveRender::new(*visible.layout(), first, prepared.slots.moments.len(), out)?;
-        let (passes, account) = meter.measure("render", || {
-            render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress)
-        })?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let (visible, background) = (&*visible, &*background);
         let drawn = &acting::shown(project);
@@ -127,6 +152,10 @@ impl Pipeline {
             plane: plane.clone(),
             saved,
         };
+        let passed = |passes| onlooker.passed(passes, &|frame| finisher.picture(&prepared.slots, frame));
+        let (passes, account) = meter.measure("render", || {
+            render_passes(project, &prepared, tracer.as_ref(), &motion, &render, progress, &passed)
+        })?;
         let (bad_values, thumbnails) = meter.measure("write", || finisher.run(&prepared.slots, progress))?;
         let done = Done { command: "render", passes, motion: &motion, account, bad_values };
         let summary = Summary::new(project, prepared, done, &meter);
@@ -240,7 +269,7 @@ fn learn<'a>(
     meter.measure("trace", || Tracer::new(scene, project.seed, progress).map(Some))
 }
 
-/// Runs the passes. Returns how many are complete and how well they kept the light.
+/// Runs the passes and tells `passed` how many are complete. Returns their number and how well they kept the light.
 fn render_passes(
     project: &Project,
     prepared: &Prepared,
@@ -248,6 +277,7 @@ fn render_passes(
     motion: &Motion,
     render: &ProgressiveRender,
     progress: &Progress,
+    passed: &dyn Fn(usize),
 ) -> Result<(usize, Account)> {
     let plan = &prepared.plan;
     progress.begin("render", (plan.passes * prepared.slots.moments.len()) as u64);
@@ -257,9 +287,12 @@ fn render_passes(
             .start(project, tracer, pass as u64, progress)
             .and_then(|batch| exposer.run(batch, &motion.segments, &prepared.slots, pass, progress));
         match done {
-            Err(Error::Cancelled) if pass > 0 => return Ok((pass, exposer.account)),
+            Err(Error::Cancelled) if pass > 0 && !progress.is_abandoned() => {
+                return Ok((pass, exposer.account));
+            }
             other => other?,
         }
+        passed(pass + 1);
     }
     Ok((plan.passes, exposer.account))
 }

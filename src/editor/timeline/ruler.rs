@@ -51,7 +51,8 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
     for frame in scale.multiples(step) {
         let x = painter.round_to_pixel_center(scale.x(frame as f64));
         painter.vline(x, rect.bottom() - 8.0..=rect.bottom(), Stroke::new(1.0, weak));
-        let seconds = (frame - i64::from(first)) as f64 / fps;
+        // Added to 0, the negative zero of frames just before the first is none.
+        let seconds = (100.0 * (frame - i64::from(first)) as f64 / fps).round() / 100.0 + 0.0;
         let font = FontId::proportional(11.5);
         painter.text(pos2(x + 4.0, rect.top() + 3.0), Align2::LEFT_TOP, frame, font, strong);
         let text =

@@ -159,7 +159,10 @@ fn paint(ui: &Ui, track: Rect, bar: Rect, constraint: &Constraint, span: &Span, 
         return;
     }
     painter.rect_filled(bar, 4.0, colour.gamma_multiply(if strong { 0.85 } else { 0.55 }));
-    fades(&painter, bar, span, ui.visuals().panel_fill);
+    // A wall stands or does not.
+    if matches!(constraint, Constraint::DirectedLine(_)) {
+        fades(&painter, bar, span, ui.visuals().panel_fill);
+    }
     painter.rect_stroke(bar, 4.0, Stroke::new(if strong { 1.8 } else { 1.0 }, colour), StrokeKind::Inside);
 }
 

@@ -1,0 +1,118 @@
+//! Questions and messages over the window: egui's own, since a system without dialogs would answer for the user.
+
+use egui::{Button, Context, Id, Key, Modal, RichText};
+
+/// A question, or a message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// The document has changes that no file has, and is to be left.
+    Unsaved {
+        /// What the document is called.
+        title: String,
+    },
+    /// Work of an earlier run was found that no file has.
+    Recover {
+        /// What the document was called.
+        title: String,
+        /// When its last change was made, in words.
+        when: String,
+    },
+    /// The file was changed by another program since it was read.
+    Changed {
+        /// The file.
+        title: String,
+        /// Whether the document has changes of its own, too.
+        unsaved: bool,
+    },
+    /// Something went wrong.
+    Message {
+        /// What.
+        title: String,
+        /// Why, and what to do.
+        text: String,
+    },
+}
+
+/// What the user wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Save the changes; take up the recovered work; read the file anew.
+    Yes,
+    /// Lose the changes; drop the recovered work; keep what is in the window.
+    No,
+    /// Leave all as it is; a message was read; recovered work is asked for again at the next start.
+    Cancel,
+}
+
+struct Words {
+    title: String,
+    text: String,
+    /// Labels of yes, no and cancel; empty ones are not shown.
+    labels: [&'static str; 3],
+}
+
+impl Question {
+    fn words(&self) -> Words {
+        match self {
+            Self::Unsaved { title } => Words {
+                title: format!("Save the changes in '{title}'?"),
+                text: "They are lost otherwise.".into(),
+                labels: ["Save", "Discard", "Cancel"],
+            },
+            Self::Recover { title, when } => Words {
+                title: format!("Recover '{title}'?"),
+                text: format!(
+                    "The program ended before the changes of {when} were saved. They can be taken up again; the file itself is as it was last saved."
+                ),
+                labels: ["Recover", "Delete them", "Ask again later"],
+            },
+            Self::Changed { title, unsaved } => Words {
+                title: format!("'{title}' was changed by another program"),
+                text: if *unsaved {
+                    "Reading it anew loses the changes that were made here.".into()
+                } else {
+                    "It can be read anew, or stay as it is here.".into()
+                },
+                labels: ["Read anew", "Keep this", ""],
+            },
+            Self::Message { title, text } => {
+                Words { title: title.clone(), text: text.clone(), labels: ["", "", "Close"] }
+            }
+        }
+    }
+
+    /// Shows the question; returns the answer once it is given. Enter is yes, Escape is cancel.
+    pub fn show(&self, ctx: &Context) -> Option<Answer> {
+        let Words { title, text, labels } = self.words();
+        let mut answer = None;
+        let shown = Modal::new(Id::unique("question")).show(ctx, |ui| {
+            ui.set_width(400.0);
+            ui.label(RichText::new(title).heading());
+            ui.add_space(4.0);
+            ui.label(text);
+            ui.add_space(10.0);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                for (label, meant) in labels.into_iter().zip([Answer::Yes, Answer::No, Answer::Cancel]) {
+                    if label.is_empty() {
+                        continue;
+                    }
+                    let main = meant == Answer::Yes || labels[0].is_empty();
+                    let fill = if main {
+                        ui.visuals().selection.bg_fill
+                    } else {
+                        ui.visuals().widgets.inactive.weak_bg_fill
+                    };
+                    if ui.add(Button::new(label).fill(fill)).clicked() {
+                        answer = Some(meant);
+                    }
+                }
+            });
+        });
+        if ctx.input(|i| i.key_pressed(Key::Enter)) {
+            let main = if labels[0].is_empty() { Answer::Cancel } else { Answer::Yes };
+            return answer.or(Some(main));
+        }
+        // Beside a question without cancel a click does nothing.
+        answer.or((shown.should_close() && !labels[2].is_empty()).then_some(Answer::Cancel))
+    }
+}

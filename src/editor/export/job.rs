@@ -1,0 +1,289 @@
+//! One export: a frozen project, rendered by the same code as `lightloom render`.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering::Relaxed};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use lightloom_core::pipeline::{Onlooker, Pipeline, Plan, Summary, prepare_folder, write_report};
+use lightloom_core::progress::Snapshot;
+use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::render::Image;
+use lightloom_core::{Error, Progress, Result};
+
+/// Longest side of the growing picture, pixels.
+const PICTURE: usize = 480;
+/// How often the window is told that something may have changed, and the time limit is looked at.
+const TICK: Duration = Duration::from_millis(100);
+
+/// What to export. Later changes of the document do not touch it.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// The project as it shall be rendered.
+    pub project: Arc<Project>,
+    /// The project file, whose folder the project's paths are relative to.
+    pub file: PathBuf,
+    /// Whether it may read files from anywhere.
+    pub external: bool,
+    /// The folder for the frames; made if it is not there.
+    pub folder: PathBuf,
+    /// Working time after which no further pass is begun; the first is always completed. None for all passes.
+    pub limit: Option<Duration>,
+    /// The frame that is shown while it grows.
+    pub shown: i32,
+}
+
+/// How an export stands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stage {
+    /// It waits for those before it.
+    Waiting,
+    /// It is being rendered.
+    Running,
+    /// All frames are there, with all passes or those that the time allowed.
+    Done(Outcome),
+    /// The user broke it off.
+    Cancelled,
+    /// It could not be done, and why.
+    Failed(String),
+}
+
+/// What was exported.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Frames.
+    pub frames: usize,
+    /// Passes of each.
+    pub passes: usize,
+    /// Passes that were planned.
+    pub planned: usize,
+    /// Frames that hold values which had to be replaced.
+    pub bad: bool,
+}
+
+/// What it will cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Passes that are planned.
+    pub passes: usize,
+    /// Expected peak memory in MiB: it does not grow with the number of frames.
+    pub memory_mib: f64,
+    /// Expected size of the file on the disk that holds the unfinished frames, in MiB.
+    pub scratch_mib: f64,
+}
+
+/// An export, as the window sees it.
+pub struct Job {
+    order: Order,
+    progress: Progress,
+    stop_asked: AtomicBool,
+    shown: AtomicI32,
+    state: Mutex<State>,
+}
+
+struct State {
+    stage: Stage,
+    cost: Option<Cost>,
+    passes: usize,
+    files: usize,
+    /// The newest picture, with the number of passes it shows.
+    picture: Option<(usize, Arc<Image>)>,
+}
+
+impl Job {
+    pub(super) fn new(order: Order) -> Self {
+        let state = State { stage: Stage::Waiting, cost: None, passes: 0, files: 0, picture: None };
+        Self {
+            shown: AtomicI32::new(order.shown),
+            order,
+            progress: Progress::new(),
+            stop_asked: AtomicBool::new(false),
+            state: Mutex::new(state),
+        }
+    }
+
+    /// What is exported.
+    pub fn order(&self) -> &Order {
+        &self.order
+    }
+
+    /// How it stands.
+    pub fn stage(&self) -> Stage {
+        self.state().stage.clone()
+    }
+
+    /// What it will cost, once that is known.
+    pub fn cost(&self) -> Option<Cost> {
+        self.state().cost
+    }
+
+    /// Passes that are complete.
+    pub fn passes(&self) -> usize {
+        self.state().passes
+    }
+
+    /// Files that are complete.
+    pub fn files(&self) -> usize {
+        self.state().files
+    }
+
+    /// The frame that is looked at as it stands, in screen values, and the passes it has.
+    pub fn picture(&self) -> Option<(usize, Arc<Image>)> {
+        self.state().picture.clone()
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Snapshot {
+        self.progress.snapshot()
+    }
+
+    /// Whether it waits or is being rendered.
+    pub fn is_open(&self) -> bool {
+        matches!(self.state().stage, Stage::Waiting | Stage::Running)
+    }
+
+    /// Whether it rests.
+    pub fn is_paused(&self) -> bool {
+        self.progress.is_paused()
+    }
+
+    /// Lets it rest, within a fraction of a second.
+    pub fn pause(&self) {
+        self.progress.pause();
+    }
+
+    /// Lets it go on.
+    pub fn resume(&self) {
+        self.progress.resume();
+    }
+
+    /// Breaks it off: nothing more is written. Frames that are complete already stay.
+    pub fn cancel(&self) {
+        self.progress.abandon();
+        let mut state = self.state();
+        if state.stage == Stage::Waiting {
+            state.stage = Stage::Cancelled;
+        }
+    }
+
+    /// Ends it with the passes that are complete; before the first it goes on until that is.
+    pub fn stop(&self) {
+        self.stop_asked.store(true, Relaxed);
+        self.progress.resume();
+        if self.passes() > 0 {
+            self.progress.cancel();
+        }
+    }
+
+    /// Shows another frame after the next pass.
+    pub fn show(&self, frame: i32) {
+        self.shown.store(frame, Relaxed);
+    }
+
+    pub(super) fn fail(&self, why: &str) {
+        self.state().stage = Stage::Failed(why.to_owned());
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Renders, and notes what came of it. A panic is a failure like another.
+    pub(super) fn run(&self, wake: &(dyn Fn() + Sync)) {
+        if self.progress.is_abandoned() {
+            return;
+        }
+        self.state().stage = Stage::Running;
+        let finished = AtomicBool::new(false);
+        let done = thread::scope(|scope| {
+            let ticker = scope.spawn(|| self.tick(&finished, wake));
+            let done = catch_unwind(AssertUnwindSafe(|| self.render()));
+            finished.store(true, Relaxed);
+            ticker.thread().unpark();
+            done
+        });
+        self.state().stage = match done {
+            Ok(Ok(summary)) => Stage::Done(outcome(&summary)),
+            Ok(Err(Error::Cancelled)) => Stage::Cancelled,
+            Ok(Err(error)) => Stage::Failed(error.to_string()),
+            Err(panic) => Stage::Failed(format!("the export broke down: {}", words(&*panic))),
+        };
+        wake();
+    }
+
+    fn render(&self) -> Result<Summary> {
+        let Order { project, file, external, folder, .. } = &self.order;
+        let assets = AssetFolder::new(file, *external)?;
+        prepare_folder(folder, file, project, "folder")?;
+        let saved = |_: &Path| self.state().files += 1;
+        // Threads of its own, one less than the machine has: they may rest without those of the preview, and leave
+        // the window one to answer with.
+        let threads = thread::available_parallelism().map_or(1, |n| n.get().saturating_sub(1).max(1));
+        let pool =
+            rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("export {i}"));
+        let pool = pool
+            .build()
+            .map_err(|e| Error::value("threads", format!("the system does not start them: {e}")))?;
+        let summary = pool
+            .install(|| Pipeline::new(assets).render_before(project, folder, &self.progress, &saved, self))?;
+        write_report(folder, "summary.json", &summary.to_json())?;
+        Ok(summary)
+    }
+
+    /// Wakes the window now and then, and ends the work when its time is over.
+    fn tick(&self, finished: &AtomicBool, wake: &(dyn Fn() + Sync)) {
+        let begun = Instant::now();
+        while !finished.load(Relaxed) {
+            let worked = begun.elapsed().saturating_sub(self.progress.rested());
+            let over = self.order.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
+            if over && self.passes() > 0 {
+                self.progress.cancel();
+            }
+            wake();
+            thread::park_timeout(TICK);
+        }
+    }
+}
+
+impl Onlooker for Job {
+    fn planned(&self, plan: &Plan) {
+        let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
+        self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
+    }
+
+    fn passed(&self, passes: usize, picture: &dyn Fn(i32) -> Result<Option<Image>>) {
+        // A picture that cannot be made now is no reason to break off; what is wrong shows when frames are written.
+        let seen = picture(self.shown.load(Relaxed)).ok().flatten().map(small);
+        let mut state = self.state();
+        state.passes = passes;
+        if let Some(image) = seen {
+            state.picture = Some((passes, Arc::new(image)));
+        }
+    }
+}
+
+fn small(image: Image) -> Image {
+    let side = image.width.max(image.height);
+    if side <= PICTURE {
+        return image;
+    }
+    let fit = |pixels: usize| (pixels * PICTURE / side).max(1);
+    image.resized(fit(image.width), fit(image.height))
+}
+
+fn outcome(summary: &Summary) -> Outcome {
+    Outcome {
+        frames: summary.frames,
+        passes: summary.passes,
+        planned: summary.passes_planned,
+        bad: summary.has_bad_frames(),
+    }
+}
+
+/// What a panic says.
+fn words(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "for an unknown reason".into())
+}

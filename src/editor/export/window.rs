@@ -1,0 +1,338 @@
+//! The window of exports: what to export, and how the exports stand.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{
+    Button, Color32, ColorImage, Context, DragValue, Grid, Response, RichText, ScrollArea, TextEdit,
+    TextureHandle, TextureOptions, Ui, vec2,
+};
+use lightloom_core::export::FrameFormat;
+use lightloom_core::project::Project;
+use lightloom_core::render::Image;
+
+use super::strip::{colour, controls, words};
+use super::{Exports, Job, Order, Wish};
+use crate::editor::dialogs::{PickRequest, Picker, Purpose};
+use crate::editor::panels::Desk;
+use crate::editor::{playback, templates, theme};
+
+/// Width of the settings, points.
+const LEFT: f32 = 350.0;
+
+/// The window of exports.
+pub struct ExportWindow {
+    /// Whether it is seen.
+    pub open: bool,
+    /// What was set here; none of what the project says itself.
+    wish: Option<Wish>,
+    /// What the project said itself when it was last looked at, and its file.
+    own: Option<(Wish, Option<PathBuf>)>,
+    /// Minutes of the time limit, and whether there is one.
+    limit: (f64, bool),
+    /// The growing picture: of which job, with how many passes.
+    picture: Option<(usize, usize, TextureHandle)>,
+}
+
+impl Default for ExportWindow {
+    fn default() -> Self {
+        Self { open: false, wish: None, own: None, limit: (10.0, false), picture: None }
+    }
+}
+
+impl ExportWindow {
+    /// Takes the folder that was picked.
+    pub fn set_folder(&mut self, folder: PathBuf) {
+        if let Some(wish) = &mut self.wish {
+            wish.folder = folder;
+        }
+    }
+
+    /// Shows the window where it is open.
+    pub fn show(&mut self, ctx: &Context, desk: &mut Desk, exports: &mut Exports, picker: &mut Picker) {
+        if !self.open {
+            return;
+        }
+        let project = desk.document.project().clone();
+        let file = desk.document.path().map(ToOwned::to_owned);
+        self.follow(Wish::of(&project, file.as_deref()), file);
+        let mut open = true;
+        let middle = ctx.content_rect().center() - vec2(390.0, 260.0);
+        let window = egui::Window::new("Export").open(&mut open).collapsible(false).resizable(false);
+        window.default_pos(middle).fixed_size([780.0, 470.0]).show(ctx, |ui| {
+            ui.horizontal_top(|ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(LEFT);
+                    ui.set_min_height(450.0);
+                    self.settings(ui, desk, &project, picker);
+                    self.begin(ui, desk, &project, exports);
+                });
+                ui.separator();
+                ui.vertical(|ui| {
+                    ui.set_min_width(380.0);
+                    self.jobs(ui, exports);
+                });
+            });
+        });
+        self.open = open;
+    }
+
+    /// What was not set here follows the project; another file begins anew.
+    fn follow(&mut self, own: Wish, file: Option<PathBuf>) {
+        match (&mut self.wish, &self.own) {
+            (Some(wish), Some((before, of))) if *of == file => wish.follow(before, &own),
+            (wish, _) => *wish = Some(own.clone()),
+        }
+        self.own = Some((own, file));
+    }
+
+    fn settings(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, picker: &mut Picker) {
+        let (Some(wish), Some((own, _))) = (&mut self.wish, &self.own) else { return };
+        Grid::new("export settings").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
+            name(
+                ui,
+                "Frames",
+                "Which frames are rendered, such as 1-100, 1-100x5 or 1,5-10.",
+                &mut wish.frames,
+                &own.frames,
+            );
+            ui.horizontal(|ui| {
+                let field = TextEdit::singleline(&mut wish.frames).desired_width(120.0);
+                ui.add(field).accessible_name("Frames");
+                let played = playback::played(project, desk.session);
+                let marked = desk.session.marks != [None; 2];
+                let button = ui.add_enabled(marked, Button::new("Marked"));
+                if button.on_hover_text("From the in mark to the out mark of the time line.").clicked() {
+                    wish.frames = format!("{}-{}", played.start(), played.end());
+                }
+            });
+            ui.end_row();
+            name(
+                ui,
+                "Size",
+                "Width and height of the pictures in pixels, 16 to 16384.",
+                &mut wish.size,
+                &own.size,
+            );
+            ui.horizontal(|ui| {
+                for (side, label) in wish.size.iter_mut().zip(["Width in pixels", "Height in pixels"]) {
+                    ui.add(DragValue::new(side).range(16..=16_384).suffix(" px")).accessible_name(label);
+                }
+            });
+            ui.end_row();
+            name(
+                ui,
+                "Passes",
+                "Each pass has its own photons: more passes, less noise, sharper edges.",
+                &mut wish.passes,
+                &own.passes,
+            );
+            ui.add(DragValue::new(&mut wish.passes).range(1..=100_000).speed(0.2)).accessible_name("Passes");
+            ui.end_row();
+            name(
+                ui,
+                "Photons",
+                "Photons of one pass. More of them make the picture finer and the memory larger.",
+                &mut wish.photons,
+                &own.photons,
+            );
+            let photons = DragValue::new(&mut wish.photons).range(1..=100_000_000).speed(2_000.0);
+            ui.add(photons).accessible_name("Photons per pass");
+            ui.end_row();
+            name(
+                ui,
+                "Formats",
+                "EXR: linear half floats in layers, for compositing. PNG: as it is seen.",
+                &mut wish.formats,
+                &own.formats,
+            );
+            ui.horizontal(|ui| formats(ui, &mut wish.formats));
+            ui.end_row();
+            ui.label("Time").on_hover_text(
+                "Without a limit all passes are rendered. The first pass is always completed.",
+            );
+            ui.horizontal(|ui| {
+                ui.checkbox(&mut self.limit.1, "Stop after");
+                let minutes =
+                    DragValue::new(&mut self.limit.0).range(0.1..=10_000.0).speed(0.1).suffix(" min");
+                ui.add_enabled(self.limit.1, minutes).accessible_name("Minutes");
+            });
+            ui.end_row();
+            name(
+                ui,
+                "Folder",
+                "Where the frames go; it is made if it is not there.",
+                &mut wish.folder,
+                &own.folder,
+            );
+            ui.horizontal(|ui| {
+                let mut text = wish.folder.to_string_lossy().into_owned();
+                let field = TextEdit::singleline(&mut text).desired_width(170.0);
+                if ui.add(field).accessible_name("Folder").changed() {
+                    wish.folder = text.into();
+                }
+                if ui.button("Browse…").clicked() {
+                    let start = wish.folder.parent().map(ToOwned::to_owned);
+                    picker.ask(PickRequest::new(Purpose::ExportFolder).in_folder(start), ui.ctx());
+                }
+            });
+            ui.end_row();
+        });
+    }
+
+    /// The button that begins, and the command line that does the same.
+    fn begin(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, exports: &mut Exports) {
+        let Some(wish) = &self.wish else { return };
+        let applied = wish.apply(project);
+        let frames = applied.as_ref().ok().and_then(|project| project.frames().ok()).unwrap_or_default();
+        ui.add_space(10.0);
+        let text = match frames.len() {
+            1 => "Export 1 frame".to_owned(),
+            count => format!("Export {count} frames"),
+        };
+        let button = Button::new(RichText::new(text).strong()).fill(ui.visuals().selection.bg_fill);
+        let begin = ui.add_enabled(applied.is_ok(), button.min_size(vec2(160.0, 28.0)));
+        if let Err(error) = &applied {
+            ui.colored_label(theme::BAD, error.to_string());
+        }
+        if let Ok(project) = applied.as_ref()
+            && begin.clicked()
+        {
+            let shown =
+                if frames.contains(&desk.session.playhead) { Some(desk.session.playhead) } else { None };
+            exports.add(Order {
+                project: Arc::new(project.clone()),
+                file: templates::file_of(desk.document),
+                external: false,
+                folder: wish.folder.clone(),
+                limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
+                shown: shown.or(frames.get(frames.len() / 2).copied()).unwrap_or_default(),
+            });
+        }
+        ui.add_space(10.0);
+        command_line(ui, desk, project, wish);
+    }
+
+    fn jobs(&mut self, ui: &mut Ui, exports: &mut Exports) {
+        let jobs = exports.jobs().to_vec();
+        if jobs.is_empty() {
+            ui.weak("Exports run beside your work, from the project as it is when they begin. Each pass makes all frames better, so that you can stop at any time.");
+            return;
+        }
+        ui.horizontal(|ui| {
+            ui.strong("Exports");
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if jobs.iter().any(|job| !job.is_open())
+                    && ui.small_button("Clear those that are over").clicked()
+                {
+                    exports.clear();
+                    self.picture = None;
+                }
+            });
+        });
+        let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
+        ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
+            for (index, job) in jobs.iter().enumerate().rev() {
+                ui.push_id(index, |ui| {
+                    if index == active {
+                        self.picture(ui, index, job);
+                    }
+                    card(ui, job);
+                });
+                ui.add_space(6.0);
+            }
+        });
+    }
+
+    /// The picture of a job as it stands.
+    fn picture(&mut self, ui: &mut Ui, index: usize, job: &Job) {
+        let Some((passes, image)) = job.picture() else { return };
+        let known = matches!(&self.picture, Some((of, at, _)) if (*of, *at) == (index, passes));
+        if !known {
+            let texture = ui.ctx().load_texture("export", on_screen(&image), TextureOptions::LINEAR);
+            self.picture = Some((index, passes, texture));
+        }
+        if let Some((_, _, texture)) = &self.picture {
+            let shown = egui::Image::new(texture).max_size(vec2(376.0, 230.0)).corner_radius(3.0);
+            let label = format!("A frame of the export after {passes} passes");
+            ui.add(shown.alt_text(&label)).on_hover_text(label);
+        }
+    }
+}
+
+/// The label of a setting: double click resets it.
+fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, own: &T) {
+    let text = if value == own { RichText::new(label) } else { RichText::new(label).strong() };
+    let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
+    if response.on_hover_text(format!("{tip} Double click: as in the project.")).double_clicked() {
+        value.clone_from(own);
+    }
+}
+
+fn formats(ui: &mut Ui, chosen: &mut Vec<FrameFormat>) {
+    for format in FrameFormat::ALL {
+        let mut on = chosen.contains(&format);
+        if ui.checkbox(&mut on, format.extension().to_uppercase()).changed() {
+            // In the order of the list, whatever was clicked first.
+            *chosen = FrameFormat::ALL
+                .into_iter()
+                .filter(|f| if *f == format { on } else { chosen.contains(f) })
+                .collect();
+        }
+    }
+}
+
+fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish) {
+    ui.label("The same from the command line");
+    let Some(file) = desk.document.path() else {
+        ui.weak("Once the project is saved, its command line stands here.");
+        return;
+    };
+    let line = wish.command_line(project, file);
+    let mut text = line.as_str();
+    let field = TextEdit::multiline(&mut text).font(egui::TextStyle::Monospace).desired_rows(3);
+    ui.add(field.desired_width(LEFT - 8.0)).accessible_name("Command line");
+    ui.horizontal(|ui| {
+        if ui.small_button("Copy").clicked() {
+            ui.ctx().copy_text(line.clone());
+        }
+        if desk.document.is_unsaved() {
+            ui.weak("It renders the file as last saved.");
+        }
+    });
+}
+
+fn card(ui: &mut Ui, job: &Job) {
+    let fill = ui.visuals().faint_bg_color;
+    egui::Frame::new().fill(fill).corner_radius(4.0).inner_margin(8.0).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        let stage = job.stage();
+        ui.label(RichText::new(job.order().folder.to_string_lossy()).small().weak());
+        ui.colored_label(colour(&stage, ui), words(job));
+        if !job.is_open() {
+            return;
+        }
+        let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage();
+        ui.add(bar).accessible_name("Progress");
+        if let Some(cost) = job.cost() {
+            let (memory, scratch) = (size(cost.memory_mib), size(cost.scratch_mib));
+            let text = format!(
+                "Up to {memory} of memory, however many frames; {scratch} of scratch space in the folder."
+            );
+            ui.label(RichText::new(text).small().weak());
+        }
+        ui.horizontal(|ui| controls(ui, job));
+    });
+}
+
+fn size(mib: f64) -> String {
+    if mib < 1000.0 { format!("{mib:.0} MiB") } else { format!("{:.1} GiB", mib / 1024.0) }
+}
+
+/// Screen values in 0..=1 as bytes.
+fn on_screen(image: &Image) -> ColorImage {
+    let byte = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+    let pixels = image.pixels.iter().map(|c| Color32::from_rgb(byte(c.x), byte(c.y), byte(c.z))).collect();
+    ColorImage::new([image.width, image.height], pixels)
+}

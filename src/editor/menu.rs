@@ -1,0 +1,175 @@
+//! The menu bar: all commands, from one list.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
+
+use super::action::Action;
+use super::command::{COMMANDS, Command, Entry, Menu};
+use super::document::Document;
+use super::panels::Desk;
+use super::session::{FieldMap, Session, Views};
+use super::shortcuts;
+use super::templates::TEMPLATES;
+
+/// The menus in their order.
+const MENUS: [Menu; 5] = [Menu::File, Menu::Edit, Menu::Play, Menu::View, Menu::Help];
+
+/// Before these a line parts the menu.
+const PARTED: [Command; 14] = [
+    Command::Save,
+    Command::Export,
+    Command::Preferences,
+    Command::Cut,
+    Command::SelectAll,
+    Command::Reverse,
+    Command::Snapping,
+    Command::NextFrame,
+    Command::MarkIn,
+    Command::AddKey,
+    Command::BothViews,
+    Command::ShowDrawn,
+    Command::Compare,
+    Command::Larger,
+];
+
+/// A file that was open lately.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recent {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Whether it is still there; a missing one is shown grey.
+    pub is_there: bool,
+}
+
+/// Shows the menu bar and asks for what is chosen.
+pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+    MenuBar::new().ui(ui, |ui| {
+        for menu in MENUS {
+            ui.menu_button(shortcuts::group(menu), |ui| {
+                ui.set_min_width(220.0);
+                for entry in COMMANDS.iter().filter(|entry| entry.menu == menu) {
+                    if PARTED.contains(&entry.command) {
+                        ui.separator();
+                    }
+                    item(ui, desk, entry);
+                    match entry.command {
+                        Command::New => templates(ui, desk),
+                        Command::Open => recents(ui, desk, recent),
+                        _ => (),
+                    }
+                }
+            });
+        }
+    });
+}
+
+fn item(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
+    let on = is_on(entry.command, desk.session);
+    let enabled = is_enabled(entry.command, desk.document, desk.session);
+    let place = IdSalt::new("check");
+    let mut button =
+        Button::selectable(false, (Atom::custom(place, vec2(14.0, 14.0)), title(entry, desk.document)));
+    if let Some(shortcut) = &entry.shortcut {
+        button = button.shortcut_text(shortcuts::words(shortcut));
+    }
+    let shown = ui.add_enabled_ui(enabled, |ui| button.atom_ui(ui)).inner;
+    if let Some(square) = shown.rect(place).filter(|_| on == Some(true)) {
+        let colour = ui.visuals().widgets.active.fg_stroke.color;
+        check_mark(ui, square, Stroke::new(1.8, colour));
+    }
+    if let Some(on) = on {
+        let name = entry.name;
+        shown
+            .response
+            .widget_info(|| egui::WidgetInfo::selected(egui::Role::MenuItemCheckBox, enabled, on, name));
+    }
+    if shown.response.clicked() {
+        desk.ask(entry.command);
+        ui.close();
+    }
+}
+
+/// Undo and redo say what they would take back.
+fn title(entry: &Entry, document: &Document) -> String {
+    let what = match entry.command {
+        Command::Undo => document.history().undoes(),
+        Command::Redo => document.history().redoes(),
+        _ => None,
+    };
+    what.map_or_else(|| entry.name.to_owned(), |what| format!("{} {what}", entry.name))
+}
+
+fn check_mark(ui: &Ui, square: Rect, stroke: Stroke) {
+    let at = |x: f32, y: f32| pos2(square.left() + x * square.width(), square.top() + y * square.height());
+    ui.painter().line(vec![at(0.15, 0.55), at(0.4, 0.8), at(0.85, 0.25)], stroke);
+}
+
+fn templates(ui: &mut Ui, desk: &mut Desk) {
+    ui.menu_button("      New from an example", |ui| {
+        for (index, template) in TEMPLATES.iter().enumerate() {
+            if ui.button(template.name).on_hover_text(template.line).clicked() {
+                desk.ask(Action::New(index));
+                ui.close();
+            }
+        }
+    });
+}
+
+fn recents(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+    let list = |ui: &mut Ui| {
+        for Recent { path, is_there } in recent {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let folder = path.parent().unwrap_or(Path::new("")).to_string_lossy();
+            let shown = ui.add_enabled(*is_there, Button::new(name.as_ref()));
+            let shown = shown
+                .on_hover_text(folder.as_ref())
+                .on_disabled_hover_text(format!("{folder}: not there now"));
+            if shown.clicked() {
+                desk.ask(Action::Open(path.clone()));
+                ui.close();
+            }
+        }
+    };
+    ui.add_enabled_ui(!recent.is_empty(), |ui| ui.menu_button("      Open recent", list));
+}
+
+/// Whether what a command switches is on; none for commands that switch nothing.
+pub fn is_on(command: Command, session: &Session) -> Option<bool> {
+    let show = &session.show;
+    Some(match command {
+        Command::Snapping => session.snapping,
+        Command::ToggleLoop => session.looping,
+        Command::BothViews => session.views == Views::Both,
+        Command::PlaneView => session.views == Views::Plane,
+        Command::ShotView => session.views == Views::Shot,
+        Command::LookView => session.views == Views::Look,
+        Command::ShowDrawn => show.drawn,
+        Command::ShowTarget => show.target,
+        Command::ShowArrows => show.arrows,
+        Command::ShowStreamlines => show.streamlines,
+        Command::ShowTrails => show.trails,
+        Command::ShowGrid => show.grid,
+        Command::ShowDivergence => show.map == Some(FieldMap::Divergence),
+        Command::ShowCurl => show.map == Some(FieldMap::Curl),
+        Command::ShowResidual => show.map == Some(FieldMap::Residual),
+        Command::Compare => session.compare.is_some(),
+        _ => return None,
+    })
+}
+
+/// Whether a command would do something now.
+pub fn is_enabled(command: Command, document: &Document, session: &Session) -> bool {
+    let chosen = !session.selection.is_empty();
+    match command {
+        Command::Undo => document.history().undoes().is_some(),
+        Command::Redo => document.history().redoes().is_some(),
+        Command::Delete => chosen || session.focus.key.is_some(),
+        Command::Cut | Command::Copy | Command::Duplicate | Command::SelectNone => chosen,
+        Command::Reverse | Command::Join | Command::Split => chosen,
+        Command::SelectAll => !document.project().constraints.is_empty(),
+        Command::ClearMarks => session.marks != [None; 2],
+        Command::LookView => document.project().scene.is_some(),
+        _ => true,
+    }
+}

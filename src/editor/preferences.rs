@@ -1,0 +1,159 @@
+//! The window of preferences.
+
+use egui::{Context, DragValue, Grid, Response, RichText, ThemePreference, Ui};
+
+use super::store::preferences::{PhotonRenderer, Preferences, Theme, UI_SCALES};
+
+/// What each theme is called.
+const THEMES: [(Theme, &str); 3] =
+    [(Theme::Dark, "Dark"), (Theme::Light, "Light"), (Theme::System, "As the system")];
+
+/// What draws the photons, what it is called, and what it means.
+const RENDERERS: [(PhotonRenderer, &str, &str); 3] = [
+    (PhotonRenderer::Auto, "Automatic", "The graphics card where there is one that can."),
+    (
+        PhotonRenderer::Gpu,
+        "Graphics card",
+        "Fast with many photons. Where there is none, the processor does it.",
+    ),
+    (PhotonRenderer::Cpu, "Processor", "The same picture without a graphics card."),
+];
+
+/// Steps of the size of the interface, by the commands.
+const STEP: f32 = 0.1;
+
+/// Shows the window where it is open; tells whether something changed. What is changed holds at once.
+pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bool {
+    let before = preferences.clone();
+    let window = egui::Window::new("Preferences").open(open).collapsible(false).resizable(false);
+    window.default_pos(ctx.content_rect().center() - egui::vec2(210.0, 160.0)).show(ctx, |ui| {
+        ui.set_width(400.0);
+        Grid::new("preferences").num_columns(2).spacing([18.0, 10.0]).show(ui, |ui| {
+            let default = Preferences::default();
+            name(
+                ui,
+                "Colours",
+                "Light is judged best in dark surroundings; the pictures always have them.",
+                &mut preferences.theme,
+                &default.theme,
+            );
+            ui.horizontal(|ui| {
+                for (theme, name) in THEMES {
+                    ui.selectable_value(&mut preferences.theme, theme, name);
+                }
+            });
+            ui.end_row();
+            name(
+                ui,
+                "Size of the interface",
+                "Texts and controls, 50 to 300 %. The pictures keep their pixels.",
+                &mut preferences.ui_scale,
+                &default.ui_scale,
+            );
+            scale(ui, &mut preferences.ui_scale);
+            ui.end_row();
+            name(
+                ui,
+                "Photons drawn by",
+                "What draws the preview. Exports never depend on it.",
+                &mut preferences.photon_renderer,
+                &default.photon_renderer,
+            );
+            ui.horizontal(|ui| {
+                for (renderer, name, tip) in RENDERERS {
+                    ui.selectable_value(&mut preferences.photon_renderer, renderer, name).on_hover_text(tip);
+                }
+            });
+            ui.end_row();
+            name(
+                ui,
+                "Drawing",
+                "Ctrl held while drawing turns it off for that moment.",
+                &mut preferences.snapping,
+                &default.snapping,
+            );
+            ui.checkbox(&mut preferences.snapping, "Snap to points, lines and the grid");
+            ui.end_row();
+        });
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            let tip = "All of these as they were at first. The list of recent files stays.";
+            if ui.button("Reset all").on_hover_text(tip).clicked() {
+                reset(preferences);
+            }
+            if ui.button("Forget recent files").clicked() {
+                preferences.recent.clear();
+            }
+        });
+    });
+    *preferences != before
+}
+
+/// Gives a context the colours and size of the preferences.
+pub fn apply(ctx: &Context, preferences: &Preferences) {
+    ctx.set_theme(match preferences.theme {
+        Theme::Dark => ThemePreference::Dark,
+        Theme::Light => ThemePreference::Light,
+        Theme::System => ThemePreference::System,
+    });
+    // Setting it draws everything anew.
+    if ctx.zoom_factor() != preferences.ui_scale {
+        ctx.set_zoom_factor(preferences.ui_scale);
+    }
+}
+
+/// The next larger (`by` 1) or smaller (`by` -1) size of the interface.
+pub fn stepped(scale: f32, by: i32) -> f32 {
+    let steps = (scale / STEP).round() + by as f32;
+    (steps * STEP).clamp(*UI_SCALES.start(), *UI_SCALES.end())
+}
+
+fn reset(preferences: &mut Preferences) {
+    let default = Preferences::default();
+    preferences.theme = default.theme;
+    preferences.ui_scale = default.ui_scale;
+    preferences.photon_renderer = default.photon_renderer;
+    preferences.snapping = default.snapping;
+}
+
+/// In per cent, taken over when the drag ends: the field itself would move under the pointer.
+fn scale(ui: &mut Ui, scale: &mut f32) {
+    let held = egui::Id::unique("size of the interface");
+    let dragged: Option<f32> = ui.data(|data| data.get_temp(held));
+    let mut percent = dragged.unwrap_or(100.0 * *scale);
+    let (least, most) = (100.0 * UI_SCALES.start(), 100.0 * UI_SCALES.end());
+    let field = DragValue::new(&mut percent).range(least..=most).speed(1.0).fixed_decimals(0).suffix(" %");
+    let response = ui.add(field.update_while_editing(false)).accessible_name("Size of the interface");
+    if response.dragged() {
+        ui.data_mut(|data| data.insert_temp(held, percent));
+    } else if dragged.is_some() || response.changed() {
+        ui.data_mut(|data| data.remove::<f32>(held));
+        *scale = percent / 100.0;
+    }
+}
+
+/// The label of a preference: double click resets it.
+fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, default: &T) {
+    let text = if value == default { RichText::new(label) } else { RichText::new(label).strong() };
+    let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
+    if response.on_hover_text(format!("{tip} Double click resets it.")).double_clicked() {
+        value.clone_from(default);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_of_the_size_lead_back_and_end_at_the_limits() {
+        let mut scale = 1.0;
+        for _ in 0..5 {
+            scale = stepped(scale, 1);
+        }
+        // f32 sums of tenths.
+        assert!((scale - 1.5).abs() < 1e-5);
+        assert!((stepped(stepped(scale, 1), -1) - scale).abs() < 1e-5);
+        assert_eq!((stepped(3.0, 1), stepped(0.5, -1)), (3.0, 0.5));
+    }
+}
