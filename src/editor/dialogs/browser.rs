@@ -311,6 +311,7 @@ fn list(folder: PathBuf, purpose: Purpose) -> Read {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::editor::pick::{At, Pick};
 
     fn place() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
@@ -329,7 +330,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-        assert_eq!(names(Purpose::Target(0)), ["frames", "c.png"]);
+        assert_eq!(names(Purpose::Asset(Pick::Picture(At { key: 0, caustic: None }))), ["frames", "c.png"]);
     }
 
     #[test]
