@@ -199,3 +199,51 @@ fn a_project_keeps_one_format_at_least() {
     assert_eq!(bench.state().document.project().output.formats.len(), 1);
     assert_eq!(bench.state().refused, None);
 }
+
+#[test]
+fn nothing_is_wider_than_the_panel() {
+    for (name, project) in examples() {
+        for entry in PANELS {
+            let mut bench = bench(project.clone(), entry.panel);
+            bench.state_mut().session.focus = desk::first_of_everything(&project);
+            bench.state_mut().session.selection = Selection::all(0..project.constraints.len());
+            bench.run();
+            let beyond = |node: &egui_kittest::Node| node.rect().right() > desk::WIDTH;
+            let wide = bench.root().children_recursive().find(beyond);
+            assert!(wide.is_none(), "{name}, {}: {wide:?}", entry.name);
+        }
+    }
+}
+
+/// To look at: `cargo test --release --test panels -- --ignored` writes pictures of all panels to `target/panels`.
+#[test]
+#[ignore = "writes pictures, which only an eye can judge"]
+fn pictures_of_every_panel() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("target/panels");
+    std::fs::create_dir_all(&folder).unwrap();
+    for (theme, shade) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
+        for name in ["bottles", "rabbit_fine", "letters"] {
+            let project = desk::example(name);
+            for entry in PANELS {
+                let mut bench = desk::bench_in(project.clone(), entry.panel, theme);
+                bench.state_mut().session.focus = desk::first_of_everything(&project);
+                bench.state_mut().session.selection = Selection::all(0..project.constraints.len());
+                bench.run();
+                for folded in ["Advanced", "Project", "Camera", "Receiver", "Sky"] {
+                    if let Some(header) = bench.query_by_label(folded) {
+                        header.click_accesskit();
+                        bench.run();
+                    }
+                }
+                let path = folder.join(format!("{name}_{}_{shade}.png", entry.name.to_lowercase()));
+                bench.render().unwrap().save(path).unwrap();
+            }
+        }
+    }
+    let mut bench = bench(desk::example("letters_free"), Panel::Flow);
+    for name in ["Gamma", "Alpha", "Beta"] {
+        bench.get_by_role_and_label(Role::Label, name).hover();
+        bench.run_steps(8);
+        bench.render().unwrap().save(folder.join(format!("tooltip_{}.png", name.to_lowercase()))).unwrap();
+    }
+}

@@ -1,5 +1,5 @@
 //! Renders the small pictures of the window's tooltips and presets from the example projects:
-//! `cargo run --release -p lightloom_assets --bin lightloom_tooltips`.
+//! `cargo run --release -p lightloom_assets --bin lightloom_tooltips`; words behind it choose those whose names hold one.
 //!
 //! They are pictures of the program's own light, so they change a little with the machine; what is committed is what one
 //! machine made.
@@ -15,7 +15,8 @@ use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::export::FrameFormat;
 use lightloom_core::flow::{FitKind, TurbulenceSettings};
 use lightloom_core::pipeline::Pipeline;
-use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::project::{AssetFolder, Project, Shows};
+use lightloom_core::target::{ImageTarget, Placement};
 
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [160, 100];
@@ -78,8 +79,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     base.output.formats = vec![FrameFormat::Png];
     base.output.frames = Some(MOMENT.into());
     base.output.name = "tooltip.####".into();
+    // Light that has to spread and to turn: a small star becomes a large flower beside it.
+    let shown = [("star", [0.3, 0.31], 0.22), ("flower", [0.58, 0.31], 0.56)];
+    for (key, (name, centre, width)) in base.keys.iter_mut().zip(shown) {
+        let placement = Placement { centre: Some(centre), width: Some(width), rotate: 0.0 };
+        let file = format!("../assets/targets/{name}.png");
+        key.shows = Shows::Image(ImageTarget { placement, ..ImageTarget::new(file) });
+    }
     let mut pipeline = Pipeline::new(AssetFolder::new(&file, false)?);
-    for picture in PICTURES {
+    let only: Vec<String> = std::env::args().skip(1).collect();
+    let wanted = |name: &str| only.is_empty() || only.iter().any(|word| name.contains(word));
+    for picture in PICTURES.iter().filter(|picture| wanted(picture.name)) {
         let mut project = base.clone();
         (picture.change)(&mut project);
         let out = tempfile::tempdir()?;

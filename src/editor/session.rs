@@ -99,15 +99,6 @@ pub struct Orbit {
     pub distance: f32,
 }
 
-impl Orbit {
-    /// Where it looks from, world [m]; azimuth 0 looks along -z.
-    pub fn eye(&self) -> glam::Vec3 {
-        let (sin, cos) = self.azimuth.sin_cos();
-        let (up, out) = self.elevation.sin_cos();
-        self.target + self.distance * glam::vec3(out * sin, up, out * cos)
-    }
-}
-
 /// What is drawn over the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shown {

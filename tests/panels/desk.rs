@@ -61,18 +61,27 @@ pub(crate) fn first_of_everything(project: &Project) -> Focus {
     }
 }
 
-/// The panels over a project, with one of them chosen; all that is folded is open.
+/// Width of the panels, points.
+pub(crate) const WIDTH: f32 = 300.0;
+
+/// The panels over a project, with one of them chosen.
 pub(crate) fn bench(project: Project, panel: Panel) -> Bench {
+    bench_in(project, panel, egui::Theme::Dark)
+}
+
+/// The same in a theme.
+pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench {
     let table = Table {
         document: Document::new(project, None),
         session: Session { panel, ..Session::default() },
-        preview: Preview::default(),
+        preview: Preview::new(|| ()),
         asked: Vec::new(),
         applies: true,
         refused: None,
     };
     let mut bench = Harness::builder()
-        .with_size(egui::vec2(300.0, 1400.0))
+        .with_size(egui::vec2(WIDTH, 1000.0))
+        .with_theme(of)
         .with_max_steps(20)
         .with_context_setup(theme::apply)
         .build_ui_state(show, table);

@@ -1,12 +1,13 @@
 //! The caustics: which light through which glass, and what each does at the key frames.
 
-use egui::{Button, Color32, Ui};
+mod list;
+
+use egui::Ui;
 use lightloom_core::project::{CausticDesc, CausticKey, Project};
 use lightloom_core::scene::LightDesc;
 
 use super::setting::Setting;
 use super::{Desk, add_button, free_name, keys, remove_button, section, shows};
-use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::pick::At;
 
@@ -42,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     let names = project.caustics.iter().map(|caustic| caustic.name.as_str());
     let rest = if project.caustics.is_empty() { "All light" } else { "The rest" };
     for (group, name) in names.chain([rest]).enumerate() {
-        row(ui, desk, group, name);
+        list::row(ui, desk, group, name);
     }
     let mut caustics = project.caustics.clone();
     let chosen = desk.session.focus.caustic.filter(|index| *index < caustics.len());
@@ -67,70 +68,6 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     }
     if caustics != project.caustics {
         desk.ask(Edit::Caustics(caustics));
-    }
-}
-
-/// One caustic in the list: eye, solo, colour, name, light.
-fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
-    let project = desk.document.project();
-    let caustic = project.caustics.get(group);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let shown = desk.session.shows_group(group);
-        let (sign, what) =
-            if desk.session.hidden.contains(&group) { ("–", "Show") } else { ("👁", "Hide") };
-        let what = format!("{what}: {name}");
-        let eye = Button::new(sign).min_size(egui::vec2(24.0, 22.0));
-        if ui.add(eye).accessible_name(&what).on_hover_text(what).clicked()
-            && !desk.session.hidden.remove(&group)
-        {
-            desk.session.hidden.insert(group);
-        }
-        let solo = desk.session.solo.contains(&group);
-        let button = Button::selectable(solo, "S").frame(true).min_size(egui::vec2(22.0, 22.0));
-        let what = format!("Solo: {name}");
-        if ui
-            .add(button)
-            .accessible_name(&what)
-            .on_hover_text("Show this alone; several can be alone")
-            .clicked()
-        {
-            let mut alone = desk.session.solo.clone();
-            if !alone.remove(&group) {
-                alone.insert(group);
-            }
-            desk.ask(Action::Solo(alone));
-        }
-        let (swatch, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
-        ui.painter().rect_filled(swatch, 2.0, colour(project, caustic));
-        let text = egui::RichText::new(name);
-        let text = if shown { text } else { text.weak() };
-        let chosen = desk.session.focus.caustic == Some(group);
-        if caustic.is_none() {
-            ui.label(text);
-        } else if ui.add(Button::selectable(chosen, text).truncate()).accessible_name(name).clicked() {
-            desk.session.focus.caustic = (!chosen).then_some(group);
-        }
-    });
-}
-
-/// The colour of its light as a screen shows it, at full brightness.
-fn colour(project: &Project, caustic: Option<&CausticDesc>) -> Color32 {
-    let name = caustic.and_then(|caustic| caustic.light.as_deref());
-    let lights = project.scene.iter().flat_map(|scene| &scene.lights);
-    let light = name.and_then(|name| lights.into_iter().find(|light| light.name() == name));
-    let [r, g, b] = light.map_or([0.5; 3], tint);
-    let most = r.max(g).max(b).max(1e-6);
-    egui::Rgba::from_rgb(r / most, g / most, b / most).into()
-}
-
-fn tint(light: &LightDesc) -> [f32; 3] {
-    match light {
-        LightDesc::Point(light) => light.colour,
-        LightDesc::Spot(light) => light.colour,
-        LightDesc::Directional(light) => light.colour,
-        LightDesc::Rectangle(light) => light.colour,
-        LightDesc::Sphere(light) => light.colour,
     }
 }
 

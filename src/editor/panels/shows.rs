@@ -108,7 +108,7 @@ pub(super) fn file(ui: &mut Ui, setting: &Setting, file: &str) -> bool {
         let name = file.rsplit('/').next().unwrap_or(file);
         let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
         let button = egui::Button::new(name).truncate();
-        let response = ui.add_sized(size, button).accessible_name(format!("{}: {name}", setting.name));
+        let response = ui.add_sized(size, button).accessible_name(format!("{}: {name}", setting.spoken()));
         response.on_hover_text(format!("{file}. Click for another.")).clicked()
     })
 }

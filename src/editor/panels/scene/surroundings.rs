@@ -66,7 +66,7 @@ pub(super) fn camera(ui: &mut Ui, desk: &Desk, camera: &mut CameraDesc) {
         if take.on_disabled_hover_text("Look around the scene first").clicked()
             && let Some(orbit) = desk.session.orbit
         {
-            (camera.position, camera.look_at) = (orbit.eye().into(), orbit.target.into());
+            *camera = orbit.camera(camera);
         }
     });
 }

@@ -72,7 +72,7 @@ impl Setting {
                         ui.selectable_value(value, Some(name.to_owned()), name);
                     }
                 });
-            self.explain(list.response.accessible_name(self.name));
+            self.explain(list.response.accessible_name(self.spoken()));
         });
         if row.reset {
             *value = None;
@@ -90,7 +90,7 @@ impl Setting {
         for (i, choice) in self.options.iter().enumerate() {
             let button = Button::selectable(i == now, choice.name).frame(true).truncate();
             let response = ui.add_sized(size, button);
-            let response = response.accessible_name(format!("{}: {}", self.name, choice.name));
+            let response = response.accessible_name(format!("{}: {}", self.spoken(), choice.name));
             if self.explain(response).clicked() {
                 picked = Some(i);
             }
@@ -116,7 +116,7 @@ impl Setting {
                     }
                 }
             });
-        self.explain(list.response.accessible_name(self.name));
+        self.explain(list.response.accessible_name(self.spoken()));
         picked
     }
 
@@ -125,7 +125,7 @@ impl Setting {
         let before = *value;
         let default = self.default == [1.0];
         let row = self.row(ui, before != default, |ui| {
-            let response = ui.checkbox(value, "").accessible_name(self.name);
+            let response = ui.checkbox(value, "").accessible_name(self.spoken());
             self.explain(response);
         });
         if row.reset && before == *value {

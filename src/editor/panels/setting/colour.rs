@@ -14,14 +14,14 @@ impl Setting {
             let scale = value.iter().copied().fold(1.0, f32::max);
             let mut shown = value.map(|channel| (channel / scale).clamp(0.0, 1.0));
             ui.spacing_mut().interact_size.x = 28.0;
-            let picker = ui.color_edit_button_rgb(&mut shown).accessible_name(self.name);
+            let picker = ui.color_edit_button_rgb(&mut shown).accessible_name(self.spoken());
             let picker = self.explain(picker);
             if picker.changed() {
                 *value = shown.map(|channel| self.clamp(f64::from(channel * scale)) as f32);
             }
             let width = (ui.available_width() - 8.0) / 3.0;
             for (channel, name) in value.iter_mut().zip(["red", "green", "blue"]) {
-                self.field(ui, channel, width, &format!("{} {name}", self.name));
+                self.field(ui, channel, width, &format!("{} {name}", self.spoken()));
             }
         });
         if row.reset

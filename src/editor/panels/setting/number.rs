@@ -37,7 +37,8 @@ impl Setting {
         let changed = before.is_some();
         let row = self.row(ui, changed, |ui| {
             let mut none = value.is_none();
-            let switch = ui.checkbox(&mut none, absent).accessible_name(format!("{}: {absent}", self.name));
+            let switch =
+                ui.checkbox(&mut none, absent).accessible_name(format!("{}: {absent}", self.spoken()));
             self.explain(switch);
             match (none, &mut *value) {
                 (true, value) => *value = None,
@@ -63,7 +64,7 @@ impl Setting {
         let row = self.row(ui, self.is_changed(&before.map(Numeric::to_f64)), |ui| {
             let width = (ui.available_width() - 4.0 * (N as f32 - 1.0)) / N as f32;
             for (component, name) in value.iter_mut().zip(names) {
-                self.field(ui, component, width, &format!("{} {name}", self.name));
+                self.field(ui, component, width, &format!("{} {name}", self.spoken()));
             }
         });
         if row.reset && self.default.len() == N {
@@ -83,7 +84,7 @@ impl Setting {
     pub(super) fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T) {
         let room = ui.available_width();
         if room < SLIDER + FIELD {
-            self.field(ui, value, room, self.name);
+            self.field(ui, value, room, &self.spoken());
             return;
         }
         ui.spacing_mut().slider_width = room - FIELD - 4.0;
@@ -102,9 +103,9 @@ impl Setting {
         if self.kind == Kind::Whole {
             slider = slider.integer();
         }
-        let response = ui.add(slider).accessible_name(self.name);
+        let response = ui.add(slider).accessible_name(self.spoken());
         self.explain(response);
-        self.field(ui, value, FIELD, &format!("{} value", self.name));
+        self.field(ui, value, FIELD, &format!("{} value", self.spoken()));
     }
 
     /// A field to drag or to type in.

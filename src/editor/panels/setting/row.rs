@@ -74,6 +74,18 @@ impl Setting {
         self.explain(response)
     }
 
+    /// What a screen reader says: the name, and whose it is where several parts of a panel have one of that name.
+    pub(in crate::editor::panels) fn spoken(&self) -> String {
+        let owners = [
+            ("scene.meshes", "Mesh"),
+            ("scene.lights", "Light"),
+            ("scene.camera", "Camera"),
+            ("scene.receiver", "Receiver"),
+        ];
+        let owner = owners.iter().find(|(place, _)| self.place.starts_with(place));
+        owner.map_or_else(|| self.name.to_owned(), |(_, owner)| format!("{owner}: {}", self.name))
+    }
+
     /// The tooltip of this setting.
     pub(super) fn explain(&self, response: Response) -> Response {
         response.on_hover_ui(|ui| {

@@ -11,7 +11,7 @@ impl Setting {
         self.row(ui, false, |ui| {
             let width = ui.available_width();
             let (response, words) = field(ui, id, now, width);
-            self.explain(response.accessible_name(self.name));
+            self.explain(response.accessible_name(self.spoken()));
             words
         })
         .inner
