@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use egui::{Button, Context, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::PickRequest;
-use super::Purpose;
+use super::{PickRequest, Purpose, modal};
 use crate::editor::theme;
 
 /// Most entries that are listed of one folder.
@@ -71,7 +70,7 @@ impl Browser {
             return Some(Some(taken));
         }
         let mut answer = None;
-        let shown = Modal::new(Id::unique("file dialog")).show(ctx, |ui| {
+        let shown = modal(ctx, "file dialog").show(ctx, |ui| {
             ui.set_width(560.0);
             ui.heading(self.purpose.title());
             ui.add_space(4.0);

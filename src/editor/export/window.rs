@@ -313,7 +313,7 @@ fn card(ui: &mut Ui, job: &Job) {
         if !job.is_open() {
             return;
         }
-        let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage();
+        let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage().corner_radius(4);
         ui.add(bar).accessible_name("Progress");
         if let Some(cost) = job.cost() {
             let (memory, scratch) = (size(cost.memory_mib), size(cost.scratch_mib));
