@@ -383,7 +383,7 @@ proptest! {
         let text = file.text_of(&project).unwrap();
         prop_assert!(*read(&text).0.project() == project, "{}", text);
         prop_assert_eq!(strangers_of(&text), strangers_of(STRANGE), "{}", text);
-        prop_assert_eq!(file.text_of(&project).unwrap(), text.clone());
+        prop_assert_eq!(&file.text_of(&project).unwrap(), &text);
         // From the text it became, all edits undone: nothing unknown is lost on the way back either.
         let back = read(&text).0.text_of(file.project()).unwrap();
         prop_assert_eq!(strangers_of(&back), strangers_of(STRANGE), "{}", back);

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::command::Command;
 use super::document::Edit;
+use super::pick::Pick;
 use super::selection::Selection;
 use super::session::Panel;
 
@@ -37,6 +38,8 @@ pub enum Action {
     Open(PathBuf),
     /// Start from one of the templates.
     New(usize),
+    /// Let the artist pick a file, and put it into the project.
+    Pick(Pick),
     /// Say something in the status bar.
     Say(String),
 }

@@ -2,7 +2,9 @@
 //! project and calls the core.
 
 pub mod action;
+mod app;
 pub mod canvas;
+pub mod clipboard;
 pub mod command;
 pub mod dialogs;
 pub mod document;
@@ -11,30 +13,23 @@ pub mod keys;
 pub mod menu;
 pub mod palette;
 pub mod panels;
+pub mod pick;
+mod places;
 pub mod playback;
 pub mod preferences;
 pub mod preview;
 pub mod selection;
 pub mod session;
 pub mod shortcuts;
+mod start;
 pub mod store;
 pub mod templates;
 pub mod theme;
 pub mod timeline;
 pub mod tools;
 pub mod tour;
+mod views;
 pub mod welcome;
 
-mod app;
-
-use std::path::Path;
-
-pub use app::App;
-
-/// Opens the window, on a project or on the example. Returns when it is closed.
-///
-/// # Errors
-/// There is no screen, or nothing that draws on it; the system's words.
-pub fn run(_project: Option<&Path>) -> Result<(), String> {
-    Err("it is not there yet".into())
-}
+pub use app::{App, Card, Setup};
+pub use start::run;

@@ -26,6 +26,8 @@ pub struct Session {
     pub views: Views,
     /// Where the plane view looks.
     pub plane: PlaneEye,
+    /// Where the shot view looks.
+    pub shot: ShotEye,
     /// From where the free look sees the scene; none until it was turned.
     pub orbit: Option<Orbit>,
     /// What is drawn over the light.
@@ -67,6 +69,21 @@ pub struct PlaneEye {
     pub centre: Option<Vec2>,
     /// Times the size at which the plane fits the view, 0.05 to 200; 0 counts as 1.
     pub zoom: f32,
+}
+
+/// Where the shot view looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShotEye {
+    /// Times the size at which the picture fits the view, 0.05 to 200.
+    pub zoom: f32,
+    /// How far the middle of the picture lies from the middle of the view, points.
+    pub offset: [f32; 2],
+}
+
+impl Default for ShotEye {
+    fn default() -> Self {
+        Self { zoom: 1.0, offset: [0.0; 2] }
+    }
 }
 
 /// A camera that looks at a point from a distance.
@@ -154,10 +171,14 @@ pub enum Panel {
     Drawn,
     /// The caustics.
     Caustics,
+    /// The key frames.
+    Keys,
     /// Meshes, lights, camera, receiver.
     Scene,
     /// Photons, passes, picture, files.
     Render,
+    /// Energy, walls, solver, time.
+    Numbers,
 }
 
 /// What the panels show in detail, by index.
@@ -184,6 +205,7 @@ impl Default for Session {
             marks: [None; 2],
             views: Views::default(),
             plane: PlaneEye::default(),
+            shot: ShotEye::default(),
             orbit: None,
             show: Shown::default(),
             hidden: BTreeSet::new(),

@@ -20,6 +20,7 @@ mod passes;
 mod plan;
 mod quality;
 mod ride;
+mod seen;
 mod sketch;
 mod slots;
 mod stage;
@@ -30,8 +31,6 @@ mod tracks;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::Vec2;
-
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
 pub use grouping::CausticLight;
@@ -41,41 +40,28 @@ pub use onlooker::Onlooker;
 pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
-pub use sketch::{Detail, FieldAt, Sketch, Sketcher};
+pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
-use crate::render::{
-    Image, PlaneView, ProgressiveRender, RenderSettings, TextureLayout, Visible, first_radius, layout_for,
-};
-use crate::scene::SceneDesc;
+use crate::render::{Image, PlaneView, ProgressiveRender, Visible, background, first_radius, layout_for};
 use crate::{Error, Progress, Result};
 use finish::{Finisher, Thumbnails};
 use loader::{Loader, Prepared};
 use meter::Meter;
 use motion::{Motion, MotionInput};
 use passes::{Account, Exposer};
+use seen::Seen;
 use stage::Stage;
 use summary::Done;
 
 /// The stages of one project, with what they remember.
 pub struct Pipeline {
     loader: Loader,
-    visible: Stage<ViewInput, Arc<Visible>>,
-    background: Stage<ViewInput, Arc<Image>>,
+    seen: Seen,
     motion: Stage<MotionInput, Arc<Motion>>,
-}
-
-/// What the camera's stages are made from.
-#[derive(Clone, PartialEq)]
-struct ViewInput {
-    scene: Option<SceneDesc>,
-    render: RenderSettings,
-    extent: Vec2,
-    seed: u64,
-    layout: Option<TextureLayout>,
 }
 
 /// Where a render goes, and who is told of it.
@@ -97,12 +83,7 @@ struct Rendered {
 impl Pipeline {
     /// A pipeline that has done nothing yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self {
-            loader: Loader::new(assets),
-            visible: Stage::default(),
-            background: Stage::default(),
-            motion: Stage::default(),
-        }
+        Self { loader: Loader::new(assets), seen: Seen::default(), motion: Stage::default() }
     }
 
     /// Renders the project's frames into the folder `out`, which must be there. `saved` is told of each file.
@@ -252,28 +233,11 @@ impl Pipeline {
         progress: &Progress,
     ) -> Result<(Arc<Visible>, Arc<Image>)> {
         let (extent, passes) = (prepared.extent, prepared.plan.passes);
-        let scene = prepared.scene.as_deref();
-        let (render, seed) = (&project.render, project.seed);
-        let first = first_radius(render, extent);
-        let layout = layout_for(scene, extent, render, (first, radius_of_pass(first, passes - 1)));
-        // The photons change nothing here but the layout, and how a picture is shown changes nothing at all.
-        let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
-        let background = ViewInput { scene: project.scene.clone(), render: seen, extent, seed, layout: None };
-        let visible = ViewInput { layout: Some(layout), ..background.clone() };
-        let visible = meter.measure("visible", || {
-            self.visible.get(visible, |_| match scene {
-                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Ok(Arc::new(Visible::flat(extent, &layout, render))),
-            })
-        })?;
-        let background = match scene {
-            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
-            Some(scene) => meter.measure("background", || {
-                let make = |_: &_| crate::render::background(scene, render, seed, progress).map(Arc::new);
-                self.background.get(background, make)
-            })?,
-        };
-        Ok((visible, background))
+        let first = first_radius(&project.render, extent);
+        let radii = (first, radius_of_pass(first, passes - 1));
+        let layout = layout_for(prepared.scene.as_deref(), extent, &project.render, radii);
+        let scene = prepared.scene.as_ref();
+        self.seen.look(project, scene, (extent, layout), background, meter, progress)
     }
 
     /// Matches and fits all segments.

@@ -8,6 +8,7 @@ pub mod background;
 pub mod density;
 pub mod frames;
 pub mod image;
+pub mod look;
 pub mod plane_picture;
 pub mod plane_view;
 pub mod progressive;
@@ -19,8 +20,9 @@ pub mod visible;
 
 mod sampler;
 
-pub use background::background;
+pub use background::{background, rough_background};
 pub use image::Image;
+pub use look::{LookLight, Mark, MarkKind, look, marks};
 pub use plane_picture::{Paper, plane_picture};
 pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};

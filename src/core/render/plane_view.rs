@@ -36,6 +36,11 @@ impl PlaneView {
         Ok(Self(Eye::Camera { camera, receiver }))
     }
 
+    /// The view of a receiver through any camera.
+    pub fn through(camera: Camera, receiver: Receiver) -> Self {
+        Self(Eye::Camera { camera, receiver })
+    }
+
     /// The place of a plane point in a picture of `width` x `height` pixels, from its upper left corner; none behind the
     /// camera. Glass and mirrors in between are not seen.
     pub fn pixel_from_plane(&self, point: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {

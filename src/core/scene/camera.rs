@@ -33,7 +33,11 @@ impl CameraDesc {
         self.resolve(place).map(|_| ())
     }
 
-    pub(super) fn resolve(&self, place: &str) -> Result<Camera> {
+    /// The camera, ready for rays.
+    ///
+    /// # Errors
+    /// `Value` names the first value under `place` that cannot be used.
+    pub fn resolve(&self, place: &str) -> Result<Camera> {
         check::within(place, "position", &self.position, -1e6, 1e6)?;
         check::within(place, "look_at", &self.look_at, -1e6, 1e6)?;
         check::within(place, "fov_deg", &[self.fov_deg], 1.0, 170.0)?;

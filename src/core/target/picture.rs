@@ -123,21 +123,21 @@ fn no_light(target: &ImageTarget) -> &'static str {
 }
 
 /// The picture averaged to cells.
-struct Cells {
-    width: usize,
+pub(super) struct Cells {
+    pub(super) width: usize,
     /// Pixels along the side of a cell.
     block: usize,
     /// Sum over the cell's pixels of what attracts photons.
-    weights: Vec<f32>,
+    pub(super) weights: Vec<f32>,
     /// Sum of the colours, when asked for.
     colours: Vec<Vec3>,
     bad_pixels: usize,
     /// No pixel has any colour, but not all are equally opaque.
-    black_with_shape: bool,
+    pub(super) black_with_shape: bool,
 }
 
 impl Cells {
-    fn of(picture: &Picture, target: &ImageTarget, channel: Channel) -> Self {
+    pub(super) fn of(picture: &Picture, target: &ImageTarget, channel: Channel) -> Self {
         let block = picture.width.max(picture.height).div_ceil(MAX_CELLS);
         let (width, height) = (picture.width.div_ceil(block), picture.height.div_ceil(block));
         let coloured = if target.colour { width * height } else { 0 };

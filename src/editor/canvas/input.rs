@@ -1,6 +1,6 @@
 //! Pointer and keys over a view become gestures of the plane and movements of the view.
 
-use egui::{Event, Key, PointerButton, Pos2, Response, Ui, Vec2};
+use egui::{Event, Key, MouseWheelSource, PointerButton, Pos2, Response, Ui, Vec2};
 use glam::Vec2 as PlanePoint;
 
 use crate::editor::tools::{Gesture, Grip, Held, is_covered};
@@ -151,9 +151,15 @@ fn release(ui: &Ui, hand: Hand, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlaneP
     }
 }
 
+/// The wheel brings nearer, two fingers on a trackpad move, and both of them apart bring nearer.
 fn wheel(ui: &Ui, response: &Response) -> Option<Move> {
     let pointer = response.hover_pos().filter(|_| response.hovered())?;
-    let factor = ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y / WHEEL).exp2());
+    let (scroll, pinch, source) =
+        ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta(), input.scroll_source()));
+    if source == Some(MouseWheelSource::Trackpad) && pinch == 1.0 {
+        return (scroll != Vec2::ZERO).then_some(Move::Pan(scroll));
+    }
+    let factor = pinch * (scroll.y / WHEEL).exp2();
     (factor != 1.0 && factor.is_finite()).then_some(Move::Zoom(factor, pointer))
 }
 

@@ -53,9 +53,9 @@ impl Browser {
         let home = || directories::UserDirs::new().map(|dirs| dirs.home_dir().to_owned());
         let folder =
             folder.or_else(|| std::env::current_dir().ok()).or_else(home).unwrap_or_else(|| "/".into());
-        let listing = read(folder.clone(), None, request.purpose, ctx);
+        let listing = read(folder.clone(), None, request.purpose.clone(), ctx);
         Self {
-            purpose: request.purpose,
+            purpose: request.purpose.clone(),
             folder,
             typed: request.name.clone(),
             listing,
@@ -224,7 +224,7 @@ impl Browser {
 
     fn go(&mut self, folder: Option<PathBuf>) {
         if let Some(folder) = folder {
-            self.listing = read(folder, None, self.purpose, &self.wake);
+            self.listing = read(folder, None, self.purpose.clone(), &self.wake);
         }
     }
 
@@ -232,7 +232,7 @@ impl Browser {
     fn take(&mut self) {
         let typed = self.typed.trim();
         let path = if typed.is_empty() { self.folder.clone() } else { self.folder.join(home(typed)) };
-        self.listing = read(self.folder.clone(), Some(path), self.purpose, &self.wake);
+        self.listing = read(self.folder.clone(), Some(path), self.purpose.clone(), &self.wake);
     }
 }
 
@@ -265,7 +265,7 @@ fn look(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose) -> Read {
         // A folder that was typed is gone to, unless it is what is wanted.
         Some(path) if path.is_dir() && !wants_folder => list(path, purpose),
         Some(path) if wants_folder || path.is_file() || purpose.saves() => {
-            let saved = super::with_ending(purpose, path.clone());
+            let saved = super::with_ending(&purpose, path.clone());
             let exists = purpose.saves() && saved.exists();
             Read { taken: Some(path), exists, ..list(folder, purpose) }
         }

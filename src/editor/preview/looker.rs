@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::ColorImage;
 use lightloom_core::Result;
-use lightloom_core::pipeline::Exposure;
-use lightloom_core::render::{TextureLayout, ViewSettings};
+use lightloom_core::pipeline::{Exposure, Look};
+use lightloom_core::render::{Mark, PlaneView, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 
 use super::painter::{Moment, shown};
@@ -29,10 +29,15 @@ pub(super) struct Stand {
 
 /// What was seen last.
 #[derive(Clone, Default)]
-pub(super) struct Seen {
+pub struct Seen {
     /// Counts the pictures, so that each is uploaded once.
-    pub(super) number: u64,
-    pub(super) picture: Option<Arc<ColorImage>>,
+    pub number: u64,
+    /// As the screen shows it.
+    pub picture: Option<Arc<ColorImage>>,
+    /// Lights and camera in it.
+    pub marks: Vec<Mark>,
+    /// Where plane points are in it.
+    pub plane: Option<PlaneView>,
 }
 
 /// Looks from the newest place.
@@ -52,9 +57,12 @@ impl Looker {
             let (mut studio, mut exposure) = (Studio::default(), Exposure::default());
             move |stand: Stand, turn: &Turn| {
                 // What is wrong with the scene is told by the animation, which loads it too.
-                let Ok(picture) = turn.shielded(|_| look(&mut studio, &mut exposure, &stand, turn)) else { return };
+                let look = turn.shielded(|_| look(&mut studio, &mut exposure, &stand, turn));
+                let Ok(look) = look else { return };
                 let mut seen = seen.lock().unwrap_or_else(PoisonError::into_inner);
-                *seen = Seen { number: seen.number + 1, picture: Some(Arc::new(picture)) };
+                let number = seen.number + 1;
+                let picture = Some(Arc::new(shown(&look.image, &stand.view.view())));
+                *seen = Seen { number, picture, marks: look.marks, plane: Some(look.plane) };
                 drop(seen);
                 tell();
             }
@@ -76,11 +84,10 @@ impl Looker {
     }
 }
 
-fn look(studio: &mut Studio, exposure: &mut Exposure, stand: &Stand, turn: &Turn) -> Result<ColorImage> {
-    let Stand { subject, camera, size, moment, view } = stand;
-    let light = moment.as_ref().map(|Moment { sketch, frame, shown }| {
-        exposure.expose(sketch, *frame, TextureLayout::new(sketch.extent(), TEXELS, 0.0), shown)
-    });
-    let image = studio.sketcher(subject)?.look(&subject.project, camera, *size, light, &turn.progress)?;
-    Ok(shown(&image, &view.view()))
+fn look(studio: &mut Studio, exposure: &mut Exposure, stand: &Stand, turn: &Turn) -> Result<Look> {
+    let Stand { subject, camera, size, moment, .. } = stand;
+    let light = moment
+        .as_ref()
+        .and_then(|Moment { sketch, frame, shown }| exposure.expose(sketch, *frame, TEXELS, shown));
+    studio.sketcher(subject)?.look(&subject.project, camera, *size, light, &turn.progress)
 }

@@ -2,21 +2,51 @@
 
 mod animator;
 mod coverage;
+mod flow;
 pub mod gpu;
+mod looker;
+mod painter;
+mod stager;
 mod subject;
+mod target;
+mod wishes;
 pub mod worker;
 
 use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
-use lightloom_core::pipeline::Sketch;
+pub use flow::{FlowPicture, Followed, HeatMap};
+use lightloom_core::pipeline::{Shot, Sketch};
+use lightloom_core::project::Project;
+pub use looker::Seen;
+pub use painter::{Painted, Plane};
 pub use subject::Subject;
+pub use target::TargetPicture;
+pub use wishes::Wanted;
 
+use super::session::{Other, Session};
 use animator::{Animator, Found};
+use flow::FlowViewer;
+use looker::Looker;
+use painter::Painter;
+use stager::Stager;
+use target::Targets;
+use wishes::Wishes;
 
 /// The newest results, and what is still being worked on.
 pub struct Preview {
     animator: Animator,
+    /// What the wipe compares with.
+    other: Animator,
+    compared: Option<(Subject, Other)>,
+    painter: Painter,
+    stager: Stager,
+    looker: Looker,
+    targets: Targets,
+    flow: FlowViewer,
+    wishes: Wishes,
+    /// Whether the graphics card draws the photons.
+    by_card: bool,
     subject: Option<Subject>,
     frame: i32,
     found: Found,
@@ -40,7 +70,16 @@ impl Preview {
     /// Nothing is worked on yet. `wake` is called from other threads whenever there is something new to see.
     pub fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
-            animator: Animator::new(wake),
+            animator: Animator::new(wake.clone()),
+            other: Animator::new(wake.clone()),
+            compared: None,
+            painter: Painter::new(wake.clone()),
+            stager: Stager::new(wake.clone()),
+            looker: Looker::new(wake.clone()),
+            targets: Targets::new(wake.clone()),
+            flow: FlowViewer::new(wake),
+            wishes: Wishes::default(),
+            by_card: false,
             subject: None,
             frame: 0,
             found: Found::default(),
@@ -51,17 +90,47 @@ impl Preview {
         }
     }
 
-    /// Shows this subject at this frame from now on: to be called in every frame of the window.
-    pub fn follow(&mut self, subject: &Subject, frame: i32) {
-        self.frame = frame;
+    /// Whether the graphics card shall draw the photons of the plane, or the processor.
+    pub fn draw_by_card(&mut self, by_card: bool) {
+        self.by_card = by_card;
+    }
+
+    /// Whether the graphics card draws the photons of the plane.
+    pub fn draws_photons(&self) -> bool {
+        self.by_card
+    }
+
+    /// Shows this subject as the session and the views want it from now on: to be called in every frame of the window.
+    pub fn follow(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
+        self.frame = session.playhead;
         if self.subject.as_ref().is_none_or(|last| !last.is(subject)) {
             self.last = self.sketch().cloned();
             self.found = Found::default();
             self.subject = Some(subject.clone());
-            self.animator.ask(subject.clone(), frame);
+            self.animator.ask(subject.clone(), self.frame);
             self.age(subject);
         }
+        self.compare(subject, session);
         self.receive();
+        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        self.targets.follow(subject, shown);
+        let sketch = self.sketch().cloned();
+        self.flow.follow(sketch.as_ref(), &subject.project, session);
+        self.wish(subject, session, wanted);
+    }
+
+    /// Works out the other side of the wipe.
+    fn compare(&mut self, subject: &Subject, session: &Session) {
+        let Some(wipe) = session.compare else {
+            self.compared = None;
+            return;
+        };
+        if self.compared.as_ref().is_some_and(|(of, with)| of.is(subject) && *with == wipe.with) {
+            return;
+        }
+        self.compared = Some((subject.clone(), wipe.with));
+        let project = Arc::new(other(&subject.project, wipe.with));
+        self.other.ask(Subject { project, ..subject.clone() }, self.frame);
     }
 
     /// The frames of a new version show the old light, where there is any.
@@ -79,7 +148,14 @@ impl Preview {
 
     /// Takes what was found out since the last time.
     fn receive(&mut self) {
-        if let Some(words) = self.animator.panicked() {
+        let panics = [
+            self.painter.panicked(),
+            self.stager.panicked(),
+            self.looker.panicked(),
+            self.other.panicked(),
+            self.flow.panicked(),
+        ];
+        if let Some(words) = self.animator.panicked().or_else(|| panics.into_iter().flatten().next()) {
             self.problem = Some(format!(
                 "the preview failed ({words}); the project is unharmed, and the next edit tries again"
             ));
@@ -118,9 +194,42 @@ impl Preview {
         new.clone().find(ready).or(self.last.as_ref()).or_else(|| new.clone().next())
     }
 
+    /// The other side of the wipe at the frame that is shown.
+    fn other_sketch(&self) -> Option<Arc<Sketch>> {
+        self.compared.as_ref()?;
+        let found = self.other.found()?;
+        let ready = |sketch: &&Arc<Sketch>| sketch.is_ready(self.frame);
+        found.sketches.iter().rev().flatten().find(ready).cloned()
+    }
+
+    /// The newest pictures of the plane and the shot.
+    pub fn painted(&self) -> Painted {
+        self.painter.painted()
+    }
+
+    /// What the free look saw last.
+    pub fn look(&self) -> Seen {
+        self.looker.seen()
+    }
+
+    /// The shot's camera with the picture without caustics, as far as it is worked out.
+    pub fn shot(&self) -> Option<Arc<Shot>> {
+        self.stager.shot()
+    }
+
+    /// The picture towards which the light flows at the playhead.
+    pub fn target(&self) -> Option<TargetPicture> {
+        self.targets.found()
+    }
+
     /// Whether what is shown is of the newest version.
     pub fn is_current(&self) -> bool {
         self.found.sketches.iter().any(Option::is_some)
+    }
+
+    /// What is seen of the flow at the playhead; empty where nothing is shown of it.
+    pub fn flow(&self) -> Arc<FlowPicture> {
+        self.flow.found()
     }
 
     /// How far each frame is.
@@ -136,5 +245,13 @@ impl Preview {
     /// What the worker does now; none while it waits.
     pub fn activity(&self) -> Option<&Activity> {
         self.activity.as_ref()
+    }
+}
+
+/// The project as it is compared with.
+fn other(project: &Project, with: Other) -> Project {
+    match with {
+        Other::Method(method) => Project { method, ..project.clone() },
+        Other::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }

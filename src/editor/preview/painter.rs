@@ -3,8 +3,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Color32, ColorImage};
+use glam::Vec3;
 use lightloom_core::pipeline::{Exposure, Shot, Sketch};
-use lightloom_core::render::{Image, Paper, TextureLayout, View, ViewSettings, plane_picture};
+use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
 use rayon::prelude::*;
 
 use super::gpu::Swarm;
@@ -35,7 +36,7 @@ pub(super) struct Wish {
 
 /// How the plane is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Plane {
+pub enum Plane {
     /// Not at all.
     Hidden,
     /// As a picture of so many pixels along its longer side.
@@ -44,15 +45,19 @@ pub(super) enum Plane {
     Photons,
 }
 
-/// What was painted, newest first seen.
+/// What was painted last.
 #[derive(Clone, Default)]
-pub(super) struct Painted {
+pub struct Painted {
     /// Counts the pictures, so that each is uploaded once.
-    pub(super) number: u64,
-    pub(super) frame: i32,
-    pub(super) plane: [Option<Arc<ColorImage>>; 2],
-    pub(super) swarm: [Option<Arc<Swarm>>; 2],
-    pub(super) shot: [Option<Arc<ColorImage>>; 2],
+    pub number: u64,
+    /// The frame they show.
+    pub frame: i32,
+    /// The plane: this flow, and what it is compared with.
+    pub plane: [Option<Arc<ColorImage>>; 2],
+    /// Its photons, where the graphics card draws them.
+    pub swarm: [Option<Arc<Swarm>>; 2],
+    /// The shot.
+    pub shot: [Option<Arc<ColorImage>>; 2],
 }
 
 /// Paints the newest moment that was asked for.
@@ -113,35 +118,46 @@ impl Easel {
             let Some(moment) = moment else { continue };
             match wish.plane {
                 Plane::Hidden => {}
-                Plane::Picture(side_pixels) => {
-                    let image = self.plane(moment, side_pixels, wish.paper);
-                    painted.plane[side] = Some(Arc::new(shown(&image, &view)));
+                Plane::Picture(pixels) => {
+                    let image = self.plane(moment, pixels, wish.paper);
+                    painted.plane[side] = image.map(|image| Arc::new(shown(&image, &view)));
                 }
-                Plane::Photons => painted.swarm[side] = Some(Arc::new(self.swarm(moment))),
+                Plane::Photons => painted.swarm[side] = swarm(moment).map(Arc::new),
             }
             if let Some(shot) = &wish.shot {
-                let light = self.exposure.expose(&moment.sketch, moment.frame, *shot.layout(), &moment.shown);
-                painted.shot[side] = Some(Arc::new(shown(&shot.picture(light), &view)));
+                let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
+                painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
             }
         }
         painted
     }
 
-    fn plane(&mut self, moment: &Moment, side: usize, paper: Paper) -> Image {
-        let extent = moment.sketch.extent();
-        let layout = TextureLayout::new(extent, side, 0.0);
-        plane_picture(self.exposure.expose(&moment.sketch, moment.frame, layout, &moment.shown), extent, paper)
+    fn expose(&mut self, moment: &Moment, resolution: usize) -> Option<&ReceiverTexture> {
+        self.exposure.expose(&moment.sketch, moment.frame, resolution, &moment.shown)
     }
 
-    fn swarm(&mut self, moment: &Moment) -> Swarm {
-        let (positions, flux, radius) = self.exposure.photons(&moment.sketch, moment.frame, &moment.shown);
-        Swarm::new(positions, flux, radius)
+    fn plane(&mut self, moment: &Moment, pixels: usize, paper: Paper) -> Option<Image> {
+        let light = self.expose(moment, pixels)?;
+        Some(plane_picture(light, moment.sketch.extent(), paper))
     }
+}
+
+/// The photons of a moment that are shown.
+fn swarm(Moment { sketch, frame, shown }: &Moment) -> Option<Swarm> {
+    let positions = sketch.positions(*frame)?;
+    let mut flux = Vec::new();
+    sketch.flux(*frame, &mut flux);
+    for (group, (_, rows)) in sketch.groups().iter().enumerate() {
+        if shown.get(group) == Some(&false) {
+            flux[rows.clone()].fill(Vec3::ZERO);
+        }
+    }
+    Some(Swarm::new(positions, &flux, Exposure::radius(sketch)))
 }
 
 /// The picture as the screen shows it.
 pub(super) fn shown(image: &Image, view: &View) -> ColorImage {
-    let pixel = |&linear: &glam::Vec3| {
+    let pixel = |&linear: &Vec3| {
         let [r, g, b] = (view.encode(linear) * 255.0 + 0.5).to_array().map(|v| v as u8);
         Color32::from_rgb(r, g, b)
     };

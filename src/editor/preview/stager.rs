@@ -77,4 +77,3 @@ impl Stager {
         self.worker.panicked()
     }
 }
-

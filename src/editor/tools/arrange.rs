@@ -187,11 +187,13 @@ pub fn nudge(project: &Project, selection: &Selection, by: Vec2) -> Arranged {
 
 /// The constraints as they were, with what is selected of them moved by so much, as far as the drawing goes.
 pub(super) fn moved(base: &[(usize, Constraint)], selection: &Selection, by: Vec2) -> Edit {
-    let moving = base.iter().flat_map(|(i, c)| {
-        let points = c.points().iter().enumerate();
-        points.filter(|(k, _)| selection.moves(*i, *k)).map(|(_, p)| Vec2::from(*p))
-    });
-    let by = moving.fold(by, |by, p| (p + by).clamp(Vec2::splat(-FARTHEST), Vec2::splat(FARTHEST)) - p);
+    let by = reach(
+        by,
+        base.iter().flat_map(|(i, c)| {
+            let points = c.points().iter().enumerate();
+            points.filter(|(k, _)| selection.moves(*i, *k)).map(|(_, p)| Vec2::from(*p))
+        }),
+    );
     let change = |(i, constraint): &(usize, Constraint)| {
         let mut points = points(constraint);
         for (_, point) in points.iter_mut().enumerate().filter(|(k, _)| selection.moves(*i, *k)) {
@@ -200,4 +202,17 @@ pub(super) fn moved(base: &[(usize, Constraint)], selection: &Selection, by: Vec
         (*i, through(constraint, &points))
     };
     Edit::Change(base.iter().map(change).collect())
+}
+
+/// Constraints moved as wholes by so much, as far as the drawing goes.
+pub(in crate::editor) fn shifted(constraints: &[Constraint], by: Vec2) -> Vec<Constraint> {
+    let by = reach(by, constraints.iter().flat_map(points));
+    let moved = |constraint: &Constraint| points(constraint).into_iter().map(|p| p + by).collect::<Vec<_>>();
+    constraints.iter().map(|constraint| through(constraint, &moved(constraint))).collect()
+}
+
+/// So much of a movement as keeps all points within the drawing.
+fn reach(by: Vec2, points: impl Iterator<Item = Vec2>) -> Vec2 {
+    let far = Vec2::splat(FARTHEST);
+    points.fold(by, |by, p| (p + by).clamp(-far, far) - p)
 }

@@ -5,10 +5,12 @@
 //! moved in time leaves the fields as they are; a light that is moved leaves the meshes as they are.
 
 mod detail;
+mod exposure;
 mod field;
 mod growing;
 mod level;
 mod outcome;
+mod shot;
 
 use std::sync::Arc;
 
@@ -26,10 +28,13 @@ use crate::{Progress, Result};
 use growing::Growing;
 use level::{Fitted, Job, Level, Walk};
 use outcome::{Course, Stop};
+use shot::Views;
 
 pub use detail::Detail;
+pub use exposure::Exposure;
 pub use field::FieldAt;
 pub use outcome::Sketch;
+pub use shot::{Look, Shot};
 
 /// Sketches a project again and again while it is edited, with what it remembers from edit to edit.
 pub struct Sketcher {
@@ -37,6 +42,7 @@ pub struct Sketcher {
     lesson: Stage<LessonInput, Arc<Lesson>>,
     /// By [`Detail`].
     levels: [Level; 3],
+    views: Views,
 }
 
 /// What must stay for lights to shine to where they did.
@@ -51,7 +57,12 @@ struct LessonInput {
 impl Sketcher {
     /// Has seen no project yet and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self { loader: Loader::new(assets), lesson: Stage::default(), levels: Default::default() }
+        Self {
+            loader: Loader::new(assets),
+            lesson: Stage::default(),
+            levels: Default::default(),
+            views: Views::default(),
+        }
     }
 
     /// The photons of all frames. `ready` is shown the sketch as it grows: first the keys, then frame after frame, those
@@ -144,6 +155,7 @@ impl Run<'_> {
             supplies: &sized.supplies,
             source: self.source.clone(),
             count: sized.photons,
+            anchors: self.detail.anchors(),
             progress: self.progress,
         }
     }
@@ -198,12 +210,16 @@ impl Run<'_> {
             end += at.positions.len();
             (grouping.name(group).map(str::to_owned), start..end)
         };
+        let stops: Vec<Stop> =
+            walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect();
+        let covered = stops.iter().map(|stop| exposure::covered(&stop.positions, *extent)).sum::<f32>();
         Course {
+            covered: covered / stops.len() as f32,
             detail: self.detail,
             extent: *extent,
             first: self.whole.keys[0].frame,
             moments: slots.frames.iter().map(|&(_, slot)| slots.moments[slot]).collect(),
-            stops: walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect(),
+            stops,
             groups: walk.stops[0].iter().enumerate().map(group).collect(),
             caustics: walk.caustics.clone(),
             left_out: plan.left_out.clone(),

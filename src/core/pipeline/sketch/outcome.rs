@@ -47,6 +47,8 @@ pub(super) struct Course {
     pub(super) groups: Vec<(Option<String>, Range<usize>)>,
     pub(super) caustics: Vec<CausticLight>,
     pub(super) left_out: Vec<LeftOut>,
+    /// Area that the photons cover, plane units squared, as a mean over the keys.
+    pub(super) covered: f32,
     /// Brightness asked for at later keys than the first.
     pub(super) rho: f64,
 }
@@ -191,6 +193,23 @@ impl Sketch {
         }
         rows.sort_unstable_by(by_distance);
         rows
+    }
+
+    /// How unsteady the motion is at a frame: the change of the photons' step from this frame to the next, over the step
+    /// itself, both root mean square. 0 for even motion, 2 where every step turns back. None at the first and the last
+    /// frame, where nothing moves, and before the neighbours are worked out.
+    pub fn unsteadiness(&self, frame: i32) -> Option<f64> {
+        let frames = self.frames();
+        if frame <= *frames.start() || frame >= *frames.end() {
+            return None;
+        }
+        let [before, now, after] = [frame - 1, frame, frame + 1].map(|frame| self.positions(frame));
+        let (mut change, mut step) = (0.0, 0.0);
+        for ((&a, &b), &c) in before?.iter().zip(now?).zip(after?) {
+            change += f64::from((c - b - (b - a)).length_squared());
+            step += f64::from((c - b).length_squared() + (b - a).length_squared()) / 2.0;
+        }
+        (step > 0.0).then(|| (change / step).sqrt())
     }
 
     /// The numbers of the flow, the worst over all segments; none before all is worked out, and where nothing moves.

@@ -64,6 +64,17 @@ impl LightDesc {
         }
     }
 
+    /// Where it stands, world [m]; none for a directional one.
+    pub fn position(&self) -> Option<Vec3> {
+        match self {
+            Self::Point(light) => Some(light.position.into()),
+            Self::Spot(light) => Some(light.position.into()),
+            Self::Directional(_) => None,
+            Self::Rectangle(light) => Some(light.position.into()),
+            Self::Sphere(light) => Some(light.position.into()),
+        }
+    }
+
     /// Refuses values out of range, naming `place.field`.
     pub fn check(&self, place: &str) -> Result<()> {
         match self {

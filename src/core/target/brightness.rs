@@ -1,0 +1,47 @@
+//! A small map of what attracts photons in a picture, to show where it lies.
+
+use std::path::Path;
+
+use glam::Vec2;
+
+use super::decode::Picture;
+use super::picture::Cells;
+use super::settings::{Channel, ImageTarget};
+use crate::Result;
+
+/// What attracts photons in a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Brightness {
+    /// Size of the picture in pixels.
+    pub size: Vec2,
+    /// Cells per row.
+    pub width: usize,
+    /// 0 to 1 for each cell, row by row from the top; 1 is where most photons go.
+    pub values: Vec<f32>,
+}
+
+impl Brightness {
+    /// Reads the picture at `path`, with at most `side` cells along its longer side.
+    ///
+    /// # Errors
+    /// `Io`, `Format` or `Limit` when the file cannot be used.
+    pub fn load(path: &Path, target: &ImageTarget, side: usize) -> Result<Self> {
+        let picture = Picture::read(path)?;
+        let mut cells = Cells::of(&picture, target, target.channel);
+        if target.channel == Channel::Brightness && cells.black_with_shape {
+            cells = Cells::of(&picture, target, Channel::Alpha);
+        }
+        let rows = cells.weights.len() / cells.width.max(1);
+        let block = cells.width.max(rows).div_ceil(side.max(1)).max(1);
+        let (width, height) = (cells.width.div_ceil(block), rows.div_ceil(block));
+        let mut values = vec![0.0_f32; width * height];
+        for (row, line) in cells.weights.chunks_exact(cells.width.max(1)).enumerate() {
+            for (column, weight) in line.iter().enumerate() {
+                values[row / block * width + column / block] += weight;
+            }
+        }
+        let most = values.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
+        values.iter_mut().for_each(|value| *value /= most);
+        Ok(Self { size: Vec2::new(picture.width as f32, picture.height as f32), width, values })
+    }
+}

@@ -1,0 +1,64 @@
+//! A view of the plane through a camera: the same tools and drawings, on whatever shows plane points.
+
+use egui::{Pos2, Rect, Response, TextureId, Ui};
+use glam::Vec2;
+
+use super::ghosts;
+use super::input::{self, Move};
+use super::overlay::Overlay;
+use crate::editor::panels::Desk;
+use crate::editor::tools::{Look, Toolbox};
+
+/// How a view shows the plane.
+pub struct Glass<'a> {
+    /// The picture on the screen.
+    pub view: Rect,
+    /// Where a plane point is seen; none where it is not.
+    pub screen: &'a dyn Fn(Vec2) -> Option<Pos2>,
+    /// The plane point that is seen at a place of the screen.
+    pub plane: &'a dyn Fn(Pos2) -> Option<Vec2>,
+    /// The picture of the target that follows the playhead, with its size in pixels.
+    pub target: Option<(TextureId, Vec2)>,
+}
+
+/// Draws what was drawn over a view, lets the tool in hand work on it, and tells how the view shall be moved.
+pub fn over(
+    ui: &Ui,
+    response: &Response,
+    desk: &mut Desk,
+    toolbox: &mut Toolbox,
+    glass: &Glass,
+) -> Vec<Move> {
+    let mut input = input::pointer(ui, response, toolbox.grip(), glass.plane);
+    if response.has_focus() || response.hovered() {
+        input.gestures.extend(input::keys(ui, response));
+    }
+    let project = desk.document.project().clone();
+    let sketch = desk.preview.sketch().cloned();
+    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
+    let look = Look {
+        project: &project,
+        session: desk.session,
+        extent: project.extent(),
+        per_point: per_point(response, glass),
+        held: input::held(ui),
+        picture: glass.target.map(|(_, size)| size),
+        photons: photons.unwrap_or_default(),
+    };
+    for gesture in input.gestures {
+        desk.actions.extend(toolbox.gesture(gesture, &look));
+    }
+    let ghosts = ghosts(response, toolbox, &look);
+    let painter = ui.painter_at(response.rect);
+    let overlay = Overlay { painter: &painter, screen: glass.screen };
+    overlay.all(&look, glass.target.map(|(texture, _)| texture), &desk.preview.flow(), &ghosts);
+    input.moves
+}
+
+/// Plane units per point of the screen where the pointer is, or in the middle of the picture.
+fn per_point(response: &Response, glass: &Glass) -> f32 {
+    let at = response.hover_pos().unwrap_or(glass.view.center());
+    let near = |by: egui::Vec2| (glass.plane)(at + by);
+    let step = near(egui::vec2(1.0, 0.0)).zip(near(egui::vec2(0.0, 1.0))).zip(near(egui::Vec2::ZERO));
+    step.map_or(0.002, |((right, down), here)| right.distance(here).max(down.distance(here)))
+}

@@ -1,0 +1,89 @@
+//! The list of caustics: eye, solo, the colour of the light, the name, and what the light and the mesh cast.
+
+use egui::{Button, Color32, RichText, Ui, vec2};
+use lightloom_core::project::{CausticDesc, Project};
+use lightloom_core::scene::LightDesc;
+
+use crate::editor::action::Action;
+use crate::editor::panels::Desk;
+use crate::editor::panels::setting::format_number;
+
+/// Side of the buttons, points.
+const BUTTON: f32 = 22.0;
+
+/// One caustic, or the rest.
+pub(super) fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
+    let project = desk.document.project();
+    let caustic = project.caustics.get(group);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().button_padding.x = 4.0;
+        eye(ui, desk, group, name);
+        solo(ui, desk, group, name);
+        let (swatch, _) = ui.allocate_exact_size(vec2(12.0, 12.0), egui::Sense::hover());
+        ui.painter().rect_filled(swatch, 2.0, colour(project, caustic));
+        let shown = desk.session.shows_group(group);
+        let text = if shown { RichText::new(name) } else { RichText::new(name).weak() };
+        let chosen = desk.session.focus.caustic == Some(group);
+        let light = RichText::new(cast(desk, group).unwrap_or_default()).small().weak();
+        let size = vec2(ui.available_width(), BUTTON);
+        let button = Button::selectable(chosen, text).right_text(light).truncate();
+        let button = ui.add_enabled_ui(caustic.is_some(), |ui| ui.add_sized(size, button)).inner;
+        let help = "What its light and mesh cast, as far as it is worked out. A click shows its values.";
+        if button.accessible_name(name).on_hover_text(help).clicked() {
+            desk.session.focus.caustic = (!chosen).then_some(group);
+        }
+    });
+}
+
+fn eye(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
+    let hidden = desk.session.hidden.contains(&group);
+    let (sign, what) = if hidden { ("–", "Show") } else { ("👁", "Hide") };
+    let what = format!("{what}: {name}");
+    let button = ui.add(Button::new(sign).min_size(vec2(BUTTON, BUTTON)));
+    if button.accessible_name(&what).on_hover_text(what).clicked() && !desk.session.hidden.remove(&group) {
+        desk.session.hidden.insert(group);
+    }
+}
+
+fn solo(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
+    let on = desk.session.solo.contains(&group);
+    let button = ui.add(Button::selectable(on, "S").frame(true).min_size(vec2(BUTTON, BUTTON)));
+    let button = button.accessible_name(format!("Solo: {name}"));
+    if button.on_hover_text("Show this alone; several can be alone").clicked() {
+        let mut alone = desk.session.solo.clone();
+        if !alone.remove(&group) {
+            alone.insert(group);
+        }
+        desk.ask(Action::Solo(alone));
+    }
+}
+
+/// The colour of its light as a screen shows it, at full brightness; grey where any light may cast it.
+fn colour(project: &Project, caustic: Option<&CausticDesc>) -> Color32 {
+    let name = caustic.and_then(|caustic| caustic.light.as_deref());
+    let mut lights = project.scene.iter().flat_map(|scene| &scene.lights);
+    let light = name.and_then(|name| lights.find(|light| light.name() == name));
+    let [r, g, b] = light.map_or([0.5; 3], tint);
+    let most = r.max(g).max(b).max(1e-6);
+    egui::Rgba::from_rgb(r / most, g / most, b / most).into()
+}
+
+fn tint(light: &LightDesc) -> [f32; 3] {
+    match light {
+        LightDesc::Point(light) => light.colour,
+        LightDesc::Spot(light) => light.colour,
+        LightDesc::Directional(light) => light.colour,
+        LightDesc::Rectangle(light) => light.colour,
+        LightDesc::Sphere(light) => light.colour,
+    }
+}
+
+/// Flux and photons of a group: "0.12 W, 6 500 photons". None before its light was traced.
+fn cast(desk: &Desk, group: usize) -> Option<String> {
+    let sketch = desk.preview.sketch()?;
+    let light = sketch.caustics().get(group)?;
+    let watts = format!("{:.2e}", light.watts).parse().unwrap_or(light.watts);
+    let photons = format_number(light.photons as f64, true);
+    Some(format!("{} W, {photons} photons", format_number(watts, false)))
+}

@@ -1,0 +1,176 @@
+//! The values of what is selected, one or several at once.
+
+use egui::Ui;
+use lightloom_core::constraint::{Constraint, DirectedLine, Span, Wall};
+
+use crate::editor::document::Edit;
+use crate::editor::panels::setting::{Choice, Setting, format_number};
+use crate::editor::panels::{Desk, aside, extent};
+
+const WEIGHT: Setting = Setting::real("Weight", "constraints[directed_line].weight", [0.0, 1000.0], &[1.0])
+    .slider(0.0, 100.0)
+    .logarithmic()
+    .help("How strongly the line pulls: a factor on beta. Raise it where light ignores this line alone.");
+const SPEED: Setting = Setting::real("Speed", "constraints[directed_line].speed", [0.0, 100.0], &[1.0])
+    .slider(0.1, 10.0)
+    .logarithmic()
+    .help("Speed along the line over that of the light around it. 1 steers and does not hurry.");
+const WIDTH: Setting = Setting::real("Width", "constraints[directed_line].width", [0.001, 1.0], &[0.05])
+    .slider(0.005, 0.5)
+    .logarithmic()
+    .help("How far beside the line it pulls, ever less, in plane units: the longer side of the plane is 1.");
+const THICKNESS: Setting =
+    Setting::real("Thickness", "constraints[wall].thickness", [1e-4, 0.5], &[3.0 / 128.0])
+        .slider(0.001, 0.2)
+        .logarithmic()
+        .help("Light on its way around keeps half of it away from the wall, in plane units. Narrower gaps count as closed.");
+const SPAN: Setting = Setting::choice(
+    "Acts",
+    "constraints[].span",
+    &[Choice::new("", "Always", "in all frames"), Choice::new("", "In frames", "from one frame to another")],
+)
+.help("When it acts.");
+const FROM: Setting = Setting::whole("From frame", "constraints[].span.from", [-1e6, 1e6], &[])
+    .help("First frame in which it acts.");
+const TO: Setting = Setting::whole("To frame", "constraints[].span.to", [-1e6, 1e6], &[])
+    .help("Last frame in which it acts.");
+const FADE: Setting = Setting::whole("Fade", "constraints[].span.fade", [0.0, 100_000.0], &[0.0])
+    .unit("frames")
+    .help("Frames over which a line sets in and fades out, within its span.");
+const NAME: Setting = Setting::text("Name", "constraints[].name").help("The artist's name for it.");
+const ON: Setting =
+    Setting::switch("On", "constraints[].enabled", true).help("The eye in the list: whether it acts at all.");
+const LOCKED: Setting = Setting::switch("Locked", "constraints[].locked", false)
+    .help("The padlock in the list: keeps it from being changed.");
+
+/// The settings of what was drawn; name, eye and padlock stand in the list.
+pub(super) const SETTINGS: &[Setting] =
+    &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE, NAME, ON, LOCKED];
+
+/// A change of one constraint.
+type Change = Box<dyn Fn(&mut Constraint)>;
+
+/// The values of the `chosen`; each change reaches all of them that are not locked.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], chosen: &[usize]) {
+    let free: Vec<usize> = chosen.iter().copied().filter(|&i| !constraints[i].is_locked()).collect();
+    if free.len() < chosen.len() {
+        ui.weak(if free.is_empty() { "It is locked." } else { "Those that are locked stay as they are." });
+    }
+    let mut changes: Vec<Change> = Vec::new();
+    ui.add_enabled_ui(!free.is_empty(), |ui| {
+        let of = if free.is_empty() { chosen } else { &free };
+        let mut lines = of.iter().filter_map(|&i| line_of(&constraints[i]));
+        if let Some(line) = lines.next() {
+            let alike = lines.all(|l| (l.weight, l.speed, l.width) == (line.weight, line.speed, line.width));
+            line_values(ui, desk, line.clone(), &mut changes);
+            mixed(ui, alike);
+        }
+        let mut walls = of.iter().filter_map(|&i| wall_of(&constraints[i]));
+        if let Some(wall) = walls.next() {
+            let alike = walls.all(|w| w.thickness == wall.thickness);
+            wall_values(ui, desk, wall.clone(), &mut changes);
+            mixed(ui, alike);
+        }
+        if let Some(&first) = of.first() {
+            let any_line = of.iter().any(|&i| line_of(&constraints[i]).is_some());
+            span(ui, desk, constraints[first].span().copied(), any_line, &mut changes);
+            mixed(ui, of.iter().all(|&i| constraints[i].span() == constraints[first].span()));
+        }
+    });
+    if !changes.is_empty() {
+        let changed = free.into_iter().map(|i| {
+            let mut constraint = constraints[i].clone();
+            changes.iter().for_each(|change| change(&mut constraint));
+            (i, constraint)
+        });
+        desk.ask(Edit::Change(changed.collect()));
+    }
+}
+
+fn line_of(constraint: &Constraint) -> Option<&DirectedLine> {
+    if let Constraint::DirectedLine(line) = constraint { Some(line) } else { None }
+}
+
+fn wall_of(constraint: &Constraint) -> Option<&Wall> {
+    if let Constraint::Wall(wall) = constraint { Some(wall) } else { None }
+}
+
+fn mixed(ui: &mut Ui, alike: bool) {
+    if !alike {
+        aside(ui, "several values; this is the first");
+    }
+}
+
+fn line_values(ui: &mut Ui, desk: &Desk, mut line: DirectedLine, changes: &mut Vec<Change>) {
+    let mut on_lines = |change: Box<dyn Fn(&mut DirectedLine)>| {
+        changes.push(Box::new(move |constraint| {
+            if let Constraint::DirectedLine(line) = constraint {
+                change(line);
+            }
+        }));
+    };
+    if WEIGHT.number(ui, &mut line.weight) {
+        on_lines(Box::new(move |other| other.weight = line.weight));
+    }
+    if SPEED.number(ui, &mut line.speed) {
+        on_lines(Box::new(move |other| other.speed = line.speed));
+    }
+    if WIDTH.number(ui, &mut line.width) {
+        on_lines(Box::new(move |other| other.width = line.width));
+    }
+    in_plane(ui, desk, line.width);
+}
+
+fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Change>) {
+    if THICKNESS.number(ui, &mut wall.thickness) {
+        changes.push(Box::new(move |constraint| {
+            if let Constraint::Wall(other) = constraint {
+                other.thickness = wall.thickness;
+            }
+        }));
+    }
+    in_plane(ui, desk, wall.thickness);
+}
+
+/// A length on the plane in per cent of it, and in cells of the field.
+fn in_plane(ui: &mut Ui, desk: &Desk, length: f32) {
+    let project = desk.document.project();
+    let cells = project.flow.grid.cells(extent(project)).into_iter().max().unwrap_or(0);
+    let tenths = |value: f32| format_number((f64::from(value) * 10.0).round() / 10.0, false);
+    aside(ui, &format!("{} % of the plane, {} cells", tenths(length * 100.0), tenths(length * cells as f32)));
+}
+
+fn span(ui: &mut Ui, desk: &Desk, now: Option<Span>, fades: bool, changes: &mut Vec<Change>) {
+    let mut span = now;
+    if let Some(kind) = SPAN.pick(ui, usize::from(span.is_some())) {
+        let keys = &desk.document.project().keys;
+        let ends = keys.first().zip(keys.last());
+        let all = ends.map(|(first, last)| Span { from: first.frame, to: last.frame, fade: 0 });
+        span = if kind == 1 { all } else { None };
+    }
+    if let Some(span) = &mut span {
+        if whole(&FROM, ui, &mut span.from) {
+            span.to = span.to.max(span.from);
+        }
+        if whole(&TO, ui, &mut span.to) {
+            span.from = span.from.min(span.to);
+        }
+        if fades {
+            whole(&FADE, ui, &mut span.fade);
+        }
+    }
+    if span != now {
+        changes.push(Box::new(move |constraint| match constraint {
+            Constraint::DirectedLine(line) => line.span = span,
+            Constraint::Wall(wall) => wall.span = span,
+        }));
+    }
+}
+
+/// A field without a slider: frames have no end.
+fn whole<T: egui::emath::Numeric>(setting: &Setting, ui: &mut Ui, value: &mut T) -> bool {
+    let mut values = [*value];
+    let changed = setting.numbers(ui, &mut values, [""]);
+    *value = values[0];
+    changed
+}

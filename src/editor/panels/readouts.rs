@@ -1,0 +1,229 @@
+//! Readouts: what the numbers say of the moment that is shown.
+
+use egui::{Color32, RichText, Ui};
+use lightloom_core::flow::FlowReport;
+use lightloom_core::pipeline::{Detail, Sketch};
+
+use super::setting::{NAMES, format_number};
+use super::{Desk, fold, section};
+use crate::editor::theme;
+
+/// Energy farther than this from what is asked for is to be looked at.
+const ENERGY: f64 = 0.01;
+
+/// A number with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readout {
+    /// What is told.
+    pub name: &'static str,
+    /// The number with its unit.
+    pub value: String,
+    /// What it means, and what to do where it is bad.
+    pub help: &'static str,
+    /// Whether it is to be looked at.
+    pub is_bad: bool,
+}
+
+/// What there is to tell of a sketch at a frame; `tolerance` is that of the solver.
+pub fn of(sketch: &Sketch, frame: i32, tolerance: f32) -> Vec<Readout> {
+    let detail = match sketch.detail() {
+        Detail::Draft => "draft",
+        Detail::Preview => "preview",
+        Detail::Fine => "fine",
+    };
+    let mut all = vec![Readout {
+        name: "Photons",
+        value: format!("{} ({detail})", format_number(sketch.photons() as f64, true)),
+        help: "Photons of the preview; it gets finer while nothing is changed.",
+        is_bad: false,
+    }];
+    if let Some(energy) = sketch.energy(frame) {
+        all.push(of_energy(energy));
+    }
+    if let Some(change) = sketch.unsteadiness(frame) {
+        all.push(Readout {
+            name: "Step change",
+            value: percent(change),
+            help: "How much the photons' step changes from this frame to the next, over the step itself. High values flicker: raise alpha, lower the rate of turbulence, or use more frames.",
+            is_bad: false,
+        });
+    }
+    if let Some(numbers) = sketch.numbers() {
+        all.extend(of_flow(&numbers.flow, tolerance));
+    }
+    all
+}
+
+fn of_energy(energy: f64) -> Readout {
+    Readout {
+        name: "Energy",
+        value: format!("{:.2} %", 100.0 * energy),
+        help: "Light at this frame over that of the source, times rho, colour and brightness. It should be 100 %.",
+        is_bad: (energy - 1.0).abs() > ENERGY,
+    }
+}
+
+fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
+    let [early, middle, late] = flow.crossing_index.map(percent);
+    let plain = |name, value, help| Readout { name, value, help, is_bad: false };
+    let count = |name, number: usize, help| Readout {
+        name,
+        value: format_number(number as f64, true),
+        help,
+        is_bad: number > 0,
+    };
+    vec![
+        count(
+            "Wall crossings",
+            flow.wall_crossings,
+            "Photons that crossed a wall though a way leads around it. It should be 0.",
+        ),
+        count(
+            "Unreachable",
+            flow.unreachable,
+            "Photons whose target lies behind walls with no way around: they go straight through. Open the walls, or move the target.",
+        ),
+        plain(
+            "Crossing index",
+            format!("{early}, {middle}, {late}"),
+            "Share of the motion that neighbours do not have in common, at a quarter, half and three quarters of the way. High values look like noise.",
+        ),
+        plain(
+            "Dispersion",
+            format_number(digits(flow.dispersion), false),
+            "How much neighbours differ in velocity, over the run. Low values look like one fluid.",
+        ),
+        plain(
+            "Peak speed",
+            format!("{} x", format_number(digits(flow.peak_speed_ratio), false)),
+            "Fastest photons over the mean straight speed. Lower the speed limit of the fade where light darts.",
+        ),
+        plain(
+            "Fit residual",
+            percent(flow.fit_residual),
+            "What the field leaves undone of the way to the targets; the fade does that.",
+        ),
+        plain(
+            "Solver",
+            format!("{} iterations", flow.solver_iterations),
+            "Iterations of the solver in a fit, the most.",
+        ),
+        Readout {
+            name: "Solver residual",
+            value: format_number(digits(flow.solver_residual), false),
+            help: "Relative residual of the solver, the worst. Above the tolerance the fit did not end.",
+            is_bad: flow.solver_residual > f64::from(tolerance),
+        },
+    ]
+}
+
+/// To three digits that count.
+fn digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", format_number(digits(100.0 * share), false))
+}
+
+/// The panel of readouts.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
+    if let Some(problem) = desk.preview.problem() {
+        ui.colored_label(theme::BAD, problem);
+        ui.add_space(4.0);
+    }
+    let Some(sketch) = desk.preview.sketch() else {
+        ui.weak("Nothing is worked out yet.");
+        return;
+    };
+    let frame = desk.session.playhead;
+    section(ui, &format!("Frame {frame}"));
+    if !desk.preview.is_current() {
+        ui.weak("Of the version before the last change.");
+    }
+    for readout in of(sketch, frame, desk.document.project().flow.tolerance) {
+        let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
+        line(ui, readout.name, &readout.value, colour, readout.help);
+    }
+    section(ui, "Seconds of each stage");
+    for stage in sketch.stages() {
+        let seconds = format_number(digits(stage.seconds), false);
+        let help = "Wall-clock time; what was remembered does not run again.";
+        line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
+    }
+    if !sketch.notes().is_empty() {
+        section(ui, "Notes");
+        sketch.notes().iter().for_each(|note| {
+            ui.label(note);
+        });
+    }
+    fold(ui, "Left out", |ui| {
+        if sketch.left_out().is_empty() {
+            ui.weak("Nothing: this project needs every stage.");
+        }
+        for left_out in sketch.left_out() {
+            ui.label(RichText::new(left_out.what).strong());
+            ui.weak(left_out.why);
+        }
+    });
+}
+
+fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let size = egui::vec2(NAMES, ui.text_style_height(&egui::TextStyle::Body));
+        ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_width(NAMES);
+            ui.add(egui::Label::new(RichText::new(name).weak()).truncate()).on_hover_text(help);
+        });
+        ui.add(egui::Label::new(RichText::new(value).color(colour)).truncate()).on_hover_text(help);
+    });
+}
+
+/// The most important of it in one line, for the status bar.
+pub fn in_short(sketch: &Sketch, frame: i32) -> Vec<Readout> {
+    let mut all = vec![Readout {
+        name: "Photons",
+        value: format!("{} photons", format_number(sketch.photons() as f64, true)),
+        help: "Photons of the preview.",
+        is_bad: false,
+    }];
+    if let Some(energy) = sketch.energy(frame) {
+        let readout = of_energy(energy);
+        all.push(Readout { value: format!("energy {}", readout.value), ..readout });
+    }
+    let crossed = sketch.numbers().map_or(0, |numbers| numbers.flow.wall_crossings);
+    let unreachable = sketch.numbers().map_or(0, |numbers| numbers.flow.unreachable);
+    for (count, words, help) in [
+        (crossed, "through walls", "Photons that crossed a wall though a way leads around it."),
+        (unreachable, "unreachable", "Photons whose target no way around the walls reaches."),
+    ] {
+        if count > 0 {
+            let value = format!("{} {words}", format_number(count as f64, true));
+            all.push(Readout { name: "Walls", value, help, is_bad: true });
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energy_is_marked_beyond_one_per_cent() {
+        for (energy, bad) in [(1.0, false), (1.0099, false), (0.985, true), (1.02, true)] {
+            assert_eq!(of_energy(energy).is_bad, bad, "{energy}");
+        }
+    }
+
+    #[test]
+    fn walls_and_a_solver_that_did_not_end_are_marked() {
+        let good = FlowReport::default();
+        assert!(of_flow(&good, 1e-4).iter().all(|readout| !readout.is_bad));
+        let bad = FlowReport { wall_crossings: 1, unreachable: 2, solver_residual: 1e-3, ..good };
+        let marked: Vec<_> =
+            of_flow(&bad, 1e-4).into_iter().filter(|readout| readout.is_bad).map(|r| r.name).collect();
+        assert_eq!(marked, ["Wall crossings", "Unreachable", "Solver residual"]);
+    }
+}

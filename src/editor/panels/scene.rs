@@ -1,0 +1,83 @@
+//! The scene: glass, lights, camera, receiver, sky.
+
+mod lights;
+mod materials;
+mod meshes;
+mod surroundings;
+
+use egui::Ui;
+use lightloom_core::project::Project;
+use lightloom_core::scene::SceneDesc;
+
+use super::setting::Setting;
+use super::{Desk, fold};
+use crate::editor::document::Edit;
+
+/// The settings of this panel.
+pub(super) const SETTINGS: &[&[Setting]] =
+    &[meshes::SETTINGS, materials::SETTINGS, lights::SETTINGS, surroundings::SETTINGS];
+
+/// Names of the components of a place.
+const XYZ: [&str; 3] = ["x", "y", "z"];
+
+/// The scene panel.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
+    let project = desk.document.project();
+    let Some(before) = &project.scene else { return without_scene(ui, desk, project) };
+    let mut scene = before.clone();
+    let mut caustics = project.caustics.clone();
+    fold_open(ui, "Meshes", |ui| meshes::show(ui, desk, &mut scene, &mut caustics));
+    fold_open(ui, "Lights", |ui| lights::show(ui, desk, &mut scene, &mut caustics));
+    fold(ui, "Camera", |ui| surroundings::camera(ui, desk, &mut scene.camera));
+    fold(ui, "Receiver", |ui| surroundings::receiver(ui, &mut scene.receiver));
+    fold(ui, "Sky", |ui| surroundings::sky(ui, &mut scene.environment));
+    if scene != *before {
+        desk.ask(Edit::Scene(Some(Box::new(scene))));
+    }
+    if caustics != project.caustics {
+        desk.ask(Edit::Caustics(caustics));
+    }
+}
+
+/// The plane alone, and the way to a scene.
+fn without_scene(ui: &mut Ui, desk: &mut Desk, project: &Project) {
+    ui.label("This project has no scene: the plane is seen straight on.");
+    let mut plane = project.plane.clone();
+    surroundings::plane(ui, &mut plane);
+    if plane != project.plane {
+        desk.ask(Edit::Plane(plane));
+    }
+    ui.add_space(6.0);
+    let add = ui.button("Add a scene").on_hover_text("A light, a camera and a receiver; then add glass.");
+    if add.clicked() {
+        let scene = SceneDesc { lights: vec![lights::first()], ..SceneDesc::default() };
+        desk.ask(Edit::Scene(Some(Box::new(scene))));
+    }
+}
+
+/// A part that is open at first.
+fn fold_open(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
+    ui.add_space(4.0);
+    egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, add);
+}
+
+/// A list of names of which one can be chosen; a click on the chosen one closes it.
+fn list<'a>(
+    ui: &mut Ui,
+    kind: &str,
+    names: impl Iterator<Item = (&'a str, &'a str)>,
+    chosen: &mut Option<usize>,
+) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    for (i, (name, aside)) in names.enumerate() {
+        ui.horizontal(|ui| {
+            let size = egui::vec2(ui.available_width(), 22.0);
+            let text = egui::Button::selectable(*chosen == Some(i), name)
+                .right_text(egui::RichText::new(aside).weak());
+            let response = ui.add_sized(size, text.truncate()).accessible_name(format!("{kind} {name}"));
+            if response.clicked() {
+                *chosen = if *chosen == Some(i) { None } else { Some(i) };
+            }
+        });
+    }
+}

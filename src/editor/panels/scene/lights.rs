@@ -1,0 +1,223 @@
+//! Lights: a kind is one line in [`KINDS`].
+
+use egui::Ui;
+use lightloom_core::project::CausticDesc;
+use lightloom_core::scene::light::{DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightloom_core::scene::{LightDesc, SceneDesc};
+
+use super::{XYZ, list};
+use crate::editor::panels::setting::{Choice, Setting};
+use crate::editor::panels::{Desk, free_name, icon_button, menu, section};
+
+/// A kind of light, as it begins.
+const KINDS: &[fn() -> LightDesc] = &[
+    || LightDesc::Point(PointLight::default()),
+    || LightDesc::Spot(SpotLight::default()),
+    || LightDesc::Directional(DirectionalLight::default()),
+    || LightDesc::Rectangle(RectangleLight::default()),
+    || LightDesc::Sphere(SphereLight::default()),
+];
+
+const KIND: Setting = Setting::choice(
+    "Kind",
+    "scene.lights[]",
+    &[
+        Choice::new("point", "Point", "shines evenly to all sides"),
+        Choice::new("spot", "Spot", "a cone of light"),
+        Choice::new("directional", "Directional", "the sun: parallel light, or nearly"),
+        Choice::new("rectangle", "Rectangle", "a flat panel that shines to one side"),
+        Choice::new("sphere", "Sphere", "a glowing ball"),
+    ],
+)
+.help("Small lights cast sharp caustics, large ones soft.");
+const NAME: Setting =
+    Setting::text("Name", "scene.lights[].name").help("Shown in the list of caustics; each name once.");
+const WATTS: Setting = Setting::real("Power", "scene.lights[].watts", [0.0, 1e9], &[10.0])
+    .unit("W")
+    .slider(0.0, 1000.0)
+    .logarithmic()
+    .help("Power of the whole light. A narrower cone of the same power is brighter.");
+const COLOUR: Setting = Setting::colour("Colour", "scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0])
+    .help("Factor on the power, linear Rec.709.");
+const POSITION: Setting =
+    Setting::vector("Position", "scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0])
+        .help("Where it stands, x y z in metres; y is up.");
+const TARGET: Setting = Setting::vector("Looks at", "scene.lights[].target", [-1e6, 1e6], &[0.0; 3])
+    .help("The point it looks at, in metres.");
+const ANGLE: Setting = Setting::real("Cone", "scene.lights[spot].angle_deg", [0.1, 360.0], &[40.0])
+    .unit("°")
+    .slider(0.1, 180.0)
+    .logarithmic()
+    .help("Opening angle of the cone from edge to edge.");
+const EDGE: Setting = Setting::real("Soft edge", "scene.lights[spot].soft_edge", [0.0, 1.0], &[0.15])
+    .help("Share of the cone over which it fades; 0 is sharp.");
+const IRRADIANCE: Setting =
+    Setting::real("Irradiance", "scene.lights[directional].irradiance", [0.0, 1e9], &[10.0])
+        .unit("W/m²")
+        .slider(0.0, 2000.0)
+        .logarithmic()
+        .help("On a surface that faces it; sunlight has about 1000.");
+const DIRECTION: Setting =
+    Setting::vector("Direction", "scene.lights[directional].direction", [-1e6, 1e6], &[0.0, -1.0, 0.0])
+        .help("Where the light goes, not where it comes from.");
+const SUN: Setting = Setting::real("Disk", "scene.lights[directional].angle_deg", [0.0, 90.0], &[0.0])
+    .unit("°")
+    .slider(0.0, 10.0)
+    .help("Width of the disk in the sky; the sun has 0.53. Wider is softer.");
+const SIZE: Setting = Setting::vector("Size", "scene.lights[rectangle].size", [1e-6, 1e5], &[0.5, 0.5])
+    .help("Width and height in metres.");
+const RADIUS: Setting = Setting::real("Radius", "scene.lights[sphere].radius", [1e-6, 1e5], &[0.05])
+    .unit("m")
+    .slider(0.001, 10.0)
+    .logarithmic()
+    .help("Larger balls cast softer caustics.");
+
+/// The settings of lights.
+#[rustfmt::skip]
+pub(super) const SETTINGS: &[Setting] = &[
+    KIND, NAME, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, SUN, SIZE, RADIUS,
+];
+
+/// The light of a new scene.
+pub(super) fn first() -> LightDesc {
+    LightDesc::Spot(SpotLight::default())
+}
+
+fn kind(light: &LightDesc) -> usize {
+    match light {
+        LightDesc::Point(_) => 0,
+        LightDesc::Spot(_) => 1,
+        LightDesc::Directional(_) => 2,
+        LightDesc::Rectangle(_) => 3,
+        LightDesc::Sphere(_) => 4,
+    }
+}
+
+/// The list, and the values of the light that is chosen. Caustics follow a name.
+pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics: &mut [CausticDesc]) {
+    let names = scene.lights.iter().map(|light| (light.name(), KIND.options[kind(light)].name));
+    list(ui, "Light", names, &mut desk.session.focus.light);
+    let chosen = desk.session.focus.light.filter(|index| *index < scene.lights.len());
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let kinds = KIND.options.iter().map(|choice| (choice.name, choice.help));
+        if let Some(make) = menu(ui, "Add a light", kinds).and_then(|new| KINDS.get(new)) {
+            let mut light = make();
+            let name = free_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
+            *name_of(&mut light) = name;
+            desk.session.focus.light = Some(scene.lights.len());
+            scene.lights.push(light);
+        }
+        ui.add_enabled_ui(chosen.is_some(), |ui| {
+            if icon_button(ui, "✕", "Remove this light")
+                && let Some(index) = chosen
+            {
+                scene.lights.remove(index);
+                desk.session.focus.light = None;
+            }
+        });
+    });
+    let Some(index) = desk.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
+    let taken: Vec<String> = scene.lights.iter().map(|light| light.name().to_owned()).collect();
+    let light = &mut scene.lights[index];
+    section(ui, light.name());
+    if let Some(name) = NAME.words(ui, index, light.name()).filter(|name| !name.is_empty()) {
+        let name = free_name(&name, |name| taken.iter().any(|other| other == name));
+        let of_light = caustics.iter_mut().filter_map(|caustic| caustic.light.as_mut());
+        of_light.filter(|other| *other == light.name()).for_each(|other| other.clone_from(&name));
+        *name_of(light) = name;
+    }
+    if let Some(make) = KIND.pick_another(ui, kind(light)).and_then(|new| KINDS.get(new)) {
+        *light = changed(light, make());
+    }
+    values(ui, light);
+}
+
+fn name_of(light: &mut LightDesc) -> &mut String {
+    match light {
+        LightDesc::Point(light) => &mut light.name,
+        LightDesc::Spot(light) => &mut light.name,
+        LightDesc::Directional(light) => &mut light.name,
+        LightDesc::Rectangle(light) => &mut light.name,
+        LightDesc::Sphere(light) => &mut light.name,
+    }
+}
+
+/// A light of the kind of `new` with all that `old` has in common with it. Angles are not: a cone is no disk.
+fn changed(old: &LightDesc, new: LightDesc) -> LightDesc {
+    let (Ok(old), Ok(mut values)) = (serde_json::to_value(old), serde_json::to_value(&new)) else {
+        return new;
+    };
+    if let (Some(old), Some(values)) = (old.as_object(), values.as_object_mut()) {
+        for (key, value) in old.iter().filter(|(key, _)| !["type", "angle_deg"].contains(&key.as_str())) {
+            if let Some(slot) = values.get_mut(key) {
+                slot.clone_from(value);
+            }
+        }
+    }
+    serde_json::from_value(values).unwrap_or(new)
+}
+
+fn values(ui: &mut Ui, light: &mut LightDesc) {
+    match light {
+        LightDesc::Point(light) => {
+            shared(ui, &mut light.watts, &mut light.colour, &mut light.position);
+        }
+        LightDesc::Spot(light) => {
+            shared(ui, &mut light.watts, &mut light.colour, &mut light.position);
+            TARGET.numbers(ui, &mut light.target, XYZ);
+            ANGLE.number(ui, &mut light.angle_deg);
+            EDGE.number(ui, &mut light.soft_edge);
+        }
+        LightDesc::Directional(light) => {
+            IRRADIANCE.number(ui, &mut light.irradiance);
+            COLOUR.tint(ui, &mut light.colour);
+            DIRECTION.numbers(ui, &mut light.direction, XYZ);
+            SUN.number(ui, &mut light.angle_deg);
+        }
+        LightDesc::Rectangle(light) => {
+            shared(ui, &mut light.watts, &mut light.colour, &mut light.position);
+            TARGET.numbers(ui, &mut light.target, XYZ);
+            SIZE.numbers(ui, &mut light.size, ["width", "height"]);
+        }
+        LightDesc::Sphere(light) => {
+            shared(ui, &mut light.watts, &mut light.colour, &mut light.position);
+            RADIUS.number(ui, &mut light.radius);
+        }
+    }
+}
+
+fn shared(ui: &mut Ui, watts: &mut f32, colour: &mut [f32; 3], position: &mut [f32; 3]) {
+    WATTS.number(ui, watts);
+    COLOUR.tint(ui, colour);
+    POSITION.numbers(ui, position, XYZ);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_found_again_under_its_number() {
+        assert_eq!(KINDS.len(), KIND.options.len());
+        for (i, make) in KINDS.iter().enumerate() {
+            assert_eq!(kind(&make()), i);
+        }
+    }
+
+    #[test]
+    fn another_kind_keeps_name_power_colour_and_place() {
+        let position = [1.0, 2.0, 3.0];
+        let spot =
+            SpotLight { name: "lamp".into(), watts: 3.0, position, angle_deg: 300.0, ..SpotLight::default() };
+        let spot = LightDesc::Spot(spot);
+        for make in KINDS {
+            let light = changed(&spot, make());
+            assert!(light.check("").is_ok());
+            assert_eq!((light.name(), kind(&light)), ("lamp", kind(&make())));
+            if let LightDesc::Sphere(ball) = light {
+                assert_eq!((ball.watts, ball.position), (3.0, position));
+            }
+        }
+    }
+}

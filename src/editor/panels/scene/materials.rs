@@ -1,0 +1,131 @@
+//! Materials: a kind is one line in [`KINDS`], a ready glass one in [`GLASSES`].
+
+use egui::Ui;
+use lightloom_core::scene::Material;
+use lightloom_core::scene::material::{Diffuse, Glass, Mirror};
+
+use crate::editor::panels::setting::{Choice, Setting, presets};
+
+/// A kind of material, as it begins; the first is none: as the file says.
+const KINDS: &[fn() -> Option<Material>] = &[
+    || None,
+    || Some(Material::Diffuse(Diffuse::default())),
+    || Some(Material::Mirror(Mirror::default())),
+    || Some(Material::Glass(crown())),
+];
+
+/// Ready glasses: name, index of refraction at 587.6 nm, Abbe number (from the usual tables).
+#[rustfmt::skip]
+const GLASSES: &[(&str, f32, Option<f32>)] = &[
+    ("Water", 1.333, Some(55.8)),
+    ("Acrylic", 1.491, Some(57.4)),
+    ("Crown glass", 1.52, Some(60.0)),
+    ("Flint glass", 1.62, Some(36.4)),
+    ("Sapphire", 1.768, Some(72.2)),
+    ("Diamond", 2.417, Some(55.3)),
+];
+
+const KIND: Setting = Setting::choice(
+    "Material",
+    "scene.meshes[].material",
+    &[
+        Choice::new("", "As the file", "what the MTL file beside the mesh says"),
+        Choice::new("diffuse", "Matt", "scatters light evenly; caustics end here"),
+        Choice::new("mirror", "Mirror", "polished metal"),
+        Choice::new("glass", "Glass", "glass, water, crystal"),
+    ],
+)
+.help("What the mesh is made of. Glass and mirrors cast the caustics.");
+const ALBEDO: Setting =
+    Setting::colour("Albedo", "scene.meshes[].material.albedo", [0.0, 1.0], &[0.8, 0.8, 0.8])
+        .help("Share of light it gives back, linear Rec.709.");
+const REFLECTANCE: Setting =
+    Setting::colour("Reflectance", "scene.meshes[].material.reflectance", [0.0, 1.0], &[0.95, 0.95, 0.95])
+        .help("Share of light it reflects, linear Rec.709.");
+const INDEX: Setting = Setting::real("Index", "scene.meshes[].material.ior", [1.0, 4.0], &[1.5]).help(
+    "Index of refraction at 587.6 nm: water 1.33, window glass 1.52, diamond 2.42. Higher bends light more.",
+);
+const ABSORPTION: Setting =
+    Setting::colour("Absorption", "scene.meshes[].material.absorption", [0.0, 1e6], &[0.0, 0.0, 0.0])
+        .unit("")
+        .help(
+            "Absorption per metre, linear Rec.709: what is absorbed most is the colour that the glass lacks.",
+        );
+const DISPERSION: Setting =
+    Setting::real("Abbe number", "scene.meshes[].material.dispersion", [5.0, 1000.0], &[])
+        .slider(10.0, 100.0)
+        .help("Smaller spreads the colours more: crown glass 60, flint 36. Default: no dispersion.");
+
+/// The settings of materials.
+pub(super) const SETTINGS: &[Setting] = &[KIND, ALBEDO, REFLECTANCE, INDEX, ABSORPTION, DISPERSION];
+
+/// Clear crown glass, without dispersion.
+pub(super) fn crown() -> Glass {
+    Glass { ior: 1.52, ..Glass::default() }
+}
+
+fn kind(material: &Material) -> usize {
+    match material {
+        Material::Diffuse(_) => 1,
+        Material::Mirror(_) => 2,
+        Material::Glass(_) => 3,
+    }
+}
+
+/// What the window calls its kind.
+pub(super) fn name(material: &Material) -> &'static str {
+    KIND.options[kind(material)].name
+}
+
+/// Kind and values of a material.
+pub(super) fn show(ui: &mut Ui, material: &mut Option<Material>) {
+    let now = material.as_ref().map_or(0, kind);
+    if let Some(make) = KIND.pick(ui, now).and_then(|new| KINDS.get(new)) {
+        *material = make();
+    }
+    match material {
+        None => {}
+        Some(Material::Diffuse(diffuse)) => {
+            ALBEDO.tint(ui, &mut diffuse.albedo);
+        }
+        Some(Material::Mirror(mirror)) => {
+            REFLECTANCE.tint(ui, &mut mirror.reflectance);
+        }
+        Some(Material::Glass(glass)) => of_glass(ui, glass),
+    }
+}
+
+fn of_glass(ui: &mut Ui, glass: &mut Glass) {
+    ui.horizontal(|ui| {
+        INDEX.number_beside(ui, &mut glass.ior, 30.0);
+        if let Some(taken) = presets(ui, "Ready glasses", GLASSES.iter().map(|(name, ..)| *name)) {
+            let (_, ior, abbe) = GLASSES[taken];
+            // Who wants no rainbow keeps none.
+            let dispersion = glass.dispersion.and(abbe);
+            (glass.ior, glass.dispersion) = (ior, dispersion);
+        }
+    });
+    DISPERSION.optional(ui, &mut glass.dispersion, "none", 60.0);
+    ABSORPTION.tint(ui, &mut glass.absorption);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_found_again_under_its_number() {
+        assert_eq!(KINDS.len(), KIND.options.len());
+        for (i, make) in KINDS.iter().enumerate() {
+            assert_eq!(make().as_ref().map_or(0, kind), i);
+        }
+    }
+
+    #[test]
+    fn the_core_takes_every_ready_glass() {
+        for &(name, ior, dispersion) in GLASSES {
+            let glass = Material::Glass(Glass { ior, dispersion, ..Glass::default() });
+            assert!(glass.check("").is_ok(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Numbers: a slider and a field, a field alone, several fields, a number that may be absent.
+
+use egui::emath::Numeric;
+use egui::{DragValue, Response, Slider, SliderClamping, Ui};
+
+use super::{Kind, Setting, format};
+
+/// Width of a field beside a slider, points.
+const FIELD: f32 = 62.0;
+/// Least width of a slider: below it there is only the field.
+const SLIDER: f32 = 48.0;
+
+impl Setting {
+    /// A slider and a field. Answers whether the value is another now.
+    pub fn number<T: Numeric>(&self, ui: &mut Ui, value: &mut T) -> bool {
+        self.number_beside(ui, value, 0.0)
+    }
+
+    /// As [`Self::number`], with `room` left on the right, points.
+    pub fn number_beside<T: Numeric>(&self, ui: &mut Ui, value: &mut T, room: f32) -> bool {
+        let before = *value;
+        let row = self.row(ui, self.is_changed(&[before.to_f64()]), |ui| {
+            ui.set_max_width(ui.available_width() - room);
+            self.slider_and_field(ui, value);
+        });
+        if row.reset
+            && let [default] = self.default
+        {
+            *value = T::from_f64(*default);
+        }
+        before != *value
+    }
+
+    /// A number that may be absent: a switch beside it, called `absent`. Switched on it begins at `first`.
+    pub fn optional<T: Numeric>(&self, ui: &mut Ui, value: &mut Option<T>, absent: &str, first: f64) -> bool {
+        let before = *value;
+        let changed = before.is_some();
+        let row = self.row(ui, changed, |ui| {
+            let mut none = value.is_none();
+            let switch =
+                ui.checkbox(&mut none, absent).accessible_name(format!("{}: {absent}", self.spoken()));
+            self.explain(switch);
+            match (none, &mut *value) {
+                (true, value) => *value = None,
+                (false, Some(value)) => self.slider_and_field(ui, value),
+                (false, value) => *value = Some(T::from_f64(first)),
+            }
+        });
+        // A double click on the switch is two clicks: nothing is left to reset.
+        if row.reset && changed {
+            *value = None;
+        }
+        before != *value
+    }
+
+    /// A field for each component, which are called `names`.
+    pub fn numbers<const N: usize, T: Numeric>(
+        &self,
+        ui: &mut Ui,
+        value: &mut [T; N],
+        names: [&str; N],
+    ) -> bool {
+        let before = *value;
+        let row = self.row(ui, self.is_changed(&before.map(Numeric::to_f64)), |ui| {
+            let width = (ui.available_width() - 4.0 * (N as f32 - 1.0)) / N as f32;
+            for (component, name) in value.iter_mut().zip(names) {
+                self.field(ui, component, width, &format!("{} {name}", self.spoken()));
+            }
+        });
+        if row.reset && self.default.len() == N {
+            for (component, default) in value.iter_mut().zip(self.default) {
+                *component = T::from_f64(*default);
+            }
+        }
+        before != *value
+    }
+
+    /// Whether a value is another than the default, as far as its type can tell them apart.
+    pub(super) fn is_changed(&self, value: &[f64]) -> bool {
+        let differ = |(a, b): (&f64, &f64)| (*a as f32) != (*b as f32);
+        self.default.len() != value.len() || value.iter().zip(self.default).any(differ)
+    }
+
+    pub(super) fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T) {
+        let room = ui.available_width();
+        if room < SLIDER + FIELD {
+            self.field(ui, value, room, &self.spoken());
+            return;
+        }
+        ui.spacing_mut().slider_width = room - FIELD - 4.0;
+        let slider = Slider::from_get_set(self.slider[0]..=self.slider[1], |new| {
+            if let Some(new) = new {
+                *value = T::from_f64(self.clamp(new));
+            }
+            value.to_f64()
+        });
+        let mut slider = slider
+            .show_value(false)
+            .logarithmic(self.logarithmic)
+            .smallest_positive(smallest(self))
+            // A value beyond the slider's ends stays until the slider is moved.
+            .clamping(SliderClamping::Edits);
+        if self.kind == Kind::Whole {
+            slider = slider.integer();
+        }
+        let response = ui.add(slider).accessible_name(self.spoken());
+        self.explain(response);
+        self.field(ui, value, FIELD, &format!("{} value", self.spoken()));
+    }
+
+    /// A field to drag or to type in.
+    pub(in crate::editor::panels) fn field<T: Numeric>(
+        &self,
+        ui: &mut Ui,
+        value: &mut T,
+        width: f32,
+        name: &str,
+    ) -> Response {
+        let whole = self.kind == Kind::Whole || T::INTEGRAL;
+        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let before = value.to_f64();
+        let field = DragValue::from_get_set(|new| {
+            if let Some(new) = new {
+                *value = T::from_f64(self.clamp(if whole { new.round() } else { new }));
+            }
+            value.to_f64()
+        })
+        .range(self.clamp(self.range[0])..=self.range[1])
+        .clamp_existing_to_range(false)
+        .speed(speed(self, before, whole))
+        .suffix(suffix)
+        // What is typed counts when it is complete.
+        .update_while_editing(false)
+        .custom_formatter(|value, _| format::number(value, whole))
+        .custom_parser(|text| format::parse(text, self.unit));
+        let size = egui::vec2(width, ui.spacing().interact_size.y);
+        let response = ui.add_sized(size, field).accessible_name(name);
+        self.explain(response)
+    }
+}
+
+/// Where a slider by factors begins that reaches down to 0.
+fn smallest(setting: &Setting) -> f64 {
+    if setting.slider[0] > 0.0 { setting.slider[0] } else { setting.slider[1] * 1e-4 }
+}
+
+/// Change of the value for a point of dragging.
+fn speed(setting: &Setting, value: f64, whole: bool) -> f64 {
+    let [low, high] = setting.slider;
+    let speed = if setting.logarithmic {
+        0.01 * value.abs().max(smallest(setting))
+    } else if high - low > 1000.0 {
+        // Places in a scene reach far and stand near.
+        0.01 * value.abs().max(0.5)
+    } else {
+        (high - low) / 300.0
+    };
+    if whole { speed.max(0.1) } else { speed }
+}

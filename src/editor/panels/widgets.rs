@@ -1,0 +1,66 @@
+//! Small parts that several panels have.
+
+use egui::{Button, CollapsingHeader, Ui};
+
+use super::setting;
+
+/// A part that is folded until it is opened.
+pub(super) fn fold(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
+    ui.add_space(4.0);
+    // Not indented: names and values stay aligned with those above.
+    CollapsingHeader::new(name).show_unindented(ui, add);
+}
+
+/// A heading over a part of a panel.
+pub(super) fn section(ui: &mut Ui, name: &str) {
+    ui.add_space(8.0);
+    ui.strong(name);
+}
+
+/// A word on the value above, below its widgets.
+pub(super) fn aside(ui: &mut Ui, words: &str) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.add_space(setting::NAMES + 4.0);
+        ui.small(words);
+    });
+}
+
+/// A button with a sign for its name.
+pub(super) fn icon_button(ui: &mut Ui, sign: &str, name: &str) -> bool {
+    ui.spacing_mut().button_padding.x = 4.0;
+    let button = Button::new(sign).min_size(egui::vec2(22.0, 22.0));
+    ui.add(button).accessible_name(name).on_hover_text(name).clicked()
+}
+
+/// A button that adds something.
+pub(super) fn add_button(ui: &mut Ui, name: &str) -> bool {
+    icon_button(ui, "+", name)
+}
+
+/// A button that removes something.
+pub(super) fn remove_button(ui: &mut Ui, name: &str) -> bool {
+    icon_button(ui, "✕", name)
+}
+
+/// A button that opens a list; gives the number of the one that was taken.
+pub(super) fn menu<'a>(
+    ui: &mut Ui,
+    name: &str,
+    items: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Option<usize> {
+    let mut taken = None;
+    ui.menu_button(name, |ui| {
+        for (i, (item, help)) in items.into_iter().enumerate() {
+            let mut button = ui.button(item);
+            if !help.is_empty() {
+                button = button.on_hover_text(help);
+            }
+            if button.clicked() {
+                taken = Some(i);
+                ui.close();
+            }
+        }
+    });
+    taken
+}

@@ -1,0 +1,100 @@
+//! Files that the artist picks: what they are for, and the change of the project once one is picked.
+
+use lightloom_core::project::{KeyFrame, Project, Shows};
+use lightloom_core::scene::MeshDesc;
+use lightloom_core::target::{ImageTarget, PointsTarget};
+
+use super::document::Edit;
+
+/// What a file is picked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Pick {
+    /// A new mesh.
+    Mesh,
+    /// Another file for the mesh of this index.
+    MeshFile(usize),
+    /// A picture that a key frame shows.
+    Picture(At),
+    /// Points that a key frame shows.
+    Points(At),
+}
+
+/// Whose target it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct At {
+    /// Index of the key frame.
+    pub key: usize,
+    /// Name of the caustic; none for all that have none of their own.
+    pub caustic: Option<String>,
+}
+
+impl At {
+    /// What is shown there.
+    pub fn shows<'a>(&self, keys: &'a [KeyFrame]) -> Option<&'a Shows> {
+        keys.get(self.key).map(|key| key.shown_by(self.caustic.as_deref()))
+    }
+
+    /// Shows something else there.
+    pub fn set(&self, keys: &mut [KeyFrame], shows: Shows) {
+        let Some(key) = keys.get_mut(self.key) else { return };
+        match &self.caustic {
+            None => key.shows = shows,
+            Some(name) => key.caustics.entry(name.clone()).or_default().shows = Some(shows),
+        }
+    }
+}
+
+impl Pick {
+    /// What the dialog calls these files, and their endings.
+    pub fn files(&self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Mesh | Self::MeshFile(_) => ("Meshes", &["obj"]),
+            Self::Picture(_) => ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]),
+            Self::Points(_) => ("Points", &["csv", "npy"]),
+        }
+    }
+
+    /// The change of the project when `file` was picked, a path relative to the project; none where what it was for is gone.
+    pub fn edit(&self, project: &Project, file: String) -> Option<Edit> {
+        match self {
+            Self::Mesh => {
+                let mut scene = project.scene.clone().unwrap_or_default();
+                let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
+                let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
+                let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
+                let name = super::panels::free_name(&name, taken);
+                scene.meshes.push(MeshDesc {
+                    name,
+                    file,
+                    material: None,
+                    transform: Default::default(),
+                    smooth: true,
+                    priority: 0,
+                });
+                Some(Edit::Scene(Some(Box::new(scene))))
+            }
+            Self::MeshFile(index) => {
+                let mut scene = project.scene.clone()?;
+                scene.meshes.get_mut(*index)?.file = file;
+                Some(Edit::Scene(Some(Box::new(scene))))
+            }
+            Self::Picture(at) => {
+                let image = match at.shows(&project.keys)? {
+                    Shows::Image(image) => ImageTarget { file, ..image.clone() },
+                    _ => ImageTarget::new(file),
+                };
+                Some(show(project, at, Shows::Image(image)))
+            }
+            Self::Points(at) => {
+                at.shows(&project.keys)?;
+                Some(show(project, at, Shows::Points(PointsTarget { file })))
+            }
+        }
+    }
+}
+
+fn show(project: &Project, at: &At, shows: Shows) -> Edit {
+    let mut keys = project.keys.clone();
+    at.set(&mut keys, shows);
+    Edit::Keys(keys)
+}

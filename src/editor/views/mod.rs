@@ -1,0 +1,133 @@
+//! The views of one moment: the plane, the shot, the free look; side by side or alone.
+
+mod look;
+mod orbit;
+mod pictures;
+mod plane;
+mod shot;
+mod wipe;
+
+use egui::{Rect, Sense, Ui, UiBuilder, pos2};
+
+use super::canvas::space::Space;
+use super::panels::Desk;
+use super::preview::{Plane, Wanted};
+use super::session::{Session, ShotEye, Views as Which};
+use super::tools::Toolbox;
+use lightloom_core::project::Project;
+use pictures::Pictures;
+
+/// Room between two views, points.
+const GAP: f32 = 6.0;
+/// Least share of a view that stands beside another.
+const LEAST: f32 = 0.15;
+
+/// The views of the window.
+pub(super) struct Views {
+    pictures: Pictures,
+    /// Share of the plane where the shot stands beside it.
+    split: f32,
+    wanted: Wanted,
+    /// Where the plane and the shot were shown last.
+    places: [Rect; 2],
+}
+
+impl Default for Views {
+    fn default() -> Self {
+        Self {
+            pictures: Pictures::default(),
+            split: 0.5,
+            wanted: Wanted::default(),
+            places: [Rect::NOTHING; 2],
+        }
+    }
+}
+
+impl Views {
+    /// What the workers shall paint for what was shown last.
+    pub(super) fn wanted(&self) -> &Wanted {
+        &self.wanted
+    }
+
+    /// Where the plane is seen.
+    pub(super) fn plane_rect(&self) -> Rect {
+        self.places[0]
+    }
+
+    /// One pixel of the rendered picture is one of the screen; the plane, as large as the picture is wide.
+    pub(super) fn actual_size(&self, session: &mut Session, project: &Project) {
+        let width = project.render.width as f32;
+        let [plane, shot] = self.places;
+        session.plane.zoom =
+            width / (Space::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
+        session.shot =
+            ShotEye { zoom: width / shot::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
+    }
+
+    /// Shows the views that the session asks for.
+    pub(super) fn show(&mut self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
+        self.pictures.take(ui.ctx(), desk.preview);
+        self.wanted = Wanted::default();
+        let all = ui.available_rect_before_wrap();
+        match desk.session.views {
+            Which::Plane => self.plane(ui, all, desk, toolbox),
+            Which::Shot => self.shot(ui, all, desk, toolbox),
+            Which::Look => self.look(ui, all, desk),
+            Which::Both => {
+                let [left, right] = self.halves(ui, all);
+                self.plane(ui, left, desk, toolbox);
+                self.shot(ui, right, desk, toolbox);
+            }
+        }
+    }
+
+    /// The places of two views, and the handle between them.
+    fn halves(&mut self, ui: &mut Ui, all: Rect) -> [Rect; 2] {
+        let middle = all.left() + all.width() * self.split;
+        let handle = Rect::from_x_y_ranges(middle - GAP / 2.0..=middle + GAP / 2.0, all.y_range());
+        let response = ui.interact(handle, ui.scope_id().with("between the views"), Sense::drag());
+        let response = response.on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
+        if let Some(at) = response.interact_pointer_pos() {
+            self.split = ((at.x - all.left()) / all.width().max(1.0)).clamp(LEAST, 1.0 - LEAST);
+        }
+        let colour = if response.hovered() { super::theme::ACCENT } else { ui.visuals().panel_fill };
+        ui.painter().rect_filled(handle, 0.0, colour);
+        [all.with_max_x(handle.left()), all.with_min_x(handle.right())]
+    }
+
+    fn plane(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+        self.places[0] = place;
+        let longer = place.size().max_elem() * ui.pixels_per_point();
+        self.wanted.plane = if desk.preview.draws_photons() {
+            Plane::Photons
+        } else {
+            // While it plays, quick beats sharp.
+            let most = if desk.session.playing { 512.0 } else { 1024.0 };
+            Plane::Picture(longer.clamp(64.0, most) as usize)
+        };
+        let mut ui = ui.new_child(UiBuilder::new().id_salt("plane view").max_rect(place));
+        self.plane_view(&mut ui, desk, toolbox);
+        title(&ui, place, "Plane");
+    }
+
+    fn shot(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+        self.places[1] = place;
+        let mut ui = ui.new_child(UiBuilder::new().id_salt("shot view").max_rect(place));
+        self.wanted.shot = Some(shot::size(&ui, place, desk.document.project()));
+        self.shot_view(&mut ui, desk, toolbox);
+        title(&ui, place, "Shot");
+    }
+
+    fn look(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk) {
+        let mut ui = ui.new_child(UiBuilder::new().id_salt("free look").max_rect(place));
+        self.look_view(&mut ui, desk);
+        title(&ui, place, "Look around");
+    }
+}
+
+/// The name of a view in its corner.
+fn title(ui: &Ui, place: Rect, name: &str) {
+    let at = pos2(place.left() + 10.0, place.top() + 8.0);
+    let font = egui::FontId::proportional(11.5);
+    ui.painter().text(at, egui::Align2::LEFT_TOP, name, font, egui::Color32::from_gray(150));
+}
