@@ -58,7 +58,9 @@ fn edit(deed: &Deed, project: &Project) -> Option<Edit> {
             render.view.exposure = *exposure;
             Edit::Render(render)
         }
-        Deed::Line(x, y) => Edit::Add(vec![Constraint::DirectedLine(DirectedLine::new(vec![[*x, *y], [*y, *x]]))]),
+        Deed::Line(x, y) => {
+            Edit::Add(vec![Constraint::DirectedLine(DirectedLine::new(vec![[*x, *y], [*y, *x]]))])
+        }
         Deed::Wall(x, y) => Edit::Add(vec![Constraint::Wall(Wall::new(vec![[*x, *y], [0.5, *x]]))]),
         Deed::Remove(index) => Edit::Remove([*index].into()),
         Deed::Rename(name) => Edit::Name(name.clone()),

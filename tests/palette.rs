@@ -116,9 +116,16 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
 
 #[test]
 fn the_sheet_names_every_shortcut_and_can_be_searched() {
-    let mut harness = harness({ let mut s = Sheet::default(); s.open = true; s }, |ui, sheet: &mut Sheet| {
-        sheet.show(ui.ctx(), &tool_keys());
-    });
+    let mut harness = harness(
+        {
+            let mut s = Sheet::default();
+            s.open = true;
+            s
+        },
+        |ui, sheet: &mut Sheet| {
+            sheet.show(ui.ctx(), &tool_keys());
+        },
+    );
     let lines = shortcuts::lines(&tool_keys());
     for entry in COMMANDS {
         let Some(shortcut) = &entry.shortcut else { continue };

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec3, Vec2, Vec3, Vec3Swizzles, vec2};
-use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::Progress;
+use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::{Smoother, default_radius, radius_of_pass};
 use lightloom_core::render::splat::{Outside, Splatter};
 use lightloom_core::render::{

@@ -135,7 +135,9 @@ fn list(ui: &mut egui::Ui, lines: &[Line]) {
             for line in group {
                 ui.label(&line.name);
                 ui.label(
-                    RichText::new(format!(" {} ", line.key)).monospace().background_color(ui.visuals().extreme_bg_color),
+                    RichText::new(format!(" {} ", line.key))
+                        .monospace()
+                        .background_color(ui.visuals().extreme_bg_color),
                 );
                 ui.end_row();
             }

@@ -64,7 +64,11 @@ impl Welcome {
         let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(12.0, 66.0), Sense::click());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, template.name));
         let hot = response.hovered() || response.has_focus();
-        let fill = if hot { ui.visuals().widgets.hovered.weak_bg_fill } else { ui.visuals().widgets.inactive.weak_bg_fill.gamma_multiply(0.5) };
+        let fill = if hot {
+            ui.visuals().widgets.hovered.weak_bg_fill
+        } else {
+            ui.visuals().widgets.inactive.weak_bg_fill.gamma_multiply(0.5)
+        };
         ui.painter().rect_filled(rect, 6.0, fill);
         let place = egui::Rect::from_min_size(rect.min + vec2(6.0, 6.0), PICTURE);
         ui.painter().rect_filled(place, 4.0, theme::SURROUND);
@@ -72,7 +76,8 @@ impl Welcome {
             Image::new(texture).corner_radius(4.0).paint_at(ui, place);
         }
         let words = egui::Rect::from_min_max(place.left_bottom() + vec2(2.0, 4.0), rect.max - vec2(8.0, 4.0));
-        let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(words).layout(Layout::top_down(Align::Min)));
+        let mut inside =
+            ui.new_child(egui::UiBuilder::new().max_rect(words).layout(Layout::top_down(egui::Align::Min)));
         inside.spacing_mut().item_spacing.y = 1.0;
         inside.add(egui::Label::new(RichText::new(template.name).strong()).selectable(false));
         inside.add(egui::Label::new(RichText::new(template.line).small().weak()).wrap().selectable(false));

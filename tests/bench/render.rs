@@ -2,9 +2,9 @@
 
 use divan::{Bencher, black_box};
 use glam::{Vec2, Vec3, vec2};
+use lightloom_core::Progress;
 use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::Progress;
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{

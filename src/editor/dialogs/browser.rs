@@ -314,7 +314,7 @@ mod tests {
     fn place() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("frames")).unwrap();
-        for name in ["b.json", "A.JSON", "c.png", ".hidden.json"] {
+        for name in ["b.json", "A.JSON", "d.obj", ".hidden.json"] {
             std::fs::write(folder.path().join(name), "{}").unwrap();
         }
         folder
@@ -328,7 +328,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-        assert_eq!(names(Purpose::Target(0)), ["frames", "c.png"]);
+        assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
     }
 
     #[test]
