@@ -116,9 +116,16 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
 
 #[test]
 fn the_sheet_names_every_shortcut_and_can_be_searched() {
-    let mut harness = harness(Sheet { open: true, ..Sheet::default() }, |ui, sheet: &mut Sheet| {
-        sheet.show(ui.ctx(), &tool_keys());
-    });
+    let mut harness = harness(
+        {
+            let mut s = Sheet::default();
+            s.open = true;
+            s
+        },
+        |ui, sheet: &mut Sheet| {
+            sheet.show(ui.ctx(), &tool_keys());
+        },
+    );
     let lines = shortcuts::lines(&tool_keys());
     for entry in COMMANDS {
         let Some(shortcut) = &entry.shortcut else { continue };
@@ -129,6 +136,8 @@ fn the_sheet_names_every_shortcut_and_can_be_searched() {
     for (name, _) in tool_keys() {
         assert!(harness.query_all_by_label(name).next().is_some(), "{name} is on the sheet");
     }
+    harness.get_by_label("Search shortcuts").focus();
+    harness.run_ok();
     harness.get_by_label("Search shortcuts").type_text("play or");
     harness.run_ok();
     assert!(harness.query_by_label("Play or pause").is_some() && harness.query_by_label("Undo").is_none());

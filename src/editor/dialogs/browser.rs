@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use egui::{Button, Context, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::PickRequest;
-use super::Purpose;
+use super::{PickRequest, Purpose, modal};
 use crate::editor::theme;
 
 /// Most entries that are listed of one folder.
@@ -71,7 +70,7 @@ impl Browser {
             return Some(Some(taken));
         }
         let mut answer = None;
-        let shown = Modal::new(Id::unique("file dialog")).show(ctx, |ui| {
+        let shown = modal(ctx, "file dialog").show(ctx, |ui| {
             ui.set_width(560.0);
             ui.heading(self.purpose.title());
             ui.add_space(4.0);
@@ -316,7 +315,7 @@ mod tests {
     fn place() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("frames")).unwrap();
-        for name in ["b.json", "A.JSON", "c.png", ".hidden.json"] {
+        for name in ["b.json", "A.JSON", "d.obj", ".hidden.json"] {
             std::fs::write(folder.path().join(name), "{}").unwrap();
         }
         folder
@@ -330,7 +329,11 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
+<<<<<<< HEAD
         assert_eq!(names(Purpose::Asset(Pick::Picture(At { key: 0, caustic: None }))), ["frames", "c.png"]);
+=======
+        assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
+>>>>>>> frame
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use egui::Context;
+use egui::{Context, Frame, Id, Modal};
 
 use browser::Browser;
 
@@ -188,6 +188,13 @@ impl Picker {
             },
         }
     }
+}
+
+/// A window over all others, with room around its content.
+pub(super) fn modal(ctx: &Context, name: &'static str) -> Modal {
+    let style = ctx.global_style();
+    let frame = Frame::popup(&style).inner_margin(16).corner_radius(style.visuals.window_corner_radius);
+    Modal::new(Id::unique(name)).frame(frame)
 }
 
 /// A project is saved with its ending, also where the user typed none.
