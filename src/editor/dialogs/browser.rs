@@ -310,7 +310,6 @@ fn list(folder: PathBuf, purpose: Purpose) -> Read {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::editor::pick::{At, Pick};
 
     fn place() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
@@ -329,11 +328,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-<<<<<<< HEAD
-        assert_eq!(names(Purpose::Asset(Pick::Picture(At { key: 0, caustic: None }))), ["frames", "c.png"]);
-=======
         assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
->>>>>>> frame
     }
 
     #[test]
