@@ -13,7 +13,7 @@ use image::imageops;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::export::FrameFormat;
-use lightloom_core::flow::{FitKind, TurbulenceSettings};
+use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project, Shows};
 use lightloom_core::target::{ImageTarget, Placement};
@@ -75,7 +75,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     base.flow.fit = FitKind::Separate;
     base.plane.aspect = SIZE[0] as f32 / SIZE[1] as f32;
     (base.render.width, base.render.height) = (SIZE[0] * LARGER, SIZE[1] * LARGER);
-    (base.render.photons, base.render.passes) = (400_000, 4);
+    (base.render.photons, base.render.passes) = (150_000, 3);
+    // As fine as pictures of this size can show.
+    (base.flow.grid, base.flow.steps, base.flow.guides) = (GridSize::Longer(64), 30, 20_000);
     base.output.formats = vec![FrameFormat::Png];
     base.output.frames = Some(MOMENT.into());
     base.output.name = "tooltip.####".into();

@@ -4,6 +4,7 @@ mod caustics;
 mod drawn;
 mod fade;
 mod flow;
+mod icons;
 mod keys;
 mod pictures;
 mod presets;
@@ -19,6 +20,7 @@ use egui::{Button, ScrollArea, Ui};
 use glam::Vec2;
 use lightloom_core::project::Project;
 
+use icons::Icon;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
 pub use setting::Setting;

@@ -3,6 +3,7 @@
 use egui::{Button, ComboBox, Ui};
 
 use super::Setting;
+use crate::editor::panels::icons::{self, Icon};
 
 /// Something that can be chosen.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +143,8 @@ pub(in crate::editor::panels) fn presets<'a>(
     items: impl Iterator<Item = &'a str>,
 ) -> Option<usize> {
     let mut taken = None;
-    let menu = ui.menu_button("▾", |ui| {
+    let button = icons::button(ui, Icon::List, name, true);
+    egui::Popup::menu(&button).show(|ui| {
         for (i, item) in items.enumerate() {
             if ui.button(item).clicked() {
                 taken = Some(i);
@@ -150,6 +152,5 @@ pub(in crate::editor::panels) fn presets<'a>(
             }
         }
     });
-    menu.response.accessible_name(name).on_hover_text(name);
     taken
 }
