@@ -128,7 +128,7 @@ fn grid(ui: &mut Ui, size: &mut GridSize) {
 /// What alpha means on this plane: the length over which the field is smooth.
 fn smoothing(ui: &mut Ui, desk: &Desk, flow: &FlowSettings) {
     let share = flow.alpha.sqrt();
-    let cells = flow.grid.cells(super::extent(desk.document.project())).into_iter().max().unwrap_or(0);
+    let cells = flow.grid.cells(desk.document.project().extent()).into_iter().max().unwrap_or(0);
     let percent = format_number(round(f64::from(share) * 100.0), false);
     let in_cells = format_number(round(f64::from(share) * f64::from(cells)), false);
     super::aside(ui, &format!("smooth over {percent} % of the plane, {in_cells} cells"));

@@ -17,8 +17,6 @@ mod turbulence;
 mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
-use glam::Vec2;
-use lightloom_core::project::Project;
 
 use icons::Icon;
 pub use pictures::Trio;
@@ -99,17 +97,6 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ui.set_max_width(ui.available_width() - 4.0);
         (entry.show)(ui, desk);
     });
-}
-
-/// Extent of the project's plane; its longer side is 1.
-pub(super) fn extent(project: &Project) -> Vec2 {
-    match &project.scene {
-        Some(scene) => {
-            let size = Vec2::from(scene.receiver.size);
-            size / size.max_element()
-        }
-        None => project.plane.extent(),
-    }
 }
 
 /// `name`, or where that is taken the first of "name 2", "name 3", … that is free.
