@@ -20,8 +20,7 @@ impl Setting {
     pub fn number_beside<T: Numeric>(&self, ui: &mut Ui, value: &mut T, room: f32) -> bool {
         let before = *value;
         let row = self.row(ui, self.is_changed(&[before.to_f64()]), |ui| {
-            ui.set_max_width(ui.available_width() - room);
-            self.slider_and_field(ui, value);
+            self.slider_and_field(ui, value, room);
         });
         if row.reset
             && let [default] = self.default
@@ -42,7 +41,7 @@ impl Setting {
             self.explain(switch);
             match (none, &mut *value) {
                 (true, value) => *value = None,
-                (false, Some(value)) => self.slider_and_field(ui, value),
+                (false, Some(value)) => self.slider_and_field(ui, value, 0.0),
                 (false, value) => *value = Some(T::from_f64(first)),
             }
         });
@@ -81,8 +80,9 @@ impl Setting {
         self.default.len() != value.len() || value.iter().zip(self.default).any(differ)
     }
 
-    pub(super) fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T) {
-        let room = ui.available_width();
+    /// `kept` points at the right stay free.
+    pub(super) fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T, kept: f32) {
+        let room = ui.available_width() - kept;
         if room < SLIDER + FIELD {
             self.field(ui, value, room, &self.spoken());
             return;
