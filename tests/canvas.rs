@@ -59,7 +59,7 @@ fn window() -> Harness<'static, Window> {
     let window = Window {
         document: Document::new(project, None),
         session: Session::default(),
-        preview: Preview::default(),
+        preview: Preview::new(|| {}),
         toolbox: Toolbox::default(),
         asked: Vec::new(),
     };

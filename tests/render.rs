@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec3, Vec2, Vec3, Vec3Swizzles, vec2};
+use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::{Smoother, default_radius, radius_of_pass};
 use lightloom_core::render::splat::{Outside, Splatter};
@@ -210,7 +211,7 @@ fn the_flat_view_shows_the_whole_plane_upright_with_its_irradiance() {
     let settings = RenderSettings { width: 160, height: 120, ..RenderSettings::default() };
     let extent = vec2(1.0, 0.5);
     let layout = layout_for(None, extent, &settings, (0.05, 0.03));
-    let visible = Visible::flat(extent, &layout, &settings);
+    let visible = Visible::flat(extent, &layout, &settings, &Progress::new()).unwrap();
     let mut texture = ReceiverTexture::new(layout);
     let per_texel = layout.texel * layout.texel;
     for i in 0..layout.len() {

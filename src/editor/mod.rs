@@ -14,7 +14,9 @@ pub mod menu;
 pub mod palette;
 pub mod panels;
 pub mod pick;
+mod places;
 pub mod playback;
+pub mod preferences;
 pub mod preview;
 pub mod selection;
 pub mod session;
@@ -29,5 +31,5 @@ pub mod tour;
 mod views;
 pub mod welcome;
 
-pub use app::App;
+pub use app::{App, Card, Setup};
 pub use start::run;

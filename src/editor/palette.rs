@@ -204,6 +204,9 @@ fn fit(name: &str, typed: &str) -> Option<(i32, Vec<usize>)> {
     let (name, typed) = (lower(name), lower(typed.trim()));
     let wanted: Vec<char> = typed.into_iter().filter(|c| !c.is_whitespace()).collect();
     let begins = |i: usize| i == 0 || !name[i - 1].is_alphanumeric();
+    if wanted.is_empty() {
+        return Some((0, Vec::new()));
+    }
     let from = |start: usize| {
         let (mut score, mut letters, mut next) = (0, Vec::new(), start);
         for &letter in &wanted {

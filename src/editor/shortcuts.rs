@@ -99,8 +99,8 @@ impl Sheet {
         let window =
             egui::Window::new("Shortcuts").open(&mut self.open).collapsible(false).resizable([false, true]);
         let placed = window
-            .default_size([700.0, 460.0])
-            .default_pos(ctx.content_rect().center() - egui::vec2(350.0, 260.0));
+            .default_size([700.0, 560.0])
+            .default_pos(ctx.content_rect().center() - egui::vec2(360.0, 320.0));
         placed.show(ctx, |ui| {
             let field =
                 TextEdit::singleline(&mut self.filter).hint_text("Search").desired_width(f32::INFINITY);
@@ -135,7 +135,9 @@ fn list(ui: &mut egui::Ui, lines: &[Line]) {
             for line in group {
                 ui.label(&line.name);
                 ui.label(
-                    RichText::new(&line.key).monospace().background_color(ui.visuals().extreme_bg_color),
+                    RichText::new(format!(" {} ", line.key))
+                        .monospace()
+                        .background_color(ui.visuals().extreme_bg_color),
                 );
                 ui.end_row();
             }

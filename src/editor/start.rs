@@ -4,39 +4,78 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui;
-use lightloom_core::project::Project;
+use lightloom_core::project::ProjectFile;
+use lightloom_core::{Result, files};
 
-use super::app::App;
+use super::app::{App, Card, Setup};
+use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
+use super::store::{Fingerprint, Folders, Preferences};
 use super::templates::{self, TEMPLATES};
+
+/// Largest project file.
+const MOST_BYTES: u64 = 64 << 20;
 
 /// Opens the window, on a project or on the example. Returns when it is closed.
 ///
 /// # Errors
 /// There is no screen, or nothing that draws on it; the system's words.
 pub fn run(project: Option<&Path>) -> Result<(), String> {
-    let document = match project {
-        Some(path) => Document::new(Project::load(path).map_err(|e| e.to_string())?, Some(path.to_owned())),
-        None => Document::new(templates::load(&TEMPLATES[0]).map_err(|e| e.to_string())?, None),
-    };
+    let folders = Folders::of_user();
+    let (preferences, note) =
+        folders.as_ref().map_or_else(Default::default, |folders| Preferences::load(&folders.config));
+    let (document, problem) = first_document(project)?;
+    let message = problem.or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Lightloom")
+            .with_app_id("lightloom")
+            .with_icon(icon())
             .with_inner_size([1440.0, 900.0])
             .with_min_inner_size([720.0, 480.0]),
-        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: setup().into(), ..Default::default() },
+        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: wgpu_setup().into(), ..Default::default() },
         ..Default::default()
     };
     let create = move |context: &eframe::CreationContext| {
-        let by_card = context.wgpu_render_state.as_ref().is_some_and(prepare_card);
-        Ok(Box::new(App::new(&context.egui_ctx, document, by_card)) as Box<dyn eframe::App>)
+        let card = context.wgpu_render_state.as_ref().map_or(Card::None, prepare_card);
+        let dialogs = Arc::new(Native);
+        let setup = Setup { document, message, folders, preferences, dialogs, card };
+        Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| error.to_string())
 }
 
+/// The project that was asked for; where it cannot be read, the example and what to say.
+fn first_document(project: Option<&Path>) -> Result<(Document, Option<(String, String)>), String> {
+    let problem = match project.map(opened) {
+        Some(Ok(document)) => return Ok((document, None)),
+        Some(Err(error)) => Some(("The project cannot be opened".to_owned(), error.to_string())),
+        None => None,
+    };
+    let example = templates::folder().map(|folder| ProjectFile::open(&folder.join(TEMPLATES[0].file)));
+    match example {
+        Some(Ok((file, _))) => Ok((Document::opened(Arc::new(file), None), problem)),
+        Some(Err(error)) => Err(error.to_string()),
+        None => Err("the folder 'projects' of the examples is neither beside the program nor in the current folder; name a project file".into()),
+    }
+}
+
+fn opened(path: &Path) -> Result<Document> {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let bytes = files::read_regular_file(&path, MOST_BYTES)?;
+    let (file, _) = ProjectFile::parse(&bytes, &path)?;
+    Ok(Document::opened(Arc::new(file), Some((path, Fingerprint::of(&bytes)))))
+}
+
+fn icon() -> egui::IconData {
+    let decoded = image::load_from_memory(include_bytes!("../../assets/icon.png"));
+    let picture = decoded.map(image::DynamicImage::into_rgba8).unwrap_or_default();
+    egui::IconData { width: picture.width(), height: picture.height(), rgba: picture.into_raw() }
+}
+
 /// The usual device, which shall blend 32-bit floats where it can.
-fn setup() -> egui_wgpu::WgpuSetupCreateNew {
+fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
     let usual = setup.device_descriptor.clone();
     setup.device_descriptor = Arc::new(move |adapter| {
@@ -47,13 +86,12 @@ fn setup() -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
-/// Gives the card what it needs to draw photons; false where it cannot, or is only the processor in disguise: that
-/// estimates the light itself two to eighteen times as fast.
-fn prepare_card(state: &egui_wgpu::RenderState) -> bool {
-    if state.adapter.get_info().device_type == wgpu::DeviceType::Cpu {
-        return false;
-    }
-    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return false };
+/// Gives the card what it needs to draw photons, and tells what it is.
+fn prepare_card(state: &egui_wgpu::RenderState) -> Card {
+    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Card::None };
     state.renderer.write().callback_resources.insert(renderer);
-    true
+    match state.adapter.get_info().device_type {
+        wgpu::DeviceType::Cpu => Card::Software,
+        _ => Card::Hardware,
+    }
 }

@@ -78,7 +78,7 @@ impl Tour {
             _ => session.playing,
         };
         if done {
-            return self.go(step + 1, now);
+            return self.go(step + 1, now) || self.show(ctx, anchors, project, session);
         }
         let target = match step {
             0 => anchors.line,

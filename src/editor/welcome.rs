@@ -1,11 +1,12 @@
 //! What to begin with: an example, or a project that is there.
 
 use egui::{
-    Button, ColorImage, Context, Id, Image, Modal, RichText, Sense, TextureHandle, TextureOptions, Ui, vec2,
+    Button, ColorImage, Context, Image, Layout, RichText, Sense, TextureHandle, TextureOptions, Ui, vec2,
 };
 
 use super::action::Action;
 use super::command::Command;
+use super::dialogs::modal;
 use super::menu::Recent;
 use super::templates::TEMPLATES;
 use super::theme;
@@ -34,7 +35,7 @@ impl Welcome {
             self.pictures = TEMPLATES.iter().map(|t| picture(ctx, t.name, t.picture)).collect();
         }
         let mut chosen = None;
-        let shown = Modal::new(Id::unique("welcome")).show(ctx, |ui| {
+        let shown = modal(ctx, "welcome").show(ctx, |ui| {
             ui.set_width(3.0 * (PICTURE.x + 16.0) + 16.0);
             ui.label(RichText::new("Begin with an example").heading());
             ui.weak("Each can be changed and saved as your own.");
@@ -63,7 +64,11 @@ impl Welcome {
         let (rect, response) = ui.allocate_exact_size(PICTURE + vec2(12.0, 66.0), Sense::click());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, template.name));
         let hot = response.hovered() || response.has_focus();
-        let fill = if hot { ui.visuals().widgets.hovered.weak_bg_fill } else { ui.visuals().faint_bg_color };
+        let fill = if hot {
+            ui.visuals().widgets.hovered.weak_bg_fill
+        } else {
+            ui.visuals().widgets.inactive.weak_bg_fill.gamma_multiply(0.5)
+        };
         ui.painter().rect_filled(rect, 6.0, fill);
         let place = egui::Rect::from_min_size(rect.min + vec2(6.0, 6.0), PICTURE);
         ui.painter().rect_filled(place, 4.0, theme::SURROUND);
@@ -71,7 +76,8 @@ impl Welcome {
             Image::new(texture).corner_radius(4.0).paint_at(ui, place);
         }
         let words = egui::Rect::from_min_max(place.left_bottom() + vec2(2.0, 4.0), rect.max - vec2(8.0, 4.0));
-        let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(words));
+        let mut inside =
+            ui.new_child(egui::UiBuilder::new().max_rect(words).layout(Layout::top_down(egui::Align::Min)));
         inside.spacing_mut().item_spacing.y = 1.0;
         inside.add(egui::Label::new(RichText::new(template.name).strong()).selectable(false));
         inside.add(egui::Label::new(RichText::new(template.line).small().weak()).wrap().selectable(false));

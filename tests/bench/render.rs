@@ -2,6 +2,7 @@
 
 use divan::{Bencher, black_box};
 use glam::{Vec2, Vec3, vec2};
+use lightloom_core::Progress;
 use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::Smoother;
@@ -44,6 +45,11 @@ fn splatted() -> ReceiverTexture {
     texture
 }
 
+fn flat() -> Visible {
+    let settings = RenderSettings::default();
+    Visible::flat(Vec2::ONE, &layout(), &settings, &Progress::new()).expect("nobody cancels")
+}
+
 #[divan::bench]
 fn splat_1m_photons_1024(bencher: Bencher<'_, '_>) {
     let (positions, flux) = photons();
@@ -71,14 +77,14 @@ fn frame_and_pass(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(sample_count = 20)]
 fn gather_1280x720(bencher: Bencher<'_, '_>) {
-    let visible = Visible::flat(Vec2::ONE, &layout(), &RenderSettings::default());
+    let visible = flat();
     let texture = splatted();
     bencher.bench_local(|| visible.gather(black_box(&texture)));
 }
 
 /// A background with grain, under the caustic of the photons.
 fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
-    let visible = Visible::flat(Vec2::ONE, &layout(), &RenderSettings::default());
+    let visible = flat();
     let caustic = visible.gather(&splatted());
     let mut background = Image::new(1280, 720);
     let rng = &mut Stream::new(2, Purpose::Background, 0, 0);

@@ -1,4 +1,5 @@
 //! A document with a window around one part of the editor, for tests.
+#![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::path::Path;
 
@@ -31,7 +32,7 @@ impl Table {
         Self {
             document,
             session: Session::default(),
-            preview: Preview::default(),
+            preview: Preview::new(|| ()),
             asked: Vec::new(),
             themed: false,
         }

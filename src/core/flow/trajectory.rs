@@ -150,7 +150,7 @@ impl Fields {
     pub fn at(&self, t: f64) -> Vec<Field> {
         let t = t.clamp(0.0, 1.0);
         let n = self.step_of(t);
-        if !self.acts_in(n) {
+        if !self.acts_in(n) || t >= self.fade.end() {
             return Vec::new();
         }
         let x = (t * self.steps as f64 - n as f64) as f32;

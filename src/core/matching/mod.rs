@@ -24,7 +24,7 @@ mod stylized;
 mod swap;
 mod transport_map;
 
-pub use around::AroundMap;
+pub use around::{ANCHORS, AroundMap};
 pub use bijection::{Matching, mean_square_distance};
 pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;

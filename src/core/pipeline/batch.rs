@@ -6,7 +6,7 @@ use super::light::{KeyPhotons, Partners, PassLight};
 use super::mover::Kind;
 use super::supply::Supplies;
 use crate::flow::spatial_order;
-use crate::matching::{ContinuousMap, Method};
+use crate::matching::{ANCHORS, ContinuousMap, Method};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -17,6 +17,8 @@ pub(super) struct Batch<'a> {
     pass: u64,
     project: &'a Project,
     extent: Vec2,
+    /// Most anchors of a map around walls.
+    anchors: usize,
     key: usize,
     /// The photons of each group at the key they stand at.
     pub(super) at: Vec<KeyPhotons>,
@@ -40,7 +42,12 @@ impl<'a> Batch<'a> {
             }
         };
         let at = (0..light.groups.len()).map(first).collect();
-        Self { supplies, light, pass, project, extent, key: 0, at }
+        Self { supplies, light, pass, project, extent, anchors: ANCHORS, key: 0, at }
+    }
+
+    /// The same, matched around walls by no more than `anchors` anchors.
+    pub(super) fn with_anchors(self, anchors: usize) -> Self {
+        Self { anchors, ..self }
     }
 
     /// What the photons of the pass are made from.
@@ -85,7 +92,8 @@ impl<'a> Batch<'a> {
         if self.rests(group) || from.is_empty() {
             return Ok(None);
         }
-        Kind::of(self.project, self.key, self.extent).map((from, points), self.extent, progress)
+        let kind = Kind::of(self.project, self.key, self.extent);
+        kind.map((from, points), (self.extent, self.anchors), progress)
     }
 
     /// Where the photons of all groups shall go: row k of each is where photon k goes.

@@ -46,7 +46,7 @@ pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 use crate::photon::Tracer;
 use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
-use crate::render::{Image, PlaneView, ProgressiveRender, Visible, first_radius, layout_for};
+use crate::render::{Image, PlaneView, ProgressiveRender, Visible, background, first_radius, layout_for};
 use crate::{Error, Progress, Result};
 use finish::{Finisher, Thumbnails};
 use loader::{Loader, Prepared};
@@ -236,7 +236,8 @@ impl Pipeline {
         let first = first_radius(&project.render, extent);
         let radii = (first, radius_of_pass(first, passes - 1));
         let layout = layout_for(prepared.scene.as_deref(), extent, &project.render, radii);
-        self.seen.look(project, prepared.scene.as_ref(), (extent, layout), meter, progress)
+        let scene = prepared.scene.as_ref();
+        self.seen.look(project, scene, (extent, layout), background, meter, progress)
     }
 
     /// Matches and fits all segments.

@@ -120,7 +120,8 @@ pub(super) fn fit(
     let mut motion = Motion { segments: Vec::new(), numbers: None, caustics };
     for (number, acting) in all_acting(project, extent).iter().enumerate() {
         progress.begin("match", 1);
-        let Paired { maps, next, cost, .. } = meter.measure("match", || match_next(&batch, progress))?;
+        let Paired { maps, next, cost, .. } =
+            meter.measure("match", || match_next(&batch, true, progress))?;
         let leg = Leg { at: &batch.at, next: &next, acting, number, extent };
         let (layers, reports) = leg.fit(layers(&batch), project, None, meter, progress)?;
         let numbers = motion.numbers.into_iter().chain(FlowNumbers::of_segment(reports, &cost));
@@ -146,9 +147,12 @@ pub(super) struct Leg<'a> {
 pub(super) struct LayerMoments<'a> {
     /// Times within 0..=1, rising.
     pub(super) times: &'a [f64],
-    /// Is shown the groups of a layer, the index of a time, and where their photons are then, group by group.
-    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+    /// Is shown them.
+    pub(super) show: LayerTracks<'a>,
 }
+
+/// Is shown the groups of a layer, the index of a time, and where their photons are then, group by group.
+type LayerTracks<'a> = &'a mut dyn FnMut(&[usize], usize, &[Vec2]);
 
 impl Leg<'_> {
     /// What moves each layer of groups, and how it does.
@@ -207,7 +211,7 @@ pub(super) fn first_move(
 ) -> Result<FirstMove> {
     for (number, Acting { lines, walls }) in all_acting(project, extent).into_iter().enumerate() {
         progress.begin("match", 1);
-        let next = match_next(&batch, progress)?.next;
+        let next = match_next(&batch, false, progress)?.next;
         for groups in layers(&batch) {
             let [source, target] =
                 [&batch.at, &next].map(|photons| column(photons, &groups, |at| &at.positions));
@@ -284,16 +288,17 @@ impl Cost {
     }
 }
 
-/// Pairs the photons of all groups with their points of the next key.
-pub(super) fn match_next(batch: &Batch, progress: &Progress) -> Result<Paired> {
+/// Pairs the photons of all groups with their points of the next key. `bounded` asks for a lower bound of the cost too,
+/// which takes as long as a map.
+pub(super) fn match_next(batch: &Batch, bounded: bool, progress: &Progress) -> Result<Paired> {
     let mut paired =
         Paired { maps: Vec::new(), partners: Vec::new(), next: Vec::new(), cost: Cost::default() };
     for (group, at) in batch.at.iter().enumerate() {
         let (from, points) = (&at.positions, batch.next_points(group));
         let map = batch.map(group, &points.positions, &progress.inner())?;
         let bound = match &map {
-            Some(map) => map.lower_bound(from, &points.positions, progress)?,
-            None => None,
+            Some(map) if bounded => map.lower_bound(from, &points.positions, progress)?,
+            _ => None,
         };
         let partners = batch.partners(group, &points.positions, map.as_ref(), &progress.inner())?;
         let next = partners.arrange(points);

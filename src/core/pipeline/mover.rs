@@ -43,11 +43,11 @@ impl Kind {
         }
     }
 
-    /// The map between these points; none where rows are paired as given.
+    /// The map between these points, around walls by so many anchors at most; none where rows are paired as given.
     pub(super) fn map(
         &self,
         (from, to): (&[Vec2], &[Vec2]),
-        extent: Vec2,
+        (extent, anchors): (Vec2, usize),
         progress: &Progress,
     ) -> Result<Option<ContinuousMap>> {
         Ok(match self {
@@ -56,7 +56,8 @@ impl Kind {
             Self::Around(walls) => {
                 let walls: Vec<&ActiveWall> = walls.iter().collect();
                 let detour = Arc::new(Detour::new(&walls, extent, progress)?);
-                Some(ContinuousMap::Around(AroundMap::new(from, to, &detour, progress)?, detour))
+                let map = AroundMap::with_anchors(anchors, from, to, &detour, progress)?;
+                Some(ContinuousMap::Around(map, detour))
             }
             Self::Stylized => Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?)),
         })

@@ -28,6 +28,9 @@ struct ViewInput {
     layout: Option<TextureLayout>,
 }
 
+/// How the picture without caustics is drawn.
+type Draw = fn(&Scene, &RenderSettings, u64, &Progress) -> Result<Image>;
+
 impl Seen {
     /// The texels of a layout through every pixel, and the picture without caustics. The plane has this extent.
     pub(super) fn look(
@@ -35,6 +38,7 @@ impl Seen {
         project: &Project,
         scene: Option<&Arc<Scene>>,
         (extent, layout): (Vec2, TextureLayout),
+        draw: Draw,
         meter: &mut Meter,
         progress: &Progress,
     ) -> Result<(Arc<Visible>, Arc<Image>)> {
@@ -46,13 +50,13 @@ impl Seen {
         let visible = meter.measure("visible", || {
             self.visible.get(visible, |_| match scene {
                 Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Ok(Arc::new(Visible::flat(extent, &layout, render))),
+                None => Visible::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
         let background = match scene {
             None => Arc::new(Image::new(render.width as usize, render.height as usize)),
             Some(scene) => meter.measure("background", || {
-                let make = |_: &_| crate::render::background(scene, render, seed, progress).map(Arc::new);
+                let make = |_: &_| draw(scene, render, seed, progress).map(Arc::new);
                 self.background.get(input, make)
             })?,
         };

@@ -224,6 +224,21 @@ impl Project {
         meshes.chain(shown).collect()
     }
 
+    /// Names the files anew: `rename` turns each path as written into another.
+    pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
+        let meshes = self.scene.iter_mut().flat_map(|scene| &mut scene.meshes).map(|mesh| &mut mesh.file);
+        let keys = self.keys.iter_mut().flat_map(|key| {
+            let own = key.caustics.values_mut().filter_map(|caustic| caustic.shows.as_mut());
+            std::iter::once(&mut key.shows).chain(own)
+        });
+        let shown = keys.filter_map(|shows| match shows {
+            Shows::PhysicalCaustic => None,
+            Shows::Image(image) => Some(&mut image.file),
+            Shows::Points(points) => Some(&mut points.file),
+        });
+        meshes.chain(shown).for_each(|file| *file = rename(file));
+    }
+
     /// The frames asked for: the list in `output.frames`, or all from the first key to the last.
     ///
     /// # Errors

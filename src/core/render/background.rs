@@ -37,6 +37,26 @@ const GLINT: f32 = 50.0;
 
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
 pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
+    sampled(scene, settings, seed, true, progress)
+}
+
+/// As [`background`], but no pixel takes more than the first light paths: noisy, and ready in a known time.
+pub fn rough_background(
+    scene: &Scene,
+    settings: &RenderSettings,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Image> {
+    sampled(scene, settings, seed, false, progress)
+}
+
+fn sampled(
+    scene: &Scene,
+    settings: &RenderSettings,
+    seed: u64,
+    until_good: bool,
+    progress: &Progress,
+) -> Result<Image> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
     let mut paths = Paths { scene, media, width, height, glint: 0.0 };
@@ -60,13 +80,17 @@ pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress:
         })
     };
     trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
+    let mean = |pixels: &[Pixel]| Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
+    if !until_good {
+        return Ok(mean(&pixels));
+    }
     let floor = 0.5 * brightness;
     let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
     let near_noise = near(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
     trace(&mut pixels, &|i, pixel| {
         near_noise[i] && (pixel.count < NOISY[0] * base || (pixel.count < NOISY[1] * base && noisy(pixel)))
     })?;
-    Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
+    Ok(mean(&pixels))
 }
 
 /// Which pixels are marked or have a marked pixel among their eight neighbours.

@@ -23,8 +23,8 @@ const GLASS: [f32; 2] = [0.012, 0.4];
 const CLEAR: [f32; 2] = [0.93, 0.3];
 /// The light behind everything, below and above.
 const BEHIND: [f32; 2] = [0.015, 0.06];
-/// The floor around the receiver, over the receiver.
-const FLOOR: f32 = 0.6;
+/// The receiver and the floor around it, over other matt things: dark, so that the caustic stands out.
+const GROUND: [f32; 2] = [0.4, 0.25];
 /// Width of the line around the receiver, pixels.
 const BORDER: f32 = 1.5;
 
@@ -106,7 +106,7 @@ impl Eye<'_> {
         let lit = albedo * (self.light.lamp * between(FACING, facing));
         match hit.surface {
             SurfaceId::Mesh(_) => lit,
-            SurfaceId::Floor => lit * FLOOR + self.caustic(hit) * albedo,
+            SurfaceId::Floor => lit * GROUND[1] + self.caustic(hit) * albedo,
             SurfaceId::Receiver => {
                 let receiver = self.scene.receiver();
                 let p = receiver.plane_from_world(hit.point);
@@ -114,7 +114,7 @@ impl Eye<'_> {
                 // Seen along it, a pixel covers more of the plane.
                 let border = BORDER * self.pixel * way / facing.max(0.05) / receiver.metres_per_plane_unit();
                 let line = if edge < border { 0.25 * self.light.lamp } else { 0.0 };
-                lit + self.caustic(hit) * albedo + line
+                lit * GROUND[0] + self.caustic(hit) * albedo + line
             }
         }
     }

@@ -20,7 +20,7 @@ pub mod visible;
 
 mod sampler;
 
-pub use background::background;
+pub use background::{background, rough_background};
 pub use image::Image;
 pub use look::{LookLight, Mark, MarkKind, look, marks};
 pub use plane_picture::{Paper, plane_picture};

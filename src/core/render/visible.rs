@@ -82,7 +82,15 @@ impl Visible {
 
     /// The receiver alone, seen straight on, whole and in the middle of the picture, as white paper of one metre by plane
     /// unit: for projects without a scene.
-    pub fn flat(extent: Vec2, layout: &TextureLayout, settings: &RenderSettings) -> Self {
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub fn flat(
+        extent: Vec2,
+        layout: &TextureLayout,
+        settings: &RenderSettings,
+        progress: &Progress,
+    ) -> Result<Self> {
         const WHITE: f32 = 1.0 / std::f32::consts::PI;
         let (width, height) = (settings.width as usize, settings.height as usize);
         let size = vec2(width as f32, height as f32);
@@ -91,6 +99,7 @@ impl Visible {
         let rows = (0..height).into_par_iter().map(|y| {
             let mut row = Row::default();
             for x in 0..width {
+                progress.check()?;
                 let sampler = Sampler::new((y * width + x) as u32);
                 for index in 0..samples {
                     let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(sampler.pair(index, 0));
@@ -101,9 +110,9 @@ impl Visible {
                 }
                 row.finish_pixel(1.0 / (texel_area(layout, 1.0) * samples as f32));
             }
-            row
+            Ok(row)
         });
-        Self::from_rows(width, height, layout, rows.collect())
+        Ok(Self::from_rows(width, height, layout, rows.collect::<Result<Vec<_>>>()?))
     }
 
     /// The picture of a texture: the radiance that each pixel receives from it, for flux in watts per texel.

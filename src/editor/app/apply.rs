@@ -3,6 +3,7 @@
 use eframe::egui;
 
 use super::App;
+use super::files::Leave;
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
@@ -20,7 +21,11 @@ impl App {
             Action::Playhead(frame) => self.session.playhead = frame,
             Action::Solo(groups) => self.session.solo = groups,
             Action::Probe(row) => self.session.probe = row,
-            Action::Open(_) | Action::New(_) | Action::Pick(_) => {}
+            Action::Panel(panel) => self.session.panel = panel,
+            Action::Paste(text) => self.paste(&text),
+            Action::Open(path) => self.leave(ctx, Leave::Open(path)),
+            Action::New(template) => self.leave(ctx, Leave::New(template)),
+            Action::Pick(pick) => self.pick(ctx, pick),
             Action::Say(words) => self.word = words,
         }
         self.keep_selection();

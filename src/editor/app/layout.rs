@@ -1,14 +1,21 @@
 //! What stands where in the window.
 
 use eframe::egui;
-use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
 
-use super::App;
+use super::{App, Card};
 use crate::editor::action::Action;
-use crate::editor::panels::Desk;
-use crate::editor::theme;
+use crate::editor::command::Command;
+use crate::editor::export;
+use crate::editor::panels::{self, Desk};
+use crate::editor::store::PhotonRenderer;
 use crate::editor::timeline::Timeline;
 use crate::editor::tools::bar;
+use crate::editor::tour::Anchors;
+use crate::editor::{menu, theme};
+
+/// Width of the panel on the right at first, and at least, points.
+const PANEL: [f32; 2] = [330.0, 290.0];
 
 impl App {
     /// Shows everything; what is asked for comes into `actions`.
@@ -16,31 +23,117 @@ impl App {
         let mut desk =
             Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
         let desk = &mut desk;
-        Panel::bottom("status").exact_size(24.0).show(ui, |ui| status(ui, desk, &self.word));
-        Panel::bottom("timeline")
+        Panel::top("menu").show(ui, |ui| menu::show(ui, desk, &self.recents.found()));
+        if let Some(problem) = desk.preview.problem().map(str::to_owned) {
+            Panel::top("problem").frame(banner(ui)).show(ui, |ui| {
+                problem_banner(ui, &problem, &mut self.external);
+            });
+        }
+        Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
+            if status(ui, desk, &self.word, self.card, self.preferences.photon_renderer, &self.exports) {
+                desk.ask(Command::Export);
+            }
+        });
+        let height = Timeline::height(desk);
+        let timeline = Panel::bottom("timeline").resizable(true).default_size(height).min_size(110.0);
+        let play = timeline.show(ui, |ui| self.timeline.show(ui, desk)).inner;
+        let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2));
+        let tools = Panel::left("tools").exact_size(bar::WIDTH).resizable(false).frame(frame);
+        let [line, wall] = tools.show(ui, |ui| bar::show(ui, desk, &self.toolbox)).inner;
+        Panel::right("panels")
             .resizable(true)
-            .default_size(Timeline::height(desk))
-            .show(ui, |ui| self.timeline.show(ui, desk));
-        Panel::left("tools")
-            .exact_size(bar::WIDTH)
-            .resizable(false)
-            .frame(Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2)))
-            .show(ui, |ui| bar::show(ui, desk, &self.toolbox));
+            .default_size(PANEL[0])
+            .min_size(PANEL[1])
+            .show(ui, |ui| panels::show(ui, desk));
         let surround = Frame::NONE.fill(theme::SURROUND);
-        CentralPanel::default().frame(surround).show(ui, |ui| self.views.show(ui, desk, &mut self.toolbox));
+        let plane = CentralPanel::default().frame(surround).show(ui, |ui| {
+            self.views.show(ui, desk, &mut self.toolbox);
+            self.views.plane_rect()
+        });
+        self.windows.anchors = Some(Anchors { line, wall, play, plane: plane.inner });
     }
 }
 
-/// What goes on, and what is wrong.
-fn status(ui: &mut Ui, desk: &mut Desk, word: &str) {
-    ui.horizontal_centered(|ui| {
-        let problem = desk.preview.problem();
-        if let Some(problem) = problem {
-            ui.colored_label(theme::BAD, problem);
-        } else if word.is_empty() {
-            ui.weak("Ready");
-        } else {
-            ui.label(word);
+fn banner(ui: &Ui) -> Frame {
+    Frame::side_top_panel(ui.style())
+        .fill(theme::BAD.gamma_multiply(0.25))
+        .inner_margin(Margin::symmetric(12, 6))
+}
+
+/// What is wrong with the project, and what can be done at once.
+fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("This cannot be worked out").strong());
+        ui.label(problem);
+        if problem.contains("--allow-external")
+            && !*external
+            && ui.button("Allow files from elsewhere").clicked()
+        {
+            *external = true;
         }
     });
+}
+
+/// What goes on, what the tool in hand does, and what draws. Tells whether the export was clicked.
+fn status(
+    ui: &mut Ui,
+    desk: &Desk,
+    word: &str,
+    card: Card,
+    renderer: PhotonRenderer,
+    exports: &export::Exports,
+) -> bool {
+    let mut clicked = false;
+    ui.horizontal_centered(|ui| {
+        if let Some(activity) = desk.preview.activity() {
+            let share = egui::ProgressBar::new(activity.fraction).desired_width(90.0).desired_height(6.0);
+            ui.add(share);
+            ui.weak(doing(activity.stage));
+        } else {
+            ui.add_space(98.0);
+            ui.weak("Ready");
+        }
+        ui.separator();
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let (name, help) = drawn_by(card, renderer);
+            ui.weak(name).on_hover_text(help);
+            ui.separator();
+            clicked = export::strip(ui, exports);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.add(egui::Label::new(word).truncate());
+            });
+        });
+    });
+    clicked
+}
+
+/// What the worker does, in a word.
+fn doing(stage: &str) -> &'static str {
+    match stage {
+        "trace" => "tracing photons",
+        "match" => "matching",
+        "fit" => "fitting the flow",
+        "visible" | "background" => "looking at the scene",
+        "render" | "carry" => "carrying photons",
+        _ => "loading",
+    }
+}
+
+fn drawn_by(card: Card, renderer: PhotonRenderer) -> (&'static str, &'static str) {
+    match (card, renderer) {
+        (Card::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
+            ("Graphics card", "The graphics card draws the light of the plane view.")
+        }
+        (Card::Software, PhotonRenderer::Gpu) => (
+            "Software graphics",
+            "There is no graphics card; a program that behaves like one draws the light.",
+        ),
+        (Card::Hardware, PhotonRenderer::Cpu) => {
+            ("Processor", "The processor works the light out, as the preferences say.")
+        }
+        (Card::Software | Card::None, _) => (
+            "No graphics card",
+            "The processor works the light out: the same picture, some frames per second less. All else is as with a card.",
+        ),
+    }
 }

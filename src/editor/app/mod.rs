@@ -2,22 +2,32 @@
 
 mod apply;
 mod commands;
+mod files;
 mod layout;
+mod recents;
+mod remember;
+mod windows;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui;
 
 use super::action::Action;
+use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
-use super::panels::Desk;
+use super::export::Exports;
 use super::playback::{self, Playback};
 use super::preview::{Preview, Subject};
 use super::session::Session;
+use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
-use super::{templates, theme};
+use super::{keys, preferences, templates, theme};
+use files::Files;
+use recents::Recents;
+use windows::Windows;
 
 /// The window's state.
 pub struct App {
@@ -28,28 +38,86 @@ pub struct App {
     timeline: Timeline,
     playback: Playback,
     views: Views,
+    exports: Exports,
+    picker: Picker,
+    windows: Windows,
+    recents: Recents,
+    files: Files,
+    preferences: Preferences,
+    /// What the graphics card can do.
+    card: Card,
+    /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
+    external: bool,
+    /// What was asked for from outside.
+    asked: Vec<Action>,
     /// What the status bar says, until something else happens.
     word: String,
 }
 
+/// What draws the photons of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Card {
+    /// A graphics card.
+    Hardware,
+    /// A program that behaves like one. The processor estimates the light itself two to eighteen times as fast.
+    Software,
+    /// Nothing that blends 32-bit floats.
+    None,
+}
+
+/// What a window is opened with.
+pub struct Setup {
+    /// What it shows.
+    pub document: Document,
+    /// What to tell first, if anything: a title and what to do.
+    pub message: Option<(String, String)>,
+    /// Where the user's files for recovery and preferences are; without them nothing is kept between runs.
+    pub folders: Option<Folders>,
+    /// What the user prefers.
+    pub preferences: Preferences,
+    /// Where files are asked for.
+    pub dialogs: Arc<dyn Dialogs>,
+    /// What the graphics card can do.
+    pub card: Card,
+}
+
 impl App {
-    /// A window that shows `document`. `by_card` tells whether the graphics card can draw photons.
-    pub fn new(ctx: &egui::Context, document: Document, by_card: bool) -> Self {
+    /// A window that shows a document.
+    pub fn new(ctx: &egui::Context, setup: Setup) -> Self {
         theme::apply(ctx);
-        let wake = ctx.clone();
-        let first = document.project().keys.first().map_or(1, |key| key.frame);
-        let mut preview = Preview::new(move || wake.request_repaint());
-        preview.draw_by_card(by_card);
-        Self {
-            session: Session { playhead: first, ..Session::default() },
-            document,
-            preview,
+        preferences::apply(ctx, &setup.preferences);
+        let wake = || {
+            let ctx = ctx.clone();
+            move || ctx.request_repaint()
+        };
+        let first_start = !setup.preferences.first_start_seen;
+        let mut app = Self {
+            session: Session { snapping: setup.preferences.snapping, ..begin(&setup.document) },
+            preview: Preview::new(wake()),
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),
             views: Views::default(),
+            exports: Exports::new(wake()),
+            picker: Picker::new(setup.dialogs),
+            windows: Windows::default(),
+            recents: Recents::new(wake()),
+            files: Files::start(setup.folders, wake()),
+            preferences: setup.preferences,
+            card: setup.card,
+            external: false,
+            asked: Vec::new(),
             word: String::new(),
+            document: setup.document,
+        };
+        if first_start {
+            app.session.playing = true;
+            app.windows.tour.begin(app.document.project());
         }
+        if let Some((title, text)) = setup.message {
+            app.tell(title, text);
+        }
+        app
     }
 
     /// The document, to look at.
@@ -62,19 +130,34 @@ impl App {
         &self.session
     }
 
+    /// What was worked out, to look at.
+    pub fn preview(&self) -> &Preview {
+        &self.preview
+    }
+
+    /// Asks for something as a panel would; it is done in the next frame of the window.
+    pub fn ask(&mut self, action: Action) {
+        self.asked.push(action);
+    }
+
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
-        self.play(ui.ctx());
-        let mut actions = Vec::new();
-        self.keys(ui.ctx(), &mut actions);
+        let ctx = ui.ctx().clone();
+        self.receive(&ctx);
+        self.play(&ctx);
+        let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.name(), tool.key())).collect();
+        let mut actions = std::mem::take(&mut self.asked);
+        actions.extend(keys::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
         self.layout(ui, &mut actions);
+        self.windows(&ctx, &tools, &mut actions);
         for action in actions {
-            self.apply(ui.ctx(), action);
+            self.apply(&ctx, action);
         }
-        let gesture = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
-        if !gesture {
+        let gesture = ctx.input(|input| input.pointer.any_down()) || ctx.text_edit_focused();
+        if !gesture && !self.toolbox.tool().is_busy() {
             self.document.settle();
         }
+        self.remember(&ctx);
         self.follow();
     }
 
@@ -90,18 +173,30 @@ impl App {
 
     /// Tells the workers what is wanted now.
     fn follow(&mut self) {
+        self.preview.draw_by_card(self.draws_by_card());
         let subject = Subject {
             project: self.document.project().clone(),
             base: templates::file_of(&self.document),
-            external: false,
+            external: self.external,
         };
         self.preview.follow(&subject, &self.session, self.views.wanted());
     }
 
-    /// What panels see.
-    fn desk<'a>(&'a mut self, actions: &'a mut Vec<Action>) -> Desk<'a> {
-        Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions }
+    /// Puts another document into the window.
+    fn replace(&mut self, document: Document) {
+        let Session { views, show, snapping, looping, panel, tool, .. } = self.session.clone();
+        let _ = self.toolbox.put_down();
+        self.session = Session { views, show, snapping, looping, panel, tool, ..begin(&document) };
+        self.document = document;
+        self.external = false;
+        self.word.clear();
     }
+}
+
+/// A session at the begin of a document.
+fn begin(document: &Document) -> Session {
+    let first = document.project().keys.first().map_or(1, |key| key.frame);
+    Session { playhead: first, ..Session::default() }
 }
 
 impl eframe::App for App {

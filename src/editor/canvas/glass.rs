@@ -3,11 +3,11 @@
 use egui::{Pos2, Rect, Response, TextureId, Ui};
 use glam::Vec2;
 
+use super::ghosts;
 use super::input::{self, Move};
 use super::overlay::Overlay;
-use super::{ghosts, hovered};
 use crate::editor::panels::Desk;
-use crate::editor::tools::{self, Look, Toolbox};
+use crate::editor::tools::{Look, Toolbox};
 
 /// How a view shows the plane.
 pub struct Glass<'a> {
@@ -51,15 +51,7 @@ pub fn over(
     let ghosts = ghosts(response, toolbox, &look);
     let painter = ui.painter_at(response.rect);
     let overlay = Overlay { painter: &painter, screen: glass.screen };
-    if look.session.show.target
-        && let Some(((texture, _), corners)) = glass.target.zip(tools::target_corners(&look))
-    {
-        overlay.target(texture, corners);
-    }
-    if look.session.show.drawn {
-        overlay.drawn(&project, look.session, hovered(&ghosts));
-    }
-    overlay.ghosts(&ghosts);
+    overlay.all(&look, glass.target.map(|(texture, _)| texture), &desk.preview.flow(), &ghosts);
     input.moves
 }
 

@@ -10,16 +10,16 @@ use egui::{
 };
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
-use lightloom_core::project::Project;
 
 pub use self::glass::{Glass, over};
 use self::input::Move;
-use self::overlay::Overlay;
+use self::overlay::{Overlay, hovered};
 use self::space::Space;
 use super::panels::Desk;
+use super::preview::FlowPicture;
 use super::session::PlaneEye;
 use super::theme;
-use super::tools::{self, Ghost, Grip, Look, Toolbox};
+use super::tools::{Ghost, Grip, Look, Toolbox};
 
 /// What the window shows under the drawings, and knows of them.
 #[derive(Clone, Copy, Default)]
@@ -32,12 +32,6 @@ pub struct Under<'a> {
     pub photons: &'a [Vec2],
 }
 
-/// The plane's size in plane units: that of the scene's receiver, or of the bare plane; its longer side is 1.
-pub fn extent(project: &Project) -> Vec2 {
-    let receiver = project.scene.as_ref().map(|scene| Vec2::from(scene.receiver.size));
-    receiver.map_or_else(|| project.plane.extent(), |size| size / size.max_element())
-}
-
 /// Shows the plane and lets the tool in hand work on it.
 pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) -> Response {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -45,7 +39,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) 
     for action in toolbox.take(desk.session.tool) {
         desk.ask(action);
     }
-    let extent = extent(desk.document.project());
+    let extent = desk.document.project().extent();
     let space = Space::new(rect, extent, &desk.session.plane);
     let plane = |p| Some(space.plane_from_screen(p));
     let mut input = input::pointer(ui, &response, toolbox.grip(), &plane);
@@ -66,7 +60,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) 
     }
     let space = Space::new(rect, extent, &desk.session.plane);
     let ghosts = ghosts(&response, toolbox, &look);
-    paint(&ui.painter_at(rect), &look, &space, under, &ghosts);
+    paint(&ui.painter_at(rect), &look, &space, under, &desk.preview.flow(), &ghosts);
     let space_held = ui.input(|input| input.key_down(egui::Key::Space)) && !ui.ctx().text_edit_focused();
     let cursor = match (input.dragging, space_held || toolbox.grip() == Grip::Pan) {
         (true, _) => CursorIcon::Grabbing,
@@ -95,12 +89,6 @@ fn ghosts(response: &Response, toolbox: &Toolbox, look: &Look) -> Vec<Ghost> {
     ghosts
 }
 
-fn hovered(ghosts: &[Ghost]) -> Option<usize> {
-    ghosts
-        .iter()
-        .find_map(|ghost| if let Ghost::Hover(constraint) = ghost { Some(*constraint) } else { None })
-}
-
 /// What the tooltip says of a constraint.
 fn described(constraint: &Constraint) -> String {
     let (kind, name, value) = match constraint {
@@ -114,8 +102,7 @@ fn described(constraint: &Constraint) -> String {
     format!("{kind}{name}: {value}{span}{off}")
 }
 
-fn paint(painter: &Painter, look: &Look, space: &Space, under: &Under, ghosts: &[Ghost]) {
-    let (project, session) = (look.project, look.session);
+fn paint(painter: &Painter, look: &Look, space: &Space, under: &Under, flow: &FlowPicture, ghosts: &[Ghost]) {
     painter.rect_filled(painter.clip_rect(), 0.0, theme::SURROUND);
     let plane = space.rect(look.extent);
     painter.rect_filled(plane, 0.0, Color32::BLACK);
@@ -125,13 +112,6 @@ fn paint(painter: &Painter, look: &Look, space: &Space, under: &Under, ghosts: &
     painter.rect_stroke(plane, 0.0, Stroke::new(1.0, Color32::from_gray(64)), StrokeKind::Outside);
     let screen = |p: Vec2| Some(space.screen_from_plane(p));
     let overlay = Overlay { painter, screen: &screen };
-    if session.show.target
-        && let Some(((texture, _), corners)) = under.target.zip(tools::target_corners(look))
-    {
-        overlay.target(texture, corners);
-    }
-    if session.show.drawn {
-        overlay.drawn(project, session, hovered(ghosts));
-    }
-    overlay.ghosts(ghosts);
+    overlay.all(look, under.target.map(|(texture, _)| texture), flow, ghosts);
+    overlay::legends(painter, flow);
 }

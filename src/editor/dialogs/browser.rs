@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use egui::{Button, Context, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::PickRequest;
-use super::Purpose;
+use super::{PickRequest, Purpose, modal};
 use crate::editor::theme;
 
 /// Most entries that are listed of one folder.
@@ -54,9 +53,9 @@ impl Browser {
         let home = || directories::UserDirs::new().map(|dirs| dirs.home_dir().to_owned());
         let folder =
             folder.or_else(|| std::env::current_dir().ok()).or_else(home).unwrap_or_else(|| "/".into());
-        let listing = read(folder.clone(), None, request.purpose, ctx);
+        let listing = read(folder.clone(), None, request.purpose.clone(), ctx);
         Self {
-            purpose: request.purpose,
+            purpose: request.purpose.clone(),
             folder,
             typed: request.name.clone(),
             listing,
@@ -71,7 +70,7 @@ impl Browser {
             return Some(Some(taken));
         }
         let mut answer = None;
-        let shown = Modal::new(Id::unique("file dialog")).show(ctx, |ui| {
+        let shown = modal(ctx, "file dialog").show(ctx, |ui| {
             ui.set_width(560.0);
             ui.heading(self.purpose.title());
             ui.add_space(4.0);
@@ -225,7 +224,7 @@ impl Browser {
 
     fn go(&mut self, folder: Option<PathBuf>) {
         if let Some(folder) = folder {
-            self.listing = read(folder, None, self.purpose, &self.wake);
+            self.listing = read(folder, None, self.purpose.clone(), &self.wake);
         }
     }
 
@@ -233,7 +232,7 @@ impl Browser {
     fn take(&mut self) {
         let typed = self.typed.trim();
         let path = if typed.is_empty() { self.folder.clone() } else { self.folder.join(home(typed)) };
-        self.listing = read(self.folder.clone(), Some(path), self.purpose, &self.wake);
+        self.listing = read(self.folder.clone(), Some(path), self.purpose.clone(), &self.wake);
     }
 }
 
@@ -266,7 +265,7 @@ fn look(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose) -> Read {
         // A folder that was typed is gone to, unless it is what is wanted.
         Some(path) if path.is_dir() && !wants_folder => list(path, purpose),
         Some(path) if wants_folder || path.is_file() || purpose.saves() => {
-            let saved = super::with_ending(purpose, path.clone());
+            let saved = super::with_ending(&purpose, path.clone());
             let exists = purpose.saves() && saved.exists();
             Read { taken: Some(path), exists, ..list(folder, purpose) }
         }
@@ -315,7 +314,7 @@ mod tests {
     fn place() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("frames")).unwrap();
-        for name in ["b.json", "A.JSON", "c.png", ".hidden.json"] {
+        for name in ["b.json", "A.JSON", "d.obj", ".hidden.json"] {
             std::fs::write(folder.path().join(name), "{}").unwrap();
         }
         folder
@@ -329,7 +328,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-        assert_eq!(names(Purpose::Target(0)), ["frames", "c.png"]);
+        assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
     }
 
     #[test]

@@ -11,14 +11,16 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use egui::Context;
+use egui::{Context, Frame, Id, Modal};
 
 use browser::Browser;
+
+use super::pick::Pick;
 pub use native::Native;
 pub use question::{Answer, Question};
 
 /// What a file is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A project to open.
     OpenProject,
@@ -26,10 +28,8 @@ pub enum Purpose {
     SaveProject,
     /// The folder to which frames are written.
     ExportFolder,
-    /// A mesh for the scene.
-    Mesh,
-    /// A picture or a file of points for key frame `.0`.
-    Target(usize),
+    /// A file that the project is to use.
+    Asset(Pick),
 }
 
 /// What to ask for.
@@ -113,30 +113,28 @@ impl PickRequest {
 }
 
 impl Purpose {
-    fn title(self) -> &'static str {
+    fn title(&self) -> &'static str {
         match self {
             Self::OpenProject => "Open a project",
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
-            Self::Mesh => "Import a mesh",
-            Self::Target(_) => "Picture or points for the key frame",
+            Self::Asset(Pick::Mesh | Pick::MeshFile(_)) => "Choose a mesh",
+            Self::Asset(Pick::Picture(_)) => "Choose a picture",
+            Self::Asset(Pick::Points(_)) => "Choose a file of points",
         }
     }
 
     /// What the wanted files are called, and how their names end; no end means a folder.
-    fn files(self) -> (&'static str, &'static [&'static str]) {
+    fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
             Self::ExportFolder => ("Folders", &[]),
-            Self::Mesh => ("OBJ meshes", &["obj"]),
-            Self::Target(_) => {
-                ("Pictures and points", &["png", "jpg", "jpeg", "hdr", "exr", "npy", "csv", "txt"])
-            }
+            Self::Asset(pick) => pick.files(),
         }
     }
 
-    fn saves(self) -> bool {
-        self == Self::SaveProject
+    fn saves(&self) -> bool {
+        *self == Self::SaveProject
     }
 }
 
@@ -162,7 +160,10 @@ impl Picker {
         match std::mem::replace(&mut self.stage, Stage::Idle) {
             Stage::Idle => None,
             Stage::Asked(request, answer) => match answer.try_recv() {
-                Ok(PickResult::Picked(path)) => Some((request.purpose, with_ending(request.purpose, path))),
+                Ok(PickResult::Picked(path)) => {
+                    let path = with_ending(&request.purpose, path);
+                    Some((request.purpose, path))
+                }
                 Ok(PickResult::Cancelled) => None,
                 Err(TryRecvError::Empty) => {
                     self.stage = Stage::Asked(request, answer);
@@ -180,13 +181,23 @@ impl Picker {
                     None
                 }
                 Some(None) => None,
-                Some(Some(path)) => Some((request.purpose, with_ending(request.purpose, path))),
+                Some(Some(path)) => {
+                    let path = with_ending(&request.purpose, path);
+                    Some((request.purpose, path))
+                }
             },
         }
     }
 }
 
+/// A window over all others, with room around its content.
+pub(super) fn modal(ctx: &Context, name: &'static str) -> Modal {
+    let style = ctx.global_style();
+    let frame = Frame::popup(&style).inner_margin(16).corner_radius(style.visuals.window_corner_radius);
+    Modal::new(Id::unique(name)).frame(frame)
+}
+
 /// A project is saved with its ending, also where the user typed none.
-fn with_ending(purpose: Purpose, path: PathBuf) -> PathBuf {
+fn with_ending(purpose: &Purpose, path: PathBuf) -> PathBuf {
     if purpose.saves() && path.extension().is_none() { path.with_extension("json") } else { path }
 }

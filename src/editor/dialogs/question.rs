@@ -1,6 +1,7 @@
 //! Questions and messages over the window: egui's own, since a system without dialogs would answer for the user.
 
-use egui::{Button, Context, Id, Key, Modal, RichText};
+use super::modal;
+use egui::{Button, Context, Key, RichText};
 
 /// A question, or a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,7 +86,7 @@ impl Question {
     pub fn show(&self, ctx: &Context) -> Option<Answer> {
         let Words { title, text, labels } = self.words();
         let mut answer = None;
-        let shown = Modal::new(Id::unique("question")).show(ctx, |ui| {
+        let shown = modal(ctx, "question").show(ctx, |ui| {
             ui.set_width(400.0);
             ui.label(RichText::new(title).heading());
             ui.add_space(4.0);

@@ -66,6 +66,13 @@ impl History {
         Some(step.before)
     }
 
+    /// Changes what every step leads to.
+    pub(super) fn change_all(&mut self, change: impl Fn(&Arc<Project>) -> Arc<Project>) {
+        for step in self.past.iter_mut().chain(&mut self.future) {
+            step.before = change(&step.before);
+        }
+    }
+
     /// What undo would take back.
     pub fn undoes(&self) -> Option<&'static str> {
         self.past.back().map(|step| step.name)

@@ -9,7 +9,9 @@ use std::sync::Arc;
 pub use edit::Edit;
 pub use history::{History, STEPS};
 use lightloom_core::Result;
-use lightloom_core::project::Project;
+use lightloom_core::project::{Project, ProjectFile};
+
+use super::store::Fingerprint;
 
 /// The open project.
 #[derive(Clone, Debug)]
@@ -18,6 +20,10 @@ pub struct Document {
     /// The project as it stands in its file.
     saved: Arc<Project>,
     path: Option<PathBuf>,
+    /// The text that the project came from; none for one that never was a file.
+    file: Option<Arc<ProjectFile>>,
+    /// The content of the file at `path` when it was last read or written.
+    seen: Option<Fingerprint>,
     history: History,
     /// Whether it holds work that no file has: a recovered one, say.
     unsaved: bool,
@@ -27,7 +33,32 @@ impl Document {
     /// A project that stands in the file `path`; without one it was never saved.
     pub fn new(project: Project, path: Option<PathBuf>) -> Self {
         let project = Arc::new(project);
-        Self { saved: project.clone(), project, path, history: History::default(), unsaved: false }
+        let (file, seen, history) = (None, None, History::default());
+        Self { saved: project.clone(), project, path, file, seen, history, unsaved: false }
+    }
+
+    /// A project that was read from a file. It stands at `at`; without a place it is a new one that began with that text.
+    pub fn opened(file: Arc<ProjectFile>, at: Option<(PathBuf, Fingerprint)>) -> Self {
+        let (path, seen) = at.unzip();
+        Self { file: Some(file.clone()), seen, ..Self::new(file.project().clone(), path) }
+    }
+
+    /// What the project's text is made from: it keeps what this program does not know.
+    ///
+    /// # Errors
+    /// The project would not load again.
+    pub fn file(&mut self) -> Result<Arc<ProjectFile>> {
+        if let Some(file) = &self.file {
+            return Ok(file.clone());
+        }
+        let file = Arc::new(ProjectFile::new((*self.project).clone())?);
+        self.file = Some(file.clone());
+        Ok(file)
+    }
+
+    /// The content of its file when that was last read or written.
+    pub fn seen(&self) -> Option<Fingerprint> {
+        self.seen
     }
 
     /// The project as it is now.
@@ -93,11 +124,18 @@ impl Document {
         self.project = self.history.redo(&self.project).unwrap_or_else(|| self.project.clone());
     }
 
-    /// `project` stands in the file `path` now.
-    pub fn mark_saved(&mut self, project: Arc<Project>, path: PathBuf) {
+    /// `project` stands in the file `path` now, whose content is `seen`.
+    pub fn mark_saved(&mut self, project: Arc<Project>, path: PathBuf, seen: Fingerprint) {
         self.saved = project;
-        self.path = Some(path);
+        (self.path, self.seen) = (Some(path), Some(seen));
         self.unsaved = false;
+    }
+
+    /// The document moves to another folder: `there` names the same files from it, now and in what can be undone.
+    pub fn relocate(&mut self, there: impl Fn(&Project) -> Project) {
+        let moved = |project: &Arc<Project>| Arc::new(there(project));
+        self.project = moved(&self.project);
+        self.history.change_all(moved);
     }
 
     /// It holds work that no file has.

@@ -199,17 +199,12 @@ impl Job {
         let finished = AtomicBool::new(false);
         let done = thread::scope(|scope| {
             let ticker = scope.spawn(|| self.tick(&finished, wake));
-            let done = catch_unwind(AssertUnwindSafe(|| self.render()));
+            let done = guarded(|| self.render());
             finished.store(true, Relaxed);
             ticker.thread().unpark();
             done
         });
-        self.state().stage = match done {
-            Ok(Ok(summary)) => Stage::Done(outcome(&summary)),
-            Ok(Err(Error::Cancelled)) => Stage::Cancelled,
-            Ok(Err(error)) => Stage::Failed(error.to_string()),
-            Err(panic) => Stage::Failed(format!("the export broke down: {}", words(&*panic))),
-        };
+        self.state().stage = done;
         wake();
     }
 
@@ -264,6 +259,16 @@ impl Onlooker for Job {
     }
 }
 
+/// What came of the work.
+fn guarded(work: impl FnOnce() -> Result<Summary>) -> Stage {
+    match catch_unwind(AssertUnwindSafe(work)) {
+        Ok(Ok(summary)) => Stage::Done(outcome(&summary)),
+        Ok(Err(Error::Cancelled)) => Stage::Cancelled,
+        Ok(Err(error)) => Stage::Failed(error.to_string()),
+        Err(panic) => Stage::Failed(format!("the export broke down: {}", words(&*panic))),
+    }
+}
+
 fn small(image: Image) -> Image {
     let side = image.width.max(image.height);
     if side <= PICTURE {
@@ -286,4 +291,16 @@ fn outcome(summary: &Summary) -> Outcome {
 fn words(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "for an unknown reason".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_a_failure_with_its_words() {
+        let failed = guarded(|| panic!("index {} out of range", 7));
+        assert_eq!(failed, Stage::Failed("the export broke down: index 7 out of range".into()));
+        assert_eq!(guarded(|| Err(Error::Cancelled)), Stage::Cancelled);
+    }
 }

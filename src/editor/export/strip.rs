@@ -16,7 +16,10 @@ pub fn strip(ui: &mut Ui, exports: &Exports) -> bool {
         if job.is_open() {
             let more = if waiting > 0 { format!(", {waiting} waiting") } else { String::new() };
             let text = RichText::new(format!("{}{more}", words(job))).small();
-            let bar = ProgressBar::new(job.progress().overall as f32).text(text).desired_width(260.0);
+            let bar = ProgressBar::new(job.progress().overall as f32)
+                .text(text)
+                .desired_width(260.0)
+                .corner_radius(4);
             wanted |= ui.add(bar).accessible_name("Export").interact(egui::Sense::click()).clicked();
             controls(ui, job);
         } else {

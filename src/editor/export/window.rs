@@ -137,7 +137,10 @@ impl ExportWindow {
                 &mut wish.photons,
                 &own.photons,
             );
-            let photons = DragValue::new(&mut wish.photons).range(1..=100_000_000).speed(2_000.0);
+            let photons = DragValue::new(&mut wish.photons)
+                .range(1..=100_000_000)
+                .speed(2_000.0)
+                .custom_formatter(|n, _| grouped(n));
             ui.add(photons).accessible_name("Photons per pass");
             ui.end_row();
             name(
@@ -168,8 +171,10 @@ impl ExportWindow {
             );
             ui.horizontal(|ui| {
                 let mut text = wish.folder.to_string_lossy().into_owned();
+                let text_before = text.clone();
                 let field = TextEdit::singleline(&mut text).desired_width(170.0);
-                if ui.add(field).accessible_name("Folder").changed() {
+                let shown = ui.add(field).accessible_name("Folder").on_hover_text(&text_before);
+                if shown.changed() {
                     wish.folder = text.into();
                 }
                 if ui.button("Browse…").clicked() {
@@ -192,7 +197,7 @@ impl ExportWindow {
             count => format!("Export {count} frames"),
         };
         let button = Button::new(RichText::new(text).strong()).fill(ui.visuals().selection.bg_fill);
-        let begin = ui.add_enabled(applied.is_ok(), button.min_size(vec2(160.0, 28.0)));
+        let begin = ui.add_enabled_ui(applied.is_ok(), |ui| ui.add_sized([LEFT - 8.0, 30.0], button)).inner;
         if let Err(error) = &applied {
             ui.colored_label(theme::BAD, error.to_string());
         }
@@ -270,6 +275,16 @@ fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T
     }
 }
 
+/// A count in groups of three digits.
+fn grouped(count: f64) -> String {
+    let digits = format!("{count:.0}");
+    let group = |(i, digit): (usize, char)| {
+        let parted = i > 0 && (digits.len() - i) % 3 == 0;
+        [parted.then_some('\u{2009}'), Some(digit)].into_iter().flatten().collect::<Vec<_>>()
+    };
+    digits.chars().enumerate().flat_map(group).collect()
+}
+
 fn formats(ui: &mut Ui, chosen: &mut Vec<FrameFormat>) {
     for format in FrameFormat::ALL {
         let mut on = chosen.contains(&format);
@@ -313,7 +328,7 @@ fn card(ui: &mut Ui, job: &Job) {
         if !job.is_open() {
             return;
         }
-        let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage();
+        let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage().corner_radius(4);
         ui.add(bar).accessible_name("Progress");
         if let Some(cost) = job.cost() {
             let (memory, scratch) = (size(cost.memory_mib), size(cost.scratch_mib));

@@ -170,7 +170,7 @@ mod tests {
         };
         for wish in [own, other] {
             let line = wish.command_line(&project, &file);
-            let Command::Render(args) = Cli::try_parse_from(words(&line)).unwrap().command else {
+            let Some(Command::Render(args)) = Cli::try_parse_from(words(&line)).unwrap().command else {
                 panic!("{line}")
             };
             let mut run = args.project.load().unwrap();

@@ -2,6 +2,7 @@
 
 mod animator;
 mod coverage;
+mod flow;
 pub mod gpu;
 mod looker;
 mod painter;
@@ -14,6 +15,7 @@ pub mod worker;
 use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
+pub use flow::{FlowPicture, Followed, HeatMap};
 use lightloom_core::pipeline::{Shot, Sketch};
 use lightloom_core::project::Project;
 pub use looker::Seen;
@@ -24,6 +26,7 @@ pub use wishes::Wanted;
 
 use super::session::{Other, Session};
 use animator::{Animator, Found};
+use flow::FlowViewer;
 use looker::Looker;
 use painter::Painter;
 use stager::Stager;
@@ -40,6 +43,7 @@ pub struct Preview {
     stager: Stager,
     looker: Looker,
     targets: Targets,
+    flow: FlowViewer,
     wishes: Wishes,
     /// Whether the graphics card draws the photons.
     by_card: bool,
@@ -72,7 +76,8 @@ impl Preview {
             painter: Painter::new(wake.clone()),
             stager: Stager::new(wake.clone()),
             looker: Looker::new(wake.clone()),
-            targets: Targets::new(wake),
+            targets: Targets::new(wake.clone()),
+            flow: FlowViewer::new(wake),
             wishes: Wishes::default(),
             by_card: false,
             subject: None,
@@ -109,6 +114,8 @@ impl Preview {
         self.receive();
         let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
         self.targets.follow(subject, shown);
+        let sketch = self.sketch().cloned();
+        self.flow.follow(sketch.as_ref(), &subject.project, session);
         self.wish(subject, session, wanted);
     }
 
@@ -141,8 +148,13 @@ impl Preview {
 
     /// Takes what was found out since the last time.
     fn receive(&mut self) {
-        let panics =
-            [self.painter.panicked(), self.stager.panicked(), self.looker.panicked(), self.other.panicked()];
+        let panics = [
+            self.painter.panicked(),
+            self.stager.panicked(),
+            self.looker.panicked(),
+            self.other.panicked(),
+            self.flow.panicked(),
+        ];
         if let Some(words) = self.animator.panicked().or_else(|| panics.into_iter().flatten().next()) {
             self.problem = Some(format!(
                 "the preview failed ({words}); the project is unharmed, and the next edit tries again"
@@ -213,6 +225,11 @@ impl Preview {
     /// Whether what is shown is of the newest version.
     pub fn is_current(&self) -> bool {
         self.found.sketches.iter().any(Option::is_some)
+    }
+
+    /// What is seen of the flow at the playhead; empty where nothing is shown of it.
+    pub fn flow(&self) -> Arc<FlowPicture> {
+        self.flow.found()
     }
 
     /// How far each frame is.

@@ -1,6 +1,6 @@
 //! The strip of tools beside the plane.
 
-use egui::{CornerRadius, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+use egui::{CornerRadius, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::{Tool, Toolbox};
 use crate::editor::action::Action;
@@ -17,14 +17,16 @@ const GAPS: [usize; 2] = [0, 5];
 /// Width of the strip, points.
 pub const WIDTH: f32 = BUTTON + 8.0;
 
-/// Shows the tools below each other, and asks for the one that is clicked or whose key is pressed.
-pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) {
-    let mut wanted = toolbox.called(ui.ctx());
+/// Shows the tools below each other, and asks for the one that is clicked. Returns the places of the first two that draw.
+pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) -> [Rect; 2] {
+    let (mut wanted, mut places) = (None, Vec::new());
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.vertical_centered(|ui| {
         ui.add_space(4.0);
         for (i, tool) in toolbox.tools().enumerate() {
-            if button(ui, tool, desk.session.tool == i) {
+            let (place, clicked) = button(ui, tool, desk.session.tool == i);
+            places.push(place);
+            if clicked {
                 wanted = Some(i);
             }
             if GAPS.contains(&i) {
@@ -35,9 +37,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) {
     if let Some(tool) = wanted {
         desk.ask(Action::Tool(tool));
     }
+    [1, 2].map(|i| places.get(i).copied().unwrap_or(Rect::NOTHING))
 }
 
-fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> bool {
+fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> (Rect, bool) {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), active, tool.name()));
     let visuals = ui.visuals();
@@ -50,7 +53,7 @@ fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> bool {
     };
     let painter = ui.painter();
     painter.rect_filled(rect, CornerRadius::same(6), fill);
-    let square = egui::Rect::from_center_size(rect.center(), Vec2::splat(ICON));
+    let square = Rect::from_center_size(rect.center(), Vec2::splat(ICON));
     tool.icon(painter, square, Stroke::new(2.0, colour));
     let clicked = response.clicked();
     response.on_hover_ui(|ui| {
@@ -61,5 +64,5 @@ fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> bool {
         ui.set_max_width(260.0);
         ui.label(tool.hint());
     });
-    clicked
+    (rect, clicked)
 }

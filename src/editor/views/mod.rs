@@ -9,10 +9,12 @@ mod wipe;
 
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
+use super::canvas::space::Space;
 use super::panels::Desk;
 use super::preview::{Plane, Wanted};
-use super::session::Views as Which;
+use super::session::{Session, ShotEye, Views as Which};
 use super::tools::Toolbox;
+use lightloom_core::project::Project;
 use pictures::Pictures;
 
 /// Room between two views, points.
@@ -21,27 +23,49 @@ const GAP: f32 = 6.0;
 const LEAST: f32 = 0.15;
 
 /// The views of the window.
-pub struct Views {
+pub(super) struct Views {
     pictures: Pictures,
     /// Share of the plane where the shot stands beside it.
     split: f32,
     wanted: Wanted,
+    /// Where the plane and the shot were shown last.
+    places: [Rect; 2],
 }
 
 impl Default for Views {
     fn default() -> Self {
-        Self { pictures: Pictures::default(), split: 0.5, wanted: Wanted::default() }
+        Self {
+            pictures: Pictures::default(),
+            split: 0.5,
+            wanted: Wanted::default(),
+            places: [Rect::NOTHING; 2],
+        }
     }
 }
 
 impl Views {
     /// What the workers shall paint for what was shown last.
-    pub fn wanted(&self) -> &Wanted {
+    pub(super) fn wanted(&self) -> &Wanted {
         &self.wanted
     }
 
+    /// Where the plane is seen.
+    pub(super) fn plane_rect(&self) -> Rect {
+        self.places[0]
+    }
+
+    /// One pixel of the rendered picture is one of the screen; the plane, as large as the picture is wide.
+    pub(super) fn actual_size(&self, session: &mut Session, project: &Project) {
+        let width = project.render.width as f32;
+        let [plane, shot] = self.places;
+        session.plane.zoom =
+            width / (Space::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
+        session.shot =
+            ShotEye { zoom: width / shot::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
+    }
+
     /// Shows the views that the session asks for.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
+    pub(super) fn show(&mut self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
         self.pictures.take(ui.ctx(), desk.preview);
         self.wanted = Wanted::default();
         let all = ui.available_rect_before_wrap();
@@ -72,6 +96,7 @@ impl Views {
     }
 
     fn plane(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+        self.places[0] = place;
         let longer = place.size().max_elem() * ui.pixels_per_point();
         self.wanted.plane = if desk.preview.draws_photons() {
             Plane::Photons
@@ -86,6 +111,7 @@ impl Views {
     }
 
     fn shot(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+        self.places[1] = place;
         let mut ui = ui.new_child(UiBuilder::new().id_salt("shot view").max_rect(place));
         self.wanted.shot = Some(shot::size(&ui, place, desk.document.project()));
         self.shot_view(&mut ui, desk, toolbox);

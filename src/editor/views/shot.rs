@@ -21,7 +21,7 @@ const MARGIN: f32 = 14.0;
 const MOST: f32 = 640.0;
 
 /// The picture where it fits the view, with the shape of the frames that are rendered.
-fn fitted(view: Rect, project: &Project) -> Rect {
+pub(super) fn fitted(view: Rect, project: &Project) -> Rect {
     let (width, height) = (project.render.width.max(1) as f32, project.render.height.max(1) as f32);
     let room = (view.size() - vec2(2.0 * MARGIN, 2.0 * MARGIN)).max(vec2(16.0, 16.0));
     let scale = (room.x / width).min(room.y / height);

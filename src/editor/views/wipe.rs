@@ -45,7 +45,7 @@ pub(super) fn handle(ui: &mut Ui, view: Rect, wipe: &mut Wipe) {
 }
 
 /// What something is called that a flow is compared with.
-pub fn name(other: Other) -> &'static str {
+fn name(other: Other) -> &'static str {
     match other {
         Other::Method(Movement::Flow) => "The flow",
         Other::Method(Movement::Stylized) => "Method of 2016",

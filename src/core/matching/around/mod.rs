@@ -18,8 +18,8 @@ use crate::constraint::{Barriers, Detour};
 use crate::{Progress, Result};
 use assignment::Assignment;
 
-/// Most anchors.
-const ANCHORS: usize = 1024;
+/// Most anchors, as a render has them. Their cost grows with the third power.
+pub const ANCHORS: usize = 1024;
 /// Photons that an anchor stands for, at least.
 const PER_ANCHOR: usize = 4;
 /// Neighbours that an anchor looks at.
@@ -72,20 +72,36 @@ impl AroundMap {
     /// # Errors
     /// `Value` when a set is empty or holds a point that is not finite; `Cancelled`.
     pub fn new(source: &[Vec2], target: &[Vec2], detour: &Detour, progress: &Progress) -> Result<Self> {
+        Self::with_anchors(ANCHORS, source, target, detour, progress)
+    }
+
+    /// As [`Self::new`], by no more than `most` anchors, at least 1.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_anchors(
+        most: usize,
+        source: &[Vec2],
+        target: &[Vec2],
+        detour: &Detour,
+        progress: &Progress,
+    ) -> Result<Self> {
         require_points("source", source)?;
         require_points("target", target)?;
         let photons = source.len().min(target.len());
-        let most = (photons / PER_ANCHOR).clamp(1, ANCHORS);
+        let most = (photons / PER_ANCHOR).min(most).max(1);
         let count = if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 };
         let (from, to) = (cells::representatives(source, count), cells::representatives(target, count));
-        let heads: Vec<Heads> = from.par_iter().map(|&a| detour.heads(a)).collect();
-        let tails: Vec<Tails> = to.par_iter().map(|&b| detour.tails(b)).collect();
-        let row = |(heads, a): (&Heads, &Vec2)| -> Vec<f64> {
+        let heads = |&a: &Vec2| progress.check().map(|()| detour.heads(a));
+        let heads = from.par_iter().map(heads).collect::<Result<Vec<Heads>>>()?;
+        let tails = |&b: &Vec2| progress.check().map(|()| detour.tails(b));
+        let tails = to.par_iter().map(tails).collect::<Result<Vec<Tails>>>()?;
+        let row = |(heads, a): (&Heads, &Vec2)| -> Result<Vec<f64>> {
+            progress.check()?;
             let pair = |(tails, b): (&Tails, &Vec2)| cost(detour.between(heads, tails), a.distance(*b));
-            tails.iter().zip(&to).map(pair).collect()
+            Ok(tails.iter().zip(&to).map(pair).collect())
         };
-        let costs: Vec<f64> = heads.par_iter().zip(&from).map(row).collect::<Vec<_>>().concat();
-        progress.check()?;
+        let costs = heads.par_iter().zip(&from).map(row).collect::<Result<Vec<_>>>()?.concat();
         let Assignment { column_of, price } = assignment::assign(&costs, count, progress)?;
         let to: Vec<Vec2> = column_of.iter().map(|&column| to[column]).collect();
         let buckets = Buckets::new(&from);

@@ -1,10 +1,20 @@
 //! How much work a sketch is worth.
 
+use crate::constraint::Constraint;
 use crate::matching::Method;
 use crate::project::Project;
 
 /// Most positions that a sketch keeps, photons times frames: 160 MB.
 const MOST_POSITIONS: usize = 20_000_000;
+
+/// Most photons that go around walls.
+const MOST_WALLED: usize = 60_000;
+/// Relative residual of the solver: what is left shows on no screen.
+const TOLERANCE: f32 = 1e-3;
+
+fn is_wall(constraint: &Constraint) -> bool {
+    constraint.is_enabled() && matches!(constraint, Constraint::Wall(_))
+}
 
 /// How much work a sketch is worth, from an answer at once to one that looks like the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,7 +23,8 @@ pub enum Detail {
     Draft,
     /// What is worked with: 20 000 photons, 64 cells, 30 steps.
     Preview,
-    /// The fields of the preview carry 150 000 photons of their own.
+    /// The fields of the preview carry 150 000 photons of their own; 60 000 where walls stand, around which each finds its
+    /// way.
     Fine,
 }
 
@@ -27,6 +38,14 @@ impl Detail {
             Self::Draft => 4_000,
             Self::Preview => 20_000,
             Self::Fine => 150_000,
+        }
+    }
+
+    /// Most anchors of a map around walls.
+    pub(super) fn anchors(self) -> usize {
+        match self {
+            Self::Draft => 128,
+            Self::Preview | Self::Fine => 512,
         }
     }
 
@@ -45,7 +64,8 @@ impl Detail {
             Method::Given => usize::MAX,
             Method::Transport => usize::try_from(project.render.photons).unwrap_or(usize::MAX),
         };
-        let wanted = self.photons().min(most);
+        let walled = project.fits() && project.constraints.iter().any(is_wall);
+        let wanted = self.photons().min(most).min(if walled { MOST_WALLED } else { usize::MAX });
         let kept = (MOST_POSITIONS / frames.max(1)).clamp(1, wanted);
         let note = (kept < wanted).then(|| {
             format!(
@@ -63,6 +83,7 @@ impl Detail {
         let flow = &mut project.flow;
         flow.grid = flow.grid.at_most(cells);
         flow.steps = flow.steps.min(steps);
+        flow.tolerance = flow.tolerance.max(TOLERANCE);
         flow.guides = u32::try_from(photons).unwrap_or(u32::MAX);
         project
     }

@@ -54,14 +54,11 @@ impl Exposure {
         Some(texture)
     }
 
-    /// The radius of the kernel for the photons of a sketch, plane units: fewer photons are spread wider.
+    /// The radius of the kernel for the photons of a sketch, plane units: that of a render whose photons lie as densely as
+    /// these do where they are. Fewer photons are spread wider. The same at all frames.
     pub fn radius(sketch: &Sketch) -> f32 {
-        radius(sketch.photons(), sketch.extent())
+        default_radius(sketch.photons(), sketch.course.covered).min(WIDEST)
     }
-}
-
-fn radius(photons: usize, extent: Vec2) -> f32 {
-    default_radius(photons, extent.x * extent.y).min(WIDEST)
 }
 
 /// The texture of all sketches on a receiver of `extent`, with a margin for the widest kernel.
@@ -69,12 +66,54 @@ pub(super) fn layout(extent: Vec2, resolution: usize) -> TextureLayout {
     TextureLayout::new(extent, resolution, margin(extent))
 }
 
-/// As wide as the kernel of the coarsest sketch.
+/// As wide as the kernel of the coarsest sketch whose photons lie all over the plane.
 pub(super) fn margin(extent: Vec2) -> f32 {
-    radius(Detail::Draft.photons(), extent)
+    default_radius(Detail::Draft.photons(), extent.x * extent.y).min(WIDEST)
 }
 
-/// Radius of the finest.
+/// Radius of the finest sketch, where its photons cover a twentieth of the plane.
 pub(super) fn finest_radius(extent: Vec2) -> f32 {
-    radius(Detail::Fine.photons(), extent)
+    default_radius(Detail::Fine.photons(), 0.05 * extent.x * extent.y).min(WIDEST)
+}
+
+/// Cells along the longer side in which photons are counted to see how much of the plane they cover.
+const CELLS: usize = 64;
+
+/// The area that photons cover on a plane of `extent`: that of a region on which so many, evenly spread, would have as many
+/// neighbours as these have in the mean. Plane units squared.
+pub(super) fn covered(photons: &[Vec2], extent: Vec2) -> f32 {
+    let [columns, rows] = (extent * CELLS as f32).to_array().map(|side| side.ceil().max(1.0) as usize);
+    let mut counts = vec![0_u32; columns * rows];
+    for p in photons.iter().map(|p| *p * CELLS as f32).filter(|p| p.cmpge(Vec2::ZERO).all()) {
+        let (column, row) = (p.x as usize, p.y as usize);
+        if column < columns && row < rows {
+            counts[row * columns + column] += 1;
+        }
+    }
+    let count: f64 = counts.iter().map(|&n| f64::from(n)).sum();
+    let neighbours: f64 = counts.iter().map(|&n| f64::from(n) * (f64::from(n) - 1.0)).sum();
+    let cell = (CELLS * CELLS) as f64;
+    let area = if neighbours > 0.0 { count * (count - 1.0) / neighbours / cell } else { f64::INFINITY };
+    (area as f32).min(extent.x * extent.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::vec2;
+
+    #[test]
+    fn photons_cover_the_area_on_which_they_lie() {
+        // 256 x 256 points, evenly on a quarter of the plane, and on all of it.
+        let points = |side: f32| -> Vec<Vec2> {
+            let at = |i: usize| side * (i as f32 + 0.5) / 256.0;
+            (0..256 * 256).map(|i| vec2(at(i % 256), at(i / 256))).collect()
+        };
+        for (side, area) in [(0.5, 0.25), (1.0, 1.0)] {
+            let seen = covered(&points(side), Vec2::ONE);
+            // Each point is no neighbour of itself: one part in the 16 to 64 of a cell.
+            assert!((seen / area - 1.0).abs() < 0.07, "{seen} for {area}");
+        }
+        assert_eq!(covered(&[Vec2::ZERO], vec2(1.0, 0.5)), 0.5);
+    }
 }

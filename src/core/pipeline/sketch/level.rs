@@ -41,6 +41,8 @@ pub(super) struct Job<'a> {
     /// The scene and where its lights must shine, where photons are traced.
     pub(super) source: Option<(Arc<Scene>, Arc<Lesson>)>,
     pub(super) count: usize,
+    /// Most anchors of a map around walls.
+    pub(super) anchors: usize,
     pub(super) progress: &'a Progress,
 }
 
@@ -132,7 +134,7 @@ impl Level {
         };
         let light = supplies.light_of(photons.map(|photons| (*photons).clone()), job.count);
         let caustics = supplies.caustics(&light);
-        let mut batch = Batch::start(supplies, light, 0, project, extent);
+        let mut batch = Batch::start(supplies, light, 0, project, extent).with_anchors(job.anchors);
         let (mut stops, mut asked) = (vec![batch.at.clone()], vec![batch.asked()]);
         let segments = project.keys.len() - 1;
         self.matched.resize_with(segments, Stage::default);
@@ -260,7 +262,7 @@ impl Level {
 
 fn new_match(batch: &Batch, progress: &Progress) -> Result<(Matched, Vec<KeyPhotons>)> {
     progress.begin("match", 1);
-    let Paired { maps, partners, next, cost } = match_next(batch, progress)?;
+    let Paired { maps, partners, next, cost } = match_next(batch, false, progress)?;
     Ok((Matched { partners, maps: Arc::new(maps), cost }, next))
 }
 

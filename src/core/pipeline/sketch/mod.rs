@@ -155,6 +155,7 @@ impl Run<'_> {
             supplies: &sized.supplies,
             source: self.source.clone(),
             count: sized.photons,
+            anchors: self.detail.anchors(),
             progress: self.progress,
         }
     }
@@ -209,12 +210,16 @@ impl Run<'_> {
             end += at.positions.len();
             (grouping.name(group).map(str::to_owned), start..end)
         };
+        let stops: Vec<Stop> =
+            walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect();
+        let covered = stops.iter().map(|stop| exposure::covered(&stop.positions, *extent)).sum::<f32>();
         Course {
+            covered: covered / stops.len() as f32,
             detail: self.detail,
             extent: *extent,
             first: self.whole.keys[0].frame,
             moments: slots.frames.iter().map(|&(_, slot)| slots.moments[slot]).collect(),
-            stops: walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect(),
+            stops,
             groups: walk.stops[0].iter().enumerate().map(group).collect(),
             caustics: walk.caustics.clone(),
             left_out: plan.left_out.clone(),

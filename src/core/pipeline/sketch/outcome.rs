@@ -47,6 +47,8 @@ pub(super) struct Course {
     pub(super) groups: Vec<(Option<String>, Range<usize>)>,
     pub(super) caustics: Vec<CausticLight>,
     pub(super) left_out: Vec<LeftOut>,
+    /// Area that the photons cover, plane units squared, as a mean over the keys.
+    pub(super) covered: f32,
     /// Brightness asked for at later keys than the first.
     pub(super) rho: f64,
 }

@@ -9,7 +9,7 @@ use crate::pipeline::seen::Seen;
 use crate::project::Project;
 use crate::render::{
     Image, LookLight, Mark, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, Visible, layout_for,
-    look, marks,
+    look, marks, rough_background,
 };
 use crate::scene::{CameraDesc, Geometry, ReceiverDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
@@ -62,7 +62,7 @@ pub(super) struct Views {
 
 impl Sketcher {
     /// What the project's camera sees in a picture of `size` pixels, with so many light paths and camera samples per
-    /// pixel. Remembered until the scene changes.
+    /// pixel: noisy with few, and ready at once. Remembered until the scene, the size or the samples change.
     ///
     /// # Errors
     /// As a render of the project; cancelled.
@@ -90,8 +90,9 @@ impl Sketcher {
         let radii = (margin(extent), finest_radius(extent));
         let layout = layout_for(scene.as_deref(), extent, &project.render, radii);
         let mut meter = Meter::quick();
+        let plane = (extent, layout);
         let (visible, background) =
-            self.views.seen.look(project, scene.as_ref(), (extent, layout), &mut meter, progress)?;
+            self.views.seen.look(project, scene.as_ref(), plane, rough_background, &mut meter, progress)?;
         Ok(Shot { background, plane: PlaneView::new(scene.as_deref(), extent), visible })
     }
 

@@ -15,7 +15,7 @@ const HANDLE: f32 = 5.0;
 
 impl Overlay<'_> {
     /// A picture between its corners: lower left, lower right, upper right, upper left.
-    pub fn target(&self, texture: TextureId, corners: [Vec2; 4]) {
+    pub(super) fn target(&self, texture: TextureId, corners: [Vec2; 4]) {
         let [origin, right, _, up] = corners;
         let tint = theme::TARGET.gamma_multiply(OPACITY);
         let mut mesh = Mesh::with_texture(texture);

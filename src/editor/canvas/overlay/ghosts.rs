@@ -9,7 +9,7 @@ use crate::editor::tools::Ghost;
 
 impl Overlay<'_> {
     /// Draws what the tool in hand shows.
-    pub fn ghosts(&self, ghosts: &[Ghost]) {
+    pub(super) fn ghosts(&self, ghosts: &[Ghost]) {
         for ghost in ghosts {
             match ghost {
                 Ghost::Line(points) if points.len() > 1 => self.line(points, Manner::DRAWING),

@@ -1,23 +1,33 @@
 //! What was drawn, and what is being drawn, over a view of the plane: the plane view's own or any other.
 
 mod band;
+mod colours;
+mod flow;
 mod frame;
 mod ghosts;
 mod handles;
+mod heat;
 mod line;
 mod wall;
 
-use egui::{Color32, Painter, Pos2, Shape, Stroke};
+pub use heat::legends;
+
+use egui::{Color32, Painter, Pos2, Shape, Stroke, TextureId};
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
+use crate::editor::preview::FlowPicture;
 use crate::editor::session::Session;
+use crate::editor::tools::{Ghost, Look, target_corners};
 
 /// How much is left of the colours of what does not act at this moment.
 const DIM: f32 = 0.38;
 /// Dash and gap of what is switched off, points.
 const DASHES: [f32; 2] = [7.0, 5.0];
+
+/// Time between two pictures while streamlines move.
+const PACE: std::time::Duration = std::time::Duration::from_millis(33);
 
 /// Draws over a view of the plane.
 #[derive(Clone, Copy)]
@@ -59,8 +69,33 @@ impl Manner {
 }
 
 impl Overlay<'_> {
+    /// Everything over the light, in its order: map, grid, target, flow, what was drawn, what the tool in hand shows.
+    pub fn all(&self, look: &Look, target: Option<TextureId>, flow: &FlowPicture, ghosts: &[Ghost]) {
+        let (project, show) = (look.project, &look.session.show);
+        if let Some(map) = &flow.map {
+            self.heat(map, look.extent);
+        }
+        if show.grid {
+            self.grid(project.flow.grid.cells(look.extent), look.extent);
+        }
+        if let Some((texture, corners)) = target.filter(|_| show.target).zip(target_corners(look)) {
+            self.target(texture, corners);
+        }
+        self.flow(flow, self.painter.ctx().input(|input| input.time));
+        if show.drawn {
+            self.drawn(project, look.session, hovered(ghosts));
+        }
+        if let Some(photon) = &flow.followed {
+            self.followed(photon);
+        }
+        self.ghosts(ghosts);
+        if !flow.streamlines.is_empty() {
+            self.painter.ctx().request_repaint_after(PACE);
+        }
+    }
+
     /// Draws all lines and walls; `hovered` is the one under the pointer.
-    pub fn drawn(&self, project: &Project, session: &Session, hovered: Option<usize>) {
+    pub(super) fn drawn(&self, project: &Project, session: &Session, hovered: Option<usize>) {
         let all = || project.constraints.iter().enumerate();
         let manner = |i: usize, constraint: &Constraint| Manner::of(constraint, i, session, hovered);
         for (i, constraint) in all() {
@@ -112,6 +147,13 @@ impl Overlay<'_> {
         let side = |offset: Vec2| Some((self.screen)(at + offset)?.distance((self.screen)(at)?) / STEP);
         Some(0.5 * (side(Vec2::new(STEP, 0.0))? + side(Vec2::new(0.0, STEP))?))
     }
+}
+
+/// The constraint under the pointer, by index.
+pub(super) fn hovered(ghosts: &[Ghost]) -> Option<usize> {
+    ghosts
+        .iter()
+        .find_map(|ghost| if let Ghost::Hover(constraint) = ghost { Some(*constraint) } else { None })
 }
 
 fn plane_points(constraint: &Constraint) -> Vec<Vec2> {

@@ -1,0 +1,319 @@
+//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver answers when it has done something.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::App;
+use super::remember::Noted;
+use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
+use crate::editor::document::Document;
+use crate::editor::pick::{At, Pick};
+use crate::editor::places;
+use crate::editor::store::{Answer, Fingerprint, Folders, Journal, Recovery, Request, Save, Saver};
+use crate::editor::templates::{self, TEMPLATES};
+
+/// The threads that read and write, and what is waited for.
+pub(super) struct Files {
+    saver: Option<Saver>,
+    pub(super) journal: Option<Journal>,
+    /// The question that is open, and what its answer decides.
+    asked: Option<(Question, Asked)>,
+    /// What shall be done once the document is saved.
+    after_save: Option<Leave>,
+    /// The example that is being read.
+    template: Option<PathBuf>,
+    /// Work of earlier runs that is still to be asked for.
+    lost: Vec<Recovery>,
+    /// What was handed to the threads last, and the window's title.
+    pub(super) noted: Noted,
+    pub(super) title: String,
+    closing: bool,
+}
+
+/// What an answer decides.
+enum Asked {
+    Leave(Leave),
+    Recover(Box<Recovery>),
+    Changed(Box<Save>),
+    Nothing,
+}
+
+/// Why the document is left.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Leave {
+    Quit,
+    Open(PathBuf),
+    New(usize),
+}
+
+impl Files {
+    /// Starts the threads and looks for work that a crash left. Without folders the documents can be shown, not saved.
+    pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
+        let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
+        if let Some(saver) = &saver {
+            saver.ask(Request::LookForLost);
+        }
+        let journal = folders.as_ref().map(|folders| Journal::start(folders.recovery()));
+        Self {
+            saver,
+            journal,
+            asked: None,
+            after_save: None,
+            template: None,
+            lost: Vec::new(),
+            noted: Noted::default(),
+            title: String::new(),
+            closing: false,
+        }
+    }
+}
+
+impl Files {
+    /// Asks the saver; false where there is none.
+    pub(super) fn request(&self, request: Request) -> bool {
+        self.saver.as_ref().map(|saver| saver.ask(request)).is_some()
+    }
+}
+
+impl App {
+    /// Takes the answers of the threads, of dialogs and of questions.
+    pub(super) fn receive(&mut self, ctx: &egui::Context) {
+        while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
+            self.answered(ctx, answer);
+        }
+        if let Some((purpose, path)) = self.picker.show(ctx) {
+            self.picked(ctx, purpose, path);
+        }
+        if let Some((question, _)) = &self.files.asked {
+            if let Some(answer) = question.show(ctx) {
+                self.decided(ctx, answer);
+            }
+        } else if let Some(recovery) = self.files.lost.pop() {
+            self.offer(recovery);
+        }
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            self.dropped(ctx, file.path().to_owned());
+        }
+        if ctx.input(|input| input.viewport().close_requested()) && !self.files.closing {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.leave(ctx, Leave::Quit);
+        }
+    }
+
+    fn answered(&mut self, ctx: &egui::Context, answer: Answer) {
+        match answer {
+            Answer::Opened(path, Ok(opened)) => {
+                let template = self.files.template.take().is_some_and(|template| template == path);
+                let document =
+                    Document::opened(opened.file, (!template).then_some((path.clone(), opened.seen)));
+                self.replace(document);
+                if !template {
+                    self.preferences.remember(&path);
+                }
+                if !opened.notes.is_empty() {
+                    self.word = opened.notes.join("; ");
+                }
+            }
+            Answer::Opened(path, Err(error)) => {
+                self.files.template = None;
+                self.tell(format!("'{}' cannot be opened", name(&path)), error.to_string());
+            }
+            Answer::Saved(save, Ok(saved)) => {
+                let from = templates::file_of(&self.document);
+                if from.parent() != save.path.parent() {
+                    self.document.relocate(|project| places::relocated(project, &from, &save.path));
+                }
+                self.document.mark_saved(save.project, save.path.clone(), saved.seen);
+                self.preferences.remember(&save.path);
+                self.word = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
+                if let Some(leave) = self.files.after_save.take() {
+                    self.leave(ctx, leave);
+                }
+            }
+            Answer::Saved(save, Err(error)) => {
+                self.files.after_save = None;
+                self.tell(format!("'{}' was not saved", name(&save.path)), error.to_string());
+            }
+            Answer::ChangedOnDisk(save) => {
+                let question = Question::Changed { title: name(&save.path), unsaved: true };
+                self.files.asked = Some((question, Asked::Changed(Box::new(save))));
+            }
+            Answer::Lost(lost) => self.files.lost = lost,
+            Answer::Failed(why) => self.word = why,
+        }
+    }
+
+    fn decided(&mut self, ctx: &egui::Context, answer: dialogs::Answer) {
+        let Some((_, asked)) = self.files.asked.take() else { return };
+        match (asked, answer) {
+            (Asked::Leave(leave), dialogs::Answer::Yes) => {
+                self.files.after_save = Some(leave);
+                self.save(ctx);
+            }
+            (Asked::Leave(leave), dialogs::Answer::No) => self.go(ctx, leave),
+            (Asked::Recover(recovery), dialogs::Answer::Yes) => self.recover(*recovery),
+            (Asked::Recover(recovery), dialogs::Answer::No) => self.request(Request::Discard(recovery)),
+            (Asked::Changed(save), dialogs::Answer::Yes) => self.request(Request::Open(save.path)),
+            (Asked::Changed(save), dialogs::Answer::No) => {
+                self.request(Request::Save(Save { seen: None, ..*save }));
+            }
+            (_, dialogs::Answer::Cancel) | (Asked::Nothing, _) => self.files.after_save = None,
+        }
+    }
+
+    /// Takes up work that a crash left.
+    fn recover(&mut self, recovery: Recovery) {
+        match &recovery.work {
+            Ok(file) => {
+                let at = recovery.path.clone().zip(recovery.seen);
+                let mut document = Document::opened(file.clone(), at);
+                document.mark_unsaved();
+                self.replace(document);
+                self.files.journal = Some(Journal::resume(recovery));
+            }
+            Err(error) => self.tell("The work cannot be read".into(), error.to_string()),
+        }
+    }
+
+    fn offer(&mut self, recovery: Recovery) {
+        let minutes = recovery.age.as_secs() / 60;
+        let when = match minutes {
+            0 => "less than a minute ago".to_owned(),
+            1..120 => format!("{minutes} minutes ago"),
+            _ => format!("{} hours ago", minutes / 60),
+        };
+        let question = Question::Recover { title: recovery.title.clone(), when };
+        self.files.asked = Some((question, Asked::Recover(Box::new(recovery))));
+    }
+
+    /// Leaves the document, after asking where it holds unsaved work.
+    pub(super) fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
+        if self.document.is_unsaved() {
+            let question = Question::Unsaved { title: self.document.title() };
+            self.files.asked = Some((question, Asked::Leave(leave)));
+        } else {
+            self.go(ctx, leave);
+        }
+    }
+
+    fn go(&mut self, ctx: &egui::Context, leave: Leave) {
+        if let Some(journal) = &self.files.journal {
+            journal.clean();
+        }
+        match leave {
+            Leave::Quit => {
+                self.files.closing = true;
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+            Leave::Open(path) => self.request(Request::Open(path)),
+            Leave::New(template) => {
+                let Some(folder) = templates::folder() else {
+                    let what =
+                        "their folder 'projects' is neither beside the program nor in the current folder";
+                    return self.tell("The examples are not there".into(), what.into());
+                };
+                let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
+                self.files.template = Some(path.clone());
+                self.request(Request::Open(path));
+            }
+        }
+    }
+
+    /// Asks for a project to open.
+    pub(super) fn ask_what_to_open(&mut self, ctx: &egui::Context) {
+        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+        self.picker.ask(PickRequest::new(Purpose::OpenProject).in_folder(folder), ctx);
+    }
+
+    /// Saves to the document's file, or asks for one.
+    pub(super) fn save(&mut self, ctx: &egui::Context) {
+        match self.document.path().map(Path::to_owned) {
+            Some(path) => self.save_to(path, self.document.seen()),
+            None => self.save_as(ctx),
+        }
+    }
+
+    /// Asks for a file to save to.
+    pub(super) fn save_as(&mut self, ctx: &egui::Context) {
+        let folder = self.document.path().and_then(Path::parent).map(Path::to_owned);
+        let name = match self.document.path() {
+            Some(path) => name(path),
+            None => format!("{}.json", self.document.title().to_lowercase().replace([' ', ','], "_")),
+        };
+        self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
+    }
+
+    fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {
+        let from = templates::file_of(&self.document);
+        let project = match from.parent() == path.parent() {
+            true => self.document.project().clone(),
+            false => Arc::new(places::relocated(self.document.project(), &from, &path)),
+        };
+        match self.document.file() {
+            Ok(file) => self.request(Request::Save(Save { path, file, project, seen })),
+            Err(error) => self.tell("The project cannot be saved".into(), error.to_string()),
+        }
+    }
+
+    fn request(&mut self, request: Request) {
+        if !self.files.request(request) {
+            self.word = "no thread could be started for files; nothing is opened or saved".into();
+        }
+    }
+
+    fn picked(&mut self, ctx: &egui::Context, purpose: Purpose, path: PathBuf) {
+        match purpose {
+            Purpose::OpenProject => self.leave(ctx, Leave::Open(path)),
+            Purpose::SaveProject => self.save_to(path, None),
+            Purpose::ExportFolder => self.windows.export.set_folder(path),
+            Purpose::Asset(pick) => self.insert(&pick, &path),
+        }
+    }
+
+    /// Lets the artist pick a file for the project.
+    pub(super) fn pick(&mut self, ctx: &egui::Context, pick: Pick) {
+        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+        self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
+    }
+
+    /// Puts a file into the project. Who picks a file allows that it is read.
+    fn insert(&mut self, pick: &Pick, file: &Path) {
+        let base = templates::file_of(&self.document);
+        let written = places::relative(file, &base);
+        self.external = true;
+        if let Some(edit) = pick.edit(self.document.project(), written) {
+            self.edit(edit);
+            self.document.settle();
+        }
+    }
+
+    /// A file that was dropped on the window: a project is opened, a mesh comes into the scene, a picture or points become
+    /// what the key frame after the playhead shows.
+    fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
+        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let ends = |pick: &Pick| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
+        let keys = &self.document.project().keys;
+        let after = keys.iter().position(|key| key.frame >= self.session.playhead);
+        let at = At { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
+        if ending.as_deref() == Some("json") {
+            return self.leave(ctx, Leave::Open(file));
+        }
+        match [Pick::Mesh, Pick::Picture(at.clone()), Pick::Points(at)].iter().find(|pick| ends(pick)) {
+            Some(pick) => self.insert(pick, &file),
+            None => self.word = format!("'{}' is no project, mesh, picture or file of points", name(&file)),
+        }
+    }
+
+    /// Says something that must be read.
+    pub(super) fn tell(&mut self, title: String, text: String) {
+        self.files.asked = Some((Question::Message { title, text }, Asked::Nothing));
+    }
+}
+
+/// The name of a file without its folder.
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

@@ -1,0 +1,65 @@
+//! Keeps what must not be lost: each change in the journal, the preferences in their file.
+
+use std::sync::Arc;
+
+use eframe::egui;
+use lightloom_core::project::Project;
+
+use super::App;
+use crate::editor::preferences;
+use crate::editor::store::{Note, Preferences, Request};
+
+/// What was handed to the threads last.
+#[derive(Default)]
+pub(super) struct Noted {
+    project: Option<Arc<Project>>,
+    preferences: Option<Preferences>,
+}
+
+impl App {
+    /// Notes what changed since the last frame of the window. Costs pointers.
+    pub(super) fn remember(&mut self, ctx: &egui::Context) {
+        self.note_project();
+        let noted = &mut self.files.noted;
+        if noted.preferences.as_ref() != Some(&self.preferences) {
+            let first = noted.preferences.replace(self.preferences.clone()).is_none();
+            preferences::apply(ctx, &self.preferences);
+            self.recents.ask(self.preferences.recent.clone());
+            if !first {
+                self.files.request(Request::Remember(Box::new(self.preferences.clone())));
+            }
+        }
+        let title = format!(
+            "{}{} – Lightloom",
+            if self.document.is_unsaved() { "● " } else { "" },
+            self.document.title()
+        );
+        if self.files.title != title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.files.title = title;
+        }
+    }
+
+    fn note_project(&mut self) {
+        let project = self.document.project().clone();
+        if self.files.noted.project.as_ref().is_some_and(|noted| Arc::ptr_eq(noted, &project)) {
+            return;
+        }
+        let first = self.files.noted.project.replace(project.clone()).is_none();
+        let Ok(file) = self.document.file() else { return };
+        let Some(journal) = &self.files.journal else { return };
+        if !self.document.is_unsaved() {
+            if !first {
+                journal.clean();
+            }
+            return;
+        }
+        journal.note(Note {
+            path: self.document.path().map(ToOwned::to_owned),
+            title: self.document.title(),
+            file,
+            project,
+            seen: self.document.seen(),
+        });
+    }
+}

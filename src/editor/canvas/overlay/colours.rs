@@ -1,0 +1,37 @@
+//! Colours for numbers.
+
+use egui::Color32;
+
+/// Opacity of the greatest values of a map.
+const OPAQUE: f32 = 0.82;
+/// Below and above nothing, and where the sign has no meaning.
+const SIGNED: [Color32; 2] = [Color32::from_rgb(46, 130, 255), Color32::from_rgb(255, 72, 52)];
+const UNSIGNED: Color32 = Color32::from_rgb(30, 200, 120);
+/// From rest to the greatest speed.
+const SPEEDS: [Color32; 4] = [
+    Color32::from_rgb(72, 92, 190),
+    Color32::from_rgb(40, 170, 200),
+    Color32::from_rgb(120, 225, 140),
+    Color32::from_rgb(252, 240, 120),
+];
+
+/// The colour of a speed, 0..=1 of the greatest.
+pub(super) fn speed(share: f32) -> Color32 {
+    let at = share.clamp(0.0, 1.0) * (SPEEDS.len() - 1) as f32;
+    let from = (at as usize).min(SPEEDS.len() - 2);
+    SPEEDS[from].lerp_to_gamma(SPEEDS[from + 1], at - from as f32)
+}
+
+/// The colour of a value that has a sign, -1..=1 of the greatest: clear at 0.
+pub(super) fn signed(share: f32) -> Color32 {
+    SIGNED[usize::from(share > 0.0)].gamma_multiply(cover(share))
+}
+
+/// The colour of a size, 0..=1 of the greatest: clear at 0.
+pub(super) fn unsigned(share: f32) -> Color32 {
+    UNSIGNED.gamma_multiply(cover(share))
+}
+
+fn cover(share: f32) -> f32 {
+    OPAQUE * share.abs().min(1.0).powf(0.8)
+}

@@ -1,0 +1,160 @@
+//! The worker that looks at the field at the playhead: what arrows, streamlines, maps and trails are drawn from.
+
+mod followed;
+mod sample;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glam::Vec2;
+use lightloom_core::pipeline::Sketch;
+use lightloom_core::project::Project;
+
+use super::worker::{Turn, Worker};
+use crate::editor::session::{FieldMap, Session, Shown};
+use followed::Roads;
+
+/// What is seen of the flow at one frame. Places are plane coordinates, velocities plane units per segment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlowPicture {
+    /// Places on a lattice, with the velocities there.
+    pub arrows: Vec<(Vec2, Vec2)>,
+    /// The speed that gets the full colour: but one in twenty places of the lattice are slower.
+    pub fast: f32,
+    /// Ways through the field as it stands, at equal steps of time.
+    pub streamlines: Vec<Vec<Vec2>>,
+    /// The map that is shown.
+    pub map: Option<HeatMap>,
+    /// The ways of some photons over all frames.
+    pub trails: Vec<Vec<Vec2>>,
+    /// The photon that is followed.
+    pub followed: Option<Followed>,
+}
+
+/// A quantity of the field on a lattice that covers the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatMap {
+    /// Which quantity.
+    pub of: FieldMap,
+    /// Cells along x and y; there is one node more each way.
+    pub cells: [usize; 2],
+    /// Values at the nodes, row by row from y 0.
+    pub values: Vec<f32>,
+    /// The size that gets the full colour: but one in a hundred values are smaller.
+    pub most: f32,
+}
+
+/// A photon that is followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// Its way over all frames that are worked out.
+    pub way: Vec<Vec2>,
+    /// Where it is now.
+    pub at: Vec2,
+    /// Where it is bound for at the next key.
+    pub target: Vec2,
+    /// The shortest way there around the walls that stand now; straight where none is in between, empty where none leads
+    /// there.
+    pub detour: Vec<Vec2>,
+}
+
+/// What is asked for.
+#[derive(Clone)]
+struct Request {
+    sketch: Arc<Sketch>,
+    project: Arc<Project>,
+    frame: i32,
+    show: Shown,
+    /// The caustic whose own field is shown, if it has one.
+    caustic: Option<usize>,
+    probe: Option<usize>,
+    /// Arrows along the plane's longer side.
+    arrows: usize,
+}
+
+impl PartialEq for Request {
+    fn eq(&self, other: &Self) -> bool {
+        let rest = |r: &Self| (r.frame, r.show, r.caustic, r.probe, r.arrows);
+        Arc::ptr_eq(&self.sketch, &other.sketch)
+            && Arc::ptr_eq(&self.project, &other.project)
+            && rest(self) == rest(other)
+    }
+}
+
+/// Looks at the newest field.
+pub(super) struct FlowViewer {
+    worker: Worker<Request>,
+    asked: Option<Request>,
+    found: Arc<Mutex<Arc<FlowPicture>>>,
+}
+
+impl FlowViewer {
+    /// `wake` is called whenever there is something new to see.
+    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+        let found: Arc<Mutex<Arc<FlowPicture>>> = Arc::default();
+        let theirs = found.clone();
+        let seen = wake.clone();
+        let worker = Worker::new("flow view", wake, move || {
+            let (found, seen) = (theirs.clone(), seen.clone());
+            let mut roads = Roads::default();
+            move |request: Request, turn: &Turn| {
+                let publish = |picture: &FlowPicture| {
+                    *found.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(picture.clone());
+                    seen();
+                };
+                answer(&request, turn, &mut roads, &publish);
+            }
+        });
+        Self { worker, asked: None, found }
+    }
+
+    /// Looks at a sketch as the session wants it, unless nothing is wanted or that is what was asked for last.
+    pub(super) fn follow(&mut self, sketch: Option<&Arc<Sketch>>, project: &Arc<Project>, session: &Session) {
+        let show = session.show;
+        let wanted = show.arrows || show.streamlines || show.trails || show.map.is_some();
+        let request = sketch.filter(|_| wanted || session.probe.is_some()).map(|sketch| Request {
+            sketch: sketch.clone(),
+            project: project.clone(),
+            frame: session.playhead,
+            show: Shown { drawn: false, target: false, grid: false, ..show },
+            caustic: session.focus.caustic,
+            probe: session.probe,
+            arrows: sample::lattice(session.plane.zoom),
+        });
+        if request == self.asked {
+            return;
+        }
+        match &request {
+            Some(request) => self.worker.ask(request.clone()),
+            None => *self.found.lock().unwrap_or_else(PoisonError::into_inner) = Arc::default(),
+        }
+        self.asked = request;
+    }
+
+    /// What was seen last; empty where nothing is wanted.
+    pub(super) fn found(&self) -> Arc<FlowPicture> {
+        if self.asked.is_none() {
+            return Arc::default();
+        }
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// What a panic said, once.
+    pub(super) fn panicked(&self) -> Option<String> {
+        self.worker.panicked()
+    }
+}
+
+fn answer(request: &Request, turn: &Turn, roads: &mut Roads, publish: &dyn Fn(&FlowPicture)) {
+    let mut picture = turn.shielded(|_| sample::quickly(request));
+    publish(&picture);
+    // Around walls these take their time.
+    let map = request.show.map.filter(|map| *map == FieldMap::Residual);
+    let map = map.and_then(|_| sample::residual(request, &turn.progress));
+    let followed = request.probe.and_then(|row| roads.follow(request, row, &turn.progress));
+    if turn.progress.is_cancelled() || (map.is_none() && followed.is_none()) {
+        return;
+    }
+    picture.map = map.or(picture.map);
+    picture.followed = followed;
+    publish(&picture);
+}
