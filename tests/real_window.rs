@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use egui::accesskit::Role;
 use egui::Rect;
+use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;

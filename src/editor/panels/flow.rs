@@ -4,7 +4,7 @@ use egui::Ui;
 use lightloom_core::flow::{FitKind, FlowSettings, GridSize, Movement};
 use lightloom_core::matching::Method;
 
-use super::setting::{Choice, Setting, format_number};
+use super::setting::{Choice, Setting, ends, format_number};
 use super::{Desk, fade, fold, pictures, presets, turbulence};
 use crate::editor::document::Edit;
 
@@ -86,7 +86,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     presets::show(ui, &mut flow);
     ui.add_space(4.0);
     GAMMA.number(ui, &mut flow.gamma);
-    GAMMA.ends(ui, "liquid", "gradient");
+    ends(ui, "liquid", "gradient");
     ALPHA.number(ui, &mut flow.alpha);
     smoothing(ui, desk, &flow);
     BETA.number(ui, &mut flow.beta);

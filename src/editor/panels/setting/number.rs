@@ -31,20 +31,6 @@ impl Setting {
         before != *value
     }
 
-    /// What the ends of the slider above stand for.
-    pub fn ends(&self, ui: &mut Ui, low: &str, high: &str) {
-        ui.horizontal(|ui| {
-            let left = super::NAMES + 4.0;
-            let width = ui.available_width() - left - FIELD - 4.0;
-            let (rect, _) = ui.allocate_exact_size(egui::vec2(left + width, 12.0), egui::Sense::hover());
-            let font = egui::TextStyle::Small.resolve(ui.style());
-            let colour = ui.visuals().weak_text_color();
-            let slider = rect.with_min_x(rect.left() + left);
-            ui.painter().text(slider.left_top(), egui::Align2::LEFT_TOP, low, font.clone(), colour);
-            ui.painter().text(slider.right_top(), egui::Align2::RIGHT_TOP, high, font, colour);
-        });
-    }
-
     /// A number that may be absent: a switch beside it, called `absent`. Switched on it begins at `first`.
     pub fn optional<T: Numeric>(&self, ui: &mut Ui, value: &mut Option<T>, absent: &str, first: f64) -> bool {
         let before = *value;
@@ -155,6 +141,20 @@ impl Setting {
         let response = ui.add_sized(size, field).accessible_name(name);
         self.explain(response)
     }
+}
+
+/// What the ends of the slider above stand for.
+pub(in crate::editor::panels) fn ends(ui: &mut Ui, low: &str, high: &str) {
+    ui.horizontal(|ui| {
+        let left = super::NAMES + 4.0;
+        let width = ui.available_width() - left - FIELD - 4.0;
+        let (rect, _) = ui.allocate_exact_size(egui::vec2(left + width, 12.0), egui::Sense::hover());
+        let font = egui::TextStyle::Small.resolve(ui.style());
+        let colour = ui.visuals().weak_text_color();
+        let slider = rect.with_min_x(rect.left() + left);
+        ui.painter().text(slider.left_top(), egui::Align2::LEFT_TOP, low, font.clone(), colour);
+        ui.painter().text(slider.right_top(), egui::Align2::RIGHT_TOP, high, font, colour);
+    });
 }
 
 /// Where a slider by factors begins that reaches down to 0.
