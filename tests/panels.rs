@@ -243,8 +243,10 @@ fn pictures_of_every_panel() {
             }
         }
     }
-    let mut bench = bench(desk::example("letters_free"), Panel::Flow);
-    for name in ["Gamma", "Alpha", "Beta"] {
+    let mut bench = bench(desk::example("rabbit_fine"), Panel::Flow);
+    // Tooltips want more room than the panel.
+    bench.set_size(egui::vec2(480.0, 640.0));
+    for name in ["Gamma", "Alpha", "Beta", "Strength"] {
         bench.get_by_role_and_label(Role::Label, name).hover();
         bench.run_steps(8);
         bench.render().unwrap().save(folder.join(format!("tooltip_{}.png", name.to_lowercase()))).unwrap();

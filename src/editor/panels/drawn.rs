@@ -35,9 +35,12 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
         return;
     }
     tools(ui, desk, constraints);
-    for (i, constraint) in constraints.iter().enumerate() {
-        row::show(ui, desk, constraint, i);
-    }
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
+        for (i, constraint) in constraints.iter().enumerate() {
+            row::show(ui, desk, constraint, i);
+        }
+    });
     let chosen: Vec<usize> =
         desk.session.selection.constraints().filter(|index| *index < constraints.len()).collect();
     match chosen[..] {

@@ -23,7 +23,8 @@ pub(super) fn aside(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.add_space(setting::NAMES + 4.0);
-        ui.small(words);
+        // Never wider than the panel: all that follows would be, too.
+        ui.add(egui::Label::new(egui::RichText::new(words).small()).truncate());
     });
 }
 

@@ -20,7 +20,6 @@ const SIGN: f32 = 26.0;
 
 /// One constraint in the list.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize) {
-    ui.spacing_mut().item_spacing.y = 1.0;
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click());
     let selected = desk.session.selection.contains(index);
     let name = title(constraint, index);

@@ -89,7 +89,7 @@ impl Setting {
         ui.spacing_mut().button_padding.x = 2.0;
         let mut picked = None;
         for (i, choice) in self.options.iter().enumerate() {
-            let button = Button::selectable(i == now, choice.name).frame(true).truncate();
+            let button = Button::selectable(i == now, choice.name).frame_when_inactive(true).truncate();
             let response = ui.add_sized(size, button);
             let response = response.accessible_name(format!("{}: {}", self.spoken(), choice.name));
             if self.explain(response).clicked() {
