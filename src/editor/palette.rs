@@ -8,8 +8,7 @@ use egui::{
 
 use super::action::Action;
 use super::command::COMMANDS;
-use super::panels::Desk;
-use super::session::Panel;
+use super::panels::{Desk, PANELS};
 use super::templates::TEMPLATES;
 use super::{menu, shortcuts};
 
@@ -40,15 +39,6 @@ pub struct Palette {
     at: usize,
 }
 
-/// The panels with their names.
-const PANELS: [(Panel, &str); 5] = [
-    (Panel::Flow, "Flow"),
-    (Panel::Drawn, "Drawn"),
-    (Panel::Caustics, "Caustics"),
-    (Panel::Scene, "Scene"),
-    (Panel::Render, "Render"),
-];
-
 /// All that can be asked for: commands, tools, panels, examples, and `presets` by name.
 pub fn items(desk: &Desk, tools: &[(&'static str, Key)], presets: &[(String, Action)]) -> Vec<Item> {
     let item = |name: String, kind, key, action| Item { name, kind, key, action, enabled: true };
@@ -62,7 +52,7 @@ pub fn items(desk: &Desk, tools: &[(&'static str, Key)], presets: &[(String, Act
         item((*name).into(), "Tool", Some(key), Action::Tool(index))
     });
     let panels =
-        PANELS.iter().map(|(panel, name)| item((*name).into(), "Panel", None, Action::Panel(*panel)));
+        PANELS.iter().map(|entry| item(entry.name.into(), "Panel", None, Action::Panel(entry.panel)));
     let presets = presets.iter().map(|(name, action)| item(name.clone(), "Preset", None, action.clone()));
     let examples = TEMPLATES.iter().enumerate();
     let examples = examples.map(|(index, t)| item(t.name.into(), "Example", None, Action::New(index)));
