@@ -324,6 +324,7 @@ fn wall(x: f32) -> Constraint {
         thickness: 0.02,
         span: None,
         enabled: true,
+        locked: false,
     })
 }
 

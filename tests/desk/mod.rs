@@ -12,23 +12,23 @@ use lightloom::editor::{theme, timeline};
 use lightloom_core::project::Project;
 
 /// What the parts of the window see, and what they asked for.
-pub struct Table {
-    pub document: Document,
-    pub session: Session,
-    pub preview: Preview,
+pub(crate) struct Table {
+    pub(crate) document: Document,
+    pub(crate) session: Session,
+    pub(crate) preview: Preview,
     /// All that was asked for, in order.
-    pub asked: Vec<Action>,
+    pub(crate) asked: Vec<Action>,
     themed: bool,
 }
 
 impl Table {
     /// The project of this text, not saved yet.
-    pub fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         let project = Project::parse(text.as_bytes(), Path::new("test.json")).unwrap();
         Self::new(Document::new(project, None))
     }
 
-    pub fn new(document: Document) -> Self {
+    pub(crate) fn new(document: Document) -> Self {
         Self {
             document,
             session: Session::default(),
@@ -39,7 +39,7 @@ impl Table {
     }
 
     /// One frame: shows a part, then carries out what it asked for.
-    pub fn frame<R>(&mut self, ctx: &egui::Context, show: impl FnOnce(&mut Desk) -> R) -> R {
+    pub(crate) fn frame<R>(&mut self, ctx: &egui::Context, show: impl FnOnce(&mut Desk) -> R) -> R {
         if !std::mem::replace(&mut self.themed, true) {
             theme::apply(ctx);
         }
@@ -82,7 +82,7 @@ impl Table {
     }
 
     /// Frames of the keys.
-    pub fn keys(&self) -> Vec<i32> {
+    pub(crate) fn keys(&self) -> Vec<i32> {
         self.document.project().keys.iter().map(|key| key.frame).collect()
     }
 }

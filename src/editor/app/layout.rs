@@ -36,6 +36,7 @@ impl App {
         });
         let height = Timeline::height(desk);
         let timeline = Panel::bottom("timeline").resizable(true).default_size(height).min_size(110.0);
+        self.timeline.external = self.external;
         let play = timeline.show(ui, |ui| self.timeline.show(ui, desk)).inner;
         let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2));
         let tools = Panel::left("tools").exact_size(bar::WIDTH).resizable(false).frame(frame);

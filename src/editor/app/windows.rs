@@ -38,6 +38,7 @@ impl App {
         let mut desk =
             Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
         let windows = &mut self.windows;
+        windows.export.external = self.external;
         windows.export.show(ctx, &mut desk, &mut self.exports, &mut self.picker);
         let flow = &desk.document.project().flow;
         let presets = || -> Vec<_> {

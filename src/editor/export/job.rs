@@ -74,6 +74,17 @@ pub struct Cost {
     pub scratch_mib: f64,
 }
 
+/// A frame as it stands.
+#[derive(Clone, Debug)]
+pub struct Growing {
+    /// Its number.
+    pub frame: i32,
+    /// The passes that are in it.
+    pub passes: usize,
+    /// Screen values, at most 480 pixels on the longer side.
+    pub image: Arc<Image>,
+}
+
 /// An export, as the window sees it.
 pub struct Job {
     order: Order,
@@ -88,8 +99,7 @@ struct State {
     cost: Option<Cost>,
     passes: usize,
     files: usize,
-    /// The newest picture, with the number of passes it shows.
-    picture: Option<(usize, Arc<Image>)>,
+    picture: Option<Growing>,
 }
 
 impl Job {
@@ -129,8 +139,8 @@ impl Job {
         self.state().files
     }
 
-    /// The frame that is looked at as it stands, in screen values, and the passes it has.
-    pub fn picture(&self) -> Option<(usize, Arc<Image>)> {
+    /// The frame that is looked at, as it stood after the last pass.
+    pub fn picture(&self) -> Option<Growing> {
         self.state().picture.clone()
     }
 
@@ -177,7 +187,7 @@ impl Job {
         }
     }
 
-    /// Shows another frame after the next pass.
+    /// Looks at another frame from the next pass on; one that is not rendered changes nothing.
     pub fn show(&self, frame: i32) {
         self.shown.store(frame, Relaxed);
     }
@@ -250,11 +260,12 @@ impl Onlooker for Job {
 
     fn passed(&self, passes: usize, picture: &dyn Fn(i32) -> Result<Option<Image>>) {
         // A picture that cannot be made now is no reason to break off; what is wrong shows when frames are written.
-        let seen = picture(self.shown.load(Relaxed)).ok().flatten().map(small);
+        let frame = self.shown.load(Relaxed);
+        let seen = picture(frame).ok().flatten().map(small);
         let mut state = self.state();
         state.passes = passes;
         if let Some(image) = seen {
-            state.picture = Some((passes, Arc::new(image)));
+            state.picture = Some(Growing { frame, passes, image: Arc::new(image) });
         }
     }
 }

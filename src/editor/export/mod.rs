@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
-pub use job::{Cost, Job, Order, Outcome, Stage};
+pub use job::{Cost, Growing, Job, Order, Outcome, Stage};
 pub use strip::strip;
 pub use window::ExportWindow;
 pub use wish::Wish;

@@ -57,7 +57,9 @@ pub(super) fn words(job: &Job) -> String {
         Stage::Running if job.is_paused() => format!("Paused{}", passes(job)),
         Stage::Running => {
             let seen = job.progress();
-            format!("{}{}, {} left", stage(seen.stage), passes(job), time(seen.remaining))
+            let written =
+                if seen.stage == Some("write") { format!(", {} files", job.files()) } else { passes(job) };
+            format!("{}{written}, {} left", stage(seen.stage), time(seen.remaining))
         }
         Stage::Done(outcome) => {
             let bad = if outcome.bad { "; some values had to be replaced, see summary.json" } else { "" };

@@ -13,7 +13,7 @@ use lightloom_core::project::Project;
 use lightloom_core::render::Image;
 
 use super::strip::{colour, controls, words};
-use super::{Exports, Job, Order, Wish};
+use super::{Exports, Growing, Job, Order, Wish};
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
 use crate::editor::panels::Desk;
 use crate::editor::{playback, templates, theme};
@@ -25,19 +25,21 @@ const LEFT: f32 = 350.0;
 pub struct ExportWindow {
     /// Whether it is seen.
     pub open: bool,
+    /// Whether the project may read files from anywhere, not only from its own folder.
+    pub external: bool,
     /// What was set here; none of what the project says itself.
     wish: Option<Wish>,
     /// What the project said itself when it was last looked at, and its file.
     own: Option<(Wish, Option<PathBuf>)>,
     /// Minutes of the time limit, and whether there is one.
     limit: (f64, bool),
-    /// The growing picture: of which job, with how many passes.
-    picture: Option<(usize, usize, TextureHandle)>,
+    /// The growing picture: of which job, which frame, with how many passes.
+    picture: Option<([usize; 2], i32, TextureHandle)>,
 }
 
 impl Default for ExportWindow {
     fn default() -> Self {
-        Self { open: false, wish: None, own: None, limit: (10.0, false), picture: None }
+        Self { open: false, external: false, wish: None, own: None, limit: (10.0, false), picture: None }
     }
 }
 
@@ -71,7 +73,7 @@ impl ExportWindow {
                 ui.separator();
                 ui.vertical(|ui| {
                     ui.set_min_width(380.0);
-                    self.jobs(ui, exports);
+                    self.jobs(ui, desk, exports);
                 });
             });
         });
@@ -209,17 +211,17 @@ impl ExportWindow {
             exports.add(Order {
                 project: Arc::new(project.clone()),
                 file: templates::file_of(desk.document),
-                external: false,
+                external: self.external,
                 folder: wish.folder.clone(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
                 shown: shown.or(frames.get(frames.len() / 2).copied()).unwrap_or_default(),
             });
         }
         ui.add_space(10.0);
-        command_line(ui, desk, project, wish);
+        command_line(ui, desk, project, wish, self.external);
     }
 
-    fn jobs(&mut self, ui: &mut Ui, exports: &mut Exports) {
+    fn jobs(&mut self, ui: &mut Ui, desk: &Desk, exports: &mut Exports) {
         let jobs = exports.jobs().to_vec();
         if jobs.is_empty() {
             ui.weak("Exports run beside your work, from the project as it is when they begin. Each pass makes all frames better, so that you can stop at any time.");
@@ -237,6 +239,7 @@ impl ExportWindow {
             });
         });
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
+        jobs[active].show(desk.session.playhead);
         ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
             for (index, job) in jobs.iter().enumerate().rev() {
                 ui.push_id(index, |ui| {
@@ -252,16 +255,19 @@ impl ExportWindow {
 
     /// The picture of a job as it stands.
     fn picture(&mut self, ui: &mut Ui, index: usize, job: &Job) {
-        let Some((passes, image)) = job.picture() else { return };
-        let known = matches!(&self.picture, Some((of, at, _)) if (*of, *at) == (index, passes));
-        if !known {
+        let Some(Growing { frame, passes, image }) = job.picture() else { return };
+        let now = [index, passes];
+        if !matches!(&self.picture, Some((of, shown, _)) if *of == now && *shown == frame) {
             let texture = ui.ctx().load_texture("export", on_screen(&image), TextureOptions::LINEAR);
-            self.picture = Some((index, passes, texture));
+            self.picture = Some((now, frame, texture));
         }
-        if let Some((_, _, texture)) = &self.picture {
+        if let Some((.., texture)) = &self.picture {
+            let passes = if passes == 1 { "1 pass".into() } else { format!("{passes} passes") };
+            let label = format!("Frame {frame} after {passes}");
             let shown = egui::Image::new(texture).max_size(vec2(376.0, 230.0)).corner_radius(3.0);
-            let label = format!("A frame of the export after {passes} passes");
-            ui.add(shown.alt_text(&label)).on_hover_text(label);
+            let tip = format!("{label}. The frame under the playhead is shown after the next pass.");
+            ui.add(shown.alt_text(&label)).on_hover_text(tip);
+            ui.label(RichText::new(label).small().weak());
         }
     }
 }
@@ -298,13 +304,16 @@ fn formats(ui: &mut Ui, chosen: &mut Vec<FrameFormat>) {
     }
 }
 
-fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish) {
+fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish, external: bool) {
     ui.label("The same from the command line");
     let Some(file) = desk.document.path() else {
         ui.weak("Once the project is saved, its command line stands here.");
         return;
     };
-    let line = wish.command_line(project, file);
+    let mut line = wish.command_line(project, file);
+    if external {
+        line += " --allow-external";
+    }
     let mut text = line.as_str();
     let field = TextEdit::multiline(&mut text).font(egui::TextStyle::Monospace).desired_rows(3);
     ui.add(field.desired_width(LEFT - 8.0)).accessible_name("Command line");

@@ -84,7 +84,13 @@ impl Timeline {
         {
             desk.ask(edit);
         }
-        let thumbnail = self.thumbnails.of(ui.ctx(), &key.shows, &templates::file_of(desk.document), extent);
+        let thumbnail = self.thumbnails.of(
+            ui.ctx(),
+            &key.shows,
+            &templates::file_of(desk.document),
+            self.external,
+            extent,
+        );
         let chosen = desk.session.focus.key == Some(index);
         let look = Look { x, size, chosen, hot: response.hovered() || response.dragged() };
         paint(ui, lane, &look, &thumbnail);

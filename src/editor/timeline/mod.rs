@@ -15,13 +15,12 @@ mod transport;
 use egui::{Align2, FontId, PointerButton, Rect, Ui, pos2};
 
 pub use commands::carry_out;
-pub use moves::{add_key, remove_key};
-pub use thumbnails::{Thumbnail, Thumbnails};
 
 use super::panels::Desk;
 use super::playback;
 use drag::Dragging;
 use scale::{Scale, Seen};
+use thumbnails::Thumbnails;
 
 /// Width of the names at the left, points.
 const GUTTER: f32 = 84.0;
@@ -32,6 +31,8 @@ pub struct Timeline {
     /// The part of the time axis that is seen; none for all frames.
     seen: Option<Seen>,
     drag: Dragging,
+    /// Whether the pictures of the keys may stand anywhere, not only in the project's folder.
+    pub external: bool,
     thumbnails: Thumbnails,
 }
 
@@ -61,11 +62,6 @@ impl Timeline {
         ruler::playhead(ui, over, &scale, desk.session.playhead);
         self.navigate(ui, ruler.union(keys), &scale, desk);
         play
-    }
-
-    /// The key frames' pictures, for other lists that show them.
-    pub fn thumbnails(&mut self) -> &mut Thumbnails {
-        &mut self.thumbnails
     }
 
     /// Height at which all bars are seen with as many lanes as the document has, points.

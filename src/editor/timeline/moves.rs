@@ -20,7 +20,7 @@ pub(super) fn retime(keys: &[KeyFrame], index: usize, frame: i32) -> Option<Edit
 }
 
 /// A new key at `frame` that shows what the key before it shows; none where a key stands there.
-pub fn add_key(project: &Project, frame: i32) -> Option<Edit> {
+pub(super) fn add_key(project: &Project, frame: i32) -> Option<Edit> {
     let keys = &project.keys;
     let after = keys.partition_point(|key| key.frame < frame);
     let taken = keys.get(after).is_some_and(|key| key.frame == frame);
@@ -49,7 +49,7 @@ pub(super) fn duplicate(project: &Project, index: usize) -> Option<Edit> {
 }
 
 /// The keys without one of them; none where it is the only one.
-pub fn remove_key(project: &Project, index: usize) -> Option<Edit> {
+pub(super) fn remove_key(project: &Project, index: usize) -> Option<Edit> {
     let keys = &project.keys;
     (keys.len() > 1 && index < keys.len()).then(|| {
         let mut keys = keys.clone();

@@ -19,7 +19,7 @@ const SIDE: f32 = 96.0;
 const POINTS: usize = 60_000;
 
 /// The pictures that were made so far, and the thread that makes more.
-pub struct Thumbnails {
+pub(super) struct Thumbnails {
     made: Vec<(Request, Made)>,
     /// The thread ends when the sender is gone.
     orders: Option<Sender<Request>>,
@@ -32,6 +32,7 @@ struct Request {
     shows: Shows,
     /// The project file, whose folder the target's path is relative to.
     project: PathBuf,
+    external: bool,
     extent: Vec2,
 }
 
@@ -43,7 +44,7 @@ enum Made {
 
 /// What is there to show of a key.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Thumbnail {
+pub(super) enum Thumbnail {
     /// The physical caustic, which has no picture but a sign.
     Physical,
     /// Its picture.
@@ -72,14 +73,23 @@ impl Default for Thumbnails {
 }
 
 impl Thumbnails {
-    /// What is there of a key that shows `shows` in the project file `project` on a plane of `extent`.
-    pub fn of(&mut self, ctx: &Context, shows: &Shows, project: &Path, extent: Vec2) -> Thumbnail {
+    /// What is there of a key that shows `shows` in the project file `project`, which may read files from anywhere where
+    /// it is `external`, on a plane of `extent`.
+    pub(super) fn of(
+        &mut self,
+        ctx: &Context,
+        shows: &Shows,
+        project: &Path,
+        external: bool,
+        extent: Vec2,
+    ) -> Thumbnail {
         if *shows == Shows::PhysicalCaustic {
             return Thumbnail::Physical;
         }
         self.collect(ctx);
         let same = |request: &Request| {
-            request.shows == *shows && request.project == project && request.extent == extent
+            let place = request.project == project && request.external == external;
+            request.shows == *shows && request.extent == extent && place
         };
         match self.made.iter().find(|(request, _)| same(request)) {
             Some((_, Made::Picture(texture))) => Thumbnail::Picture(texture.id()),
@@ -89,16 +99,11 @@ impl Thumbnails {
                 Thumbnail::Waiting
             }
             None => {
-                self.order(Request { shows: shows.clone(), project: project.to_owned(), extent });
+                self.order(Request { shows: shows.clone(), project: project.to_owned(), external, extent });
                 ctx.request_repaint_after_secs(0.1);
                 Thumbnail::Waiting
             }
         }
-    }
-
-    /// Forgets all pictures: files may have changed.
-    pub fn forget(&mut self) {
-        self.made.clear();
     }
 
     fn order(&mut self, request: Request) {
@@ -121,7 +126,7 @@ impl Thumbnails {
 }
 
 fn picture(request: &Request) -> Result<ColorImage> {
-    let assets = AssetFolder::new(&request.project, false)?;
+    let assets = AssetFolder::new(&request.project, request.external)?;
     let points = match &request.shows {
         Shows::PhysicalCaustic => Points::default(),
         Shows::Image(image) => {
