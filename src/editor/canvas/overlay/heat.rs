@@ -60,7 +60,7 @@ pub fn legends(painter: &Painter, flow: &FlowPicture) {
         });
         corner.y -= BOX[1] + 6.0;
     }
-    if flow.fast > 0.0 {
+    if flow.fast > 0.0 && !flow.arrows.is_empty() {
         legend(painter, corner, "Speed, plane units per segment", [0.0, flow.fast], colours::speed);
     }
 }
