@@ -19,6 +19,7 @@ use egui::{Button, ScrollArea, Ui};
 use glam::Vec2;
 use lightloom_core::project::Project;
 
+pub(crate) use drawn::title;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
 pub use setting::Setting;
