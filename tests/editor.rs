@@ -10,9 +10,11 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::App;
+use lightloom::editor::action::Action;
 use lightloom::editor::dialogs::PickResult;
+use lightloom::editor::document::Edit;
 use lightloom_core::constraint::Constraint;
-use lightloom_core::project::Project;
+use lightloom_core::project::{Project, Shows};
 use window::{examples, project, until, window};
 
 /// Drags over the plane view, from and to shares of its width and height.
@@ -108,26 +110,16 @@ fn a_wrong_value_of_the_project_is_told_and_the_light_stays() {
     let folder = examples();
     let mut harness = window(&folder, "letters_free", Vec::new());
     until(&mut harness, "the first light", |app| app.preview().is_current());
-    fs::remove_file(folder.path().join("assets/targets/letter_s.png")).unwrap();
-    // Another seed reads nothing anew, so the picture is not missed yet; the key's other channel does.
-    harness.state_mut().ask(lightloom::editor::action::Action::Edit(
-        lightloom::editor::document::Edit::Keys({
-            let mut keys = project_of(&harness).keys.clone();
-            if let lightloom_core::project::Shows::Image(image) = &mut keys[1].shows {
-                image.file = "../assets/targets/not_there.png".into();
-            }
-            keys
-        }),
-    ));
+    let mut keys = harness.state().document().project().keys.clone();
+    if let Shows::Image(image) = &mut keys[1].shows {
+        image.file = "../assets/targets/not_there.png".into();
+    }
+    harness.state_mut().ask(Action::Edit(Edit::Keys(keys)));
     until(&mut harness, "the problem", |app| app.preview().problem().is_some());
     let problem = harness.state().preview().problem().unwrap();
     assert!(problem.contains("keys[1].shows.image.file") && problem.contains("not_there.png"), "{problem}");
     assert!(harness.state().preview().sketch().is_some());
     harness.run_steps(3);
-}
-
-fn project_of(harness: &Harness<App>) -> Project {
-    (**harness.state().document().project()).clone()
 }
 
 #[test]

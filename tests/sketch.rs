@@ -1,89 +1,23 @@
-//! The live preview: what it remembers from edit to edit, and that it shows what a render would.
+//! The live preview: what it remembers from edit to edit, and where its photons are.
 #![allow(clippy::unwrap_used)]
 
 mod scenes;
+mod sketches;
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::{Vec2, Vec3};
-use lightloom_core::flow::{FlowSettings, GridSize, Movement};
+use glam::Vec2;
+use lightloom_core::flow::Movement;
 use lightloom_core::photon::Tracer;
-use lightloom_core::pipeline::{Detail, Exposure, Pipeline, Sketch, Sketcher};
+use lightloom_core::pipeline::{Detail, Pipeline, Sketch, Sketcher};
 use lightloom_core::project::{AssetFolder, Ease, Project};
-use lightloom_core::render::MarkKind;
-use lightloom_core::scene::light::PointLight;
-use lightloom_core::scene::{CameraDesc, LightDesc, Scene};
+use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
-use scenes::{Stage, glass, sphere_obj};
-use serde_json::{Value, json};
+use serde_json::json;
+use sketches::{bits, draft, example, example_path, flux, stages, two_balls};
 
 const EXAMPLES: [&str; 7] =
     ["letters_free", "letters", "dark_glass", "bottles", "loop", "rabbit", "rabbit_fine"];
-
-fn example_path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(format!("{name}.json"))
-}
-
-fn example(name: &str) -> (Project, Sketcher) {
-    let path = example_path(name);
-    (Project::load(&path).unwrap(), Sketcher::new(AssetFolder::new(&path, false).unwrap()))
-}
-
-fn draft(sketcher: &mut Sketcher, project: &Project) -> Arc<Sketch> {
-    sketcher.sketch(project, Detail::Draft, 1, &Progress::new(), &mut |_| ()).unwrap()
-}
-
-fn stages(sketch: &Sketch) -> Vec<&str> {
-    sketch.stages().iter().map(|cost| cost.stage).collect()
-}
-
-/// Positions at all frames, bit by bit.
-fn bits(sketch: &Sketch) -> Vec<Vec<[u32; 2]>> {
-    let frame = |frame| sketch.positions(frame).unwrap().iter().map(|p| p.to_array().map(f32::to_bits));
-    sketch.frames().map(|number| frame(number).collect()).collect()
-}
-
-fn flux(sketch: &Sketch, frame: i32) -> Vec<Vec3> {
-    let mut flux = Vec::new();
-    sketch.flux(frame, &mut flux);
-    flux
-}
-
-/// Two balls of glass side by side, a lamp over each; the left caustic goes to one corner, the right to another.
-fn two_balls() -> (Stage, Project, Sketcher) {
-    let mut stage = Stage::new();
-    for (name, x) in [("left", -0.25), ("right", 0.25)] {
-        stage.mesh(&format!("{name} ball"), sphere_obj(3, Vec3::new(x, 0.12, 0.0), 0.08), glass(1.5));
-        let lamp = PointLight { name: format!("{name} lamp"), position: [x, 1.0, 0.0], ..Default::default() };
-        stage.desc.lights.push(LightDesc::Point(lamp));
-    }
-    let white = image::GrayImage::from_pixel(8, 8, image::Luma([255]));
-    white.save(stage.folder.path().join("square.png")).unwrap();
-    let square = |centre: [f32; 2]| -> Value {
-        json!({ "shows": { "image": { "file": "square.png", "placement": { "centre": centre, "width": 0.2 } } } })
-    };
-    let project = json!({
-        "lightloom": 1,
-        "scene": stage.desc,
-        "caustics": [
-            { "name": "left", "mesh": "left ball", "own_flow": true },
-            { "name": "right", "mesh": "right ball" }
-        ],
-        "keys": [
-            { "frame": 1, "shows": "physical_caustic" },
-            { "frame": 9, "shows": "physical_caustic",
-              "caustics": { "left": square([0.2, 0.8]), "right": square([0.8, 0.2]) } },
-            { "frame": 21, "shows": "physical_caustic" }
-        ],
-        "flow": { "grid": 16, "steps": 6 },
-        "render": { "width": 32, "height": 32, "photons": 3000, "background_samples": 1 }
-    });
-    let path = stage.folder.path().join("project.json");
-    let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
-    let sketcher = Sketcher::new(AssetFolder::new(&path, false).unwrap());
-    (stage, project, sketcher)
-}
 
 #[test]
 fn a_new_gamma_fits_anew_but_neither_traces_nor_matches() {
@@ -260,21 +194,6 @@ fn caustics_keep_their_rows_and_flow_by_themselves() {
 }
 
 #[test]
-fn hidden_caustics_give_no_light_and_the_others_all_of_theirs() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let mut exposure = Exposure::default();
-    let mut total = |shown: &[bool]| exposure.expose(&sketch, 5, 128, shown).unwrap().total().element_sum();
-    let all = total(&[]);
-    let parts = [[true, false, false], [false, true, false], [false, false, true]].map(|s| total(&s));
-    let watts: f64 = flux(&sketch, 5).iter().map(|f| f.as_dvec3().element_sum()).sum();
-    // Splatting and filtering keep the flux but for sums in f32; no photon is beyond the margin.
-    assert!((all / watts - 1.0).abs() < 1e-4, "{all} of {watts}");
-    assert!((parts.iter().sum::<f64>() / all - 1.0).abs() < 1e-4);
-    assert!(parts[0] > 0.1 * all && parts[1] > 0.1 * all);
-}
-
-#[test]
 fn all_methods_and_a_single_key_are_sketched() {
     let (mut project, mut sketcher) = example("letters_free");
     for method in Movement::ALL {
@@ -355,7 +274,7 @@ fn what_a_render_refuses_a_sketch_refuses_with_the_same_words() {
         |project| {
             project.scene = Some(
                 serde_json::from_str(r#"{ "meshes": [ { "name": "a", "file": "none.obj" } ] }"#).unwrap(),
-            )
+            );
         },
     ];
     for spoil in broken {
@@ -403,101 +322,4 @@ fn finer_photons_go_along_the_fields_of_the_preview() {
     assert_eq!(fine.fields(20)[0].velocity(at), preview.fields(20)[0].velocity(at));
     project.flow.gamma = 0.5;
     assert_eq!(stages(&run(&mut sketcher, &project, Detail::Fine)), ["load", "fit", "carry"]);
-}
-
-/// Share of the light of two textures that is not in the same place.
-fn difference(
-    a: &lightloom_core::render::ReceiverTexture,
-    b: &lightloom_core::render::ReceiverTexture,
-) -> f64 {
-    let apart = |(a, b): (&glam::Vec4, &glam::Vec4)| f64::from((*a - *b).abs().element_sum());
-    0.5 * a.texels().iter().zip(b.texels()).map(apart).sum::<f64>() / a.total().element_sum()
-}
-
-#[test]
-fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
-    let (mut project, mut sketcher) = example("letters_free");
-    // As fine as a render's flow, by the same photons: the details' own limits are all that differs.
-    project.flow = FlowSettings { grid: GridSize::Longer(128), steps: 40, ..project.flow };
-    project.keys[0].ease = Ease::Linear;
-    project.keys[1].frame = 41;
-    project.render.photons = 20_000;
-    let preview = sketcher.sketch(&project, Detail::Preview, 1, &Progress::new(), &mut |_| ()).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
-    Pipeline::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
-    let bytes = std::fs::read(folder.path().join("tracks.npy")).unwrap();
-    let tracks: Vec<f32> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
-    let frame = |i: usize| -> Vec<Vec2> {
-        let row = &tracks[2 * 20_000 * i..2 * 20_000 * (i + 1)];
-        row.chunks_exact(2).map(Vec2::from_slice).collect()
-    };
-    let mut exposure = Exposure::default();
-    for i in [0, 10, 20, 30, 40] {
-        let number = i as i32 + 1;
-        let shown = exposure.expose(&preview, number, 256, &[]).unwrap().clone();
-        let wanted = frame(i);
-        let positions = preview.positions(number).unwrap();
-        let apart = positions.iter().zip(&wanted).map(|(a, b)| a.distance_squared(*b)).sum::<f32>();
-        let apart = (apart / wanted.len() as f32).sqrt();
-        let mut texture = lightloom_core::render::ReceiverTexture::new(*shown.layout());
-        lightloom_core::render::splat::Splatter::default().splat(
-            &wanted,
-            &flux(&preview, number),
-            &mut texture,
-        );
-        lightloom_core::render::density::Smoother::default().filter(&mut texture, Exposure::radius(&preview));
-        let difference = difference(&shown, &texture);
-        println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
-        // The preview's field has half the cells and three quarters of the steps. A photon is off by a part of a cell of
-        // 1/64, less than half its kernel, and a few in a hundred watts lie elsewhere; at the keys none do.
-        assert!(apart < 0.25 / 64.0, "frame {number}: {apart}");
-        assert!(difference < if i % 40 == 0 { 1e-3 } else { 0.05 }, "frame {number}: {difference}");
-    }
-}
-
-#[test]
-fn a_shot_takes_the_light_of_a_sketch() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let shot = sketcher.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
-    let mut exposure = Exposure::default();
-    let light = exposure.expose(&sketch, 9, shot.resolution(), &[]).unwrap();
-    let picture = shot.picture(light).unwrap();
-    assert_eq!([picture.width, picture.height], [64, 36]);
-    // Light is added where the square is seen, and none to speak of between the squares; no pixel gets darker.
-    let added = |p: Vec2| {
-        let pixel = shot.plane.pixel_from_plane(p, [64, 36]).unwrap();
-        let [x, y] = pixel.to_array().map(|v| v as usize);
-        (picture.at(x, y) - shot.background.at(x, y)).element_sum()
-    };
-    let [square, middle] = [Vec2::new(0.2, 0.8), Vec2::new(0.5, 0.5)].map(added);
-    assert!(square > 10.0 * middle && square > 0.0, "{square} {middle}");
-    let darker = |(a, b): (&Vec3, &Vec3)| a.cmplt(*b).any();
-    assert!(!picture.pixels.iter().zip(&shot.background.pixels).any(darker));
-    let other = exposure.expose(&sketch, 9, shot.resolution() + 8, &[]).unwrap();
-    assert!(shot.picture(other).is_none(), "a texture of another resolution is refused");
-}
-
-#[test]
-fn a_look_shows_glass_receiver_caustic_and_marks() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let mut exposure = Exposure::default();
-    let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
-    let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
-    let size = [96, 54];
-    let mut look = |light| sketcher.look(&project, &camera, size, light, &Progress::new()).unwrap();
-    let (dark, lit) = (look(None), look(Some(light)));
-    let at = |look: &lightloom_core::pipeline::Look, p: Vec2| {
-        let [x, y] = look.plane.pixel_from_plane(p, [96, 54]).unwrap().to_array().map(|v| v as usize);
-        look.image.at(x, y).element_sum()
-    };
-    assert!(at(&lit, Vec2::new(0.2, 0.8)) > 1.5 * at(&dark, Vec2::new(0.2, 0.8)));
-    assert!(at(&dark, Vec2::new(0.5, 0.5)) > 0.0, "the receiver is seen without light");
-    let kinds: Vec<MarkKind> = lit.marks.iter().map(|mark| mark.kind).collect();
-    assert_eq!(kinds, [MarkKind::Light(0), MarkKind::Light(1), MarkKind::Camera]);
-    let (flat, mut sketcher) = example("letters_free");
-    let plane = sketcher.look(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
-    assert!(plane.marks.is_empty() && plane.image.pixels.iter().all(|p| p.is_finite()));
 }

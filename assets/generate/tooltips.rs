@@ -13,15 +13,17 @@ use image::imageops;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::export::FrameFormat;
-use lightloom_core::flow::{FitKind, TurbulenceSettings};
+use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project, Shows};
 use lightloom_core::target::{ImageTarget, Placement};
 
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [160, 100];
-/// Rendered so much larger and made smaller: smooth without more photons.
-const LARGER: u32 = 2;
+/// The whole plane is rendered so much larger.
+const LARGER: u32 = 4;
+/// The part that is cut out: left, top, width, height, as shares of the plane's width and height.
+const PART: [f32; 4] = [0.17, 0.19, 0.54, 0.54];
 /// Frame in the middle of the way.
 const MOMENT: &str = "30";
 /// The file of that frame.
@@ -53,7 +55,7 @@ const PICTURES: &[Picture] = &[
 ];
 
 fn with_line(project: &mut Project, beta: f32) {
-    let points = vec![[0.25, 0.5], [0.38, 0.3], [0.5, 0.16], [0.65, 0.1], [0.8, 0.2]];
+    let points = vec![[0.24, 0.42], [0.3, 0.28], [0.4, 0.2], [0.52, 0.18], [0.65, 0.24]];
     project
         .constraints
         .push(Constraint::DirectedLine(DirectedLine { width: 0.1, ..DirectedLine::new(points) }));
@@ -75,7 +77,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     base.flow.fit = FitKind::Separate;
     base.plane.aspect = SIZE[0] as f32 / SIZE[1] as f32;
     (base.render.width, base.render.height) = (SIZE[0] * LARGER, SIZE[1] * LARGER);
-    (base.render.photons, base.render.passes) = (400_000, 4);
+    (base.render.photons, base.render.passes) = (150_000, 3);
+    // As fine as pictures of this size can show.
+    (base.flow.grid, base.flow.steps, base.flow.guides) = (GridSize::Longer(64), 30, 20_000);
     base.output.formats = vec![FrameFormat::Png];
     base.output.frames = Some(MOMENT.into());
     base.output.name = "tooltip.####".into();
@@ -95,7 +99,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         let out = tempfile::tempdir()?;
         pipeline.render(&project, out.path(), &Progress::default(), &|_| ())?;
         let frame = image::open(out.path().join(FILE))?.into_luma8();
-        let small = imageops::resize(&frame, SIZE[0], SIZE[1], imageops::FilterType::CatmullRom);
+        let share = |share: f32, whole: u32| (share * whole as f32).round() as u32;
+        let [left, top, width, height] = PART;
+        let (across, down) = (frame.width(), frame.height());
+        let part = imageops::crop_imm(
+            &frame,
+            share(left, across),
+            share(top, down),
+            share(width, across),
+            share(height, down),
+        );
+        let small = imageops::resize(&*part, SIZE[0], SIZE[1], imageops::FilterType::CatmullRom);
         let mut bytes = Vec::new();
         PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive).write_image(
             &small,

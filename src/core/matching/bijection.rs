@@ -124,7 +124,11 @@ fn halved(
         .par_iter()
         .enumerate()
         .with_min_len(4096)
-        .map(|(row, point)| Item { position: map(*point), row: row as u32 })
+        .map(|(row, point)| {
+            // Around walls a map takes its time; what is cancelled is thrown away in the end.
+            let position = if progress.is_cancelled() { *point } else { map(*point) };
+            Item { position, row: row as u32 }
+        })
         .collect();
     let mut b: Vec<Item> =
         target.iter().enumerate().map(|(row, &position)| Item { position, row: row as u32 }).collect();

@@ -56,10 +56,12 @@ pub(super) fn sweep(
         None => exchange(block, window, |a, b| closer(a, b).then_some([false; 2])),
         Some(detour) => {
             let mut ways = Ways { detour, sight: Sight::default() };
-            exchange(block, window, |a, b| ways.closer(a, b))
+            exchange(block, window, |a, b| if progress.is_cancelled() { None } else { ways.closer(a, b) })
         }
     };
-    Ok(pairs.par_chunks_mut(BLOCK).map(run).sum())
+    let exchanges = pairs.par_chunks_mut(BLOCK).map(run).sum();
+    progress.check()?;
+    Ok(exchanges)
 }
 
 /// `gains` tells whether two pairs should exchange their targets, and which of them is astray then.

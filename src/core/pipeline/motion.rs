@@ -147,9 +147,12 @@ pub(super) struct Leg<'a> {
 pub(super) struct LayerMoments<'a> {
     /// Times within 0..=1, rising.
     pub(super) times: &'a [f64],
-    /// Is shown the groups of a layer, the index of a time, and where their photons are then, group by group.
-    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+    /// Is shown them.
+    pub(super) show: LayerTracks<'a>,
 }
+
+/// Is shown the groups of a layer, the index of a time, and where their photons are then, group by group.
+type LayerTracks<'a> = &'a mut dyn FnMut(&[usize], usize, &[Vec2]);
 
 impl Leg<'_> {
     /// What moves each layer of groups, and how it does.

@@ -23,7 +23,7 @@ impl App {
         let mut desk =
             Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
         let desk = &mut desk;
-        Panel::top("menu").show(ui, |ui| menu::show(ui, desk, &self.windows.recent));
+        Panel::top("menu").show(ui, |ui| menu::show(ui, desk, &self.recents.found()));
         if let Some(problem) = desk.preview.problem().map(str::to_owned) {
             Panel::top("problem").frame(banner(ui)).show(ui, |ui| {
                 problem_banner(ui, &problem, &mut self.external);

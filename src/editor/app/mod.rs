@@ -4,6 +4,7 @@ mod apply;
 mod commands;
 mod files;
 mod layout;
+mod recents;
 mod remember;
 mod windows;
 
@@ -25,6 +26,7 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keys, preferences, templates, theme};
 use files::Files;
+use recents::Recents;
 use windows::Windows;
 
 /// The window's state.
@@ -39,6 +41,7 @@ pub struct App {
     exports: Exports,
     picker: Picker,
     windows: Windows,
+    recents: Recents,
     files: Files,
     preferences: Preferences,
     /// What the graphics card can do.
@@ -98,6 +101,7 @@ impl App {
             exports: Exports::new(wake()),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
+            recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             preferences: setup.preferences,
             card: setup.card,

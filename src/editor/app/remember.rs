@@ -24,6 +24,7 @@ impl App {
         if noted.preferences.as_ref() != Some(&self.preferences) {
             let first = noted.preferences.replace(self.preferences.clone()).is_none();
             preferences::apply(ctx, &self.preferences);
+            self.recents.ask(self.preferences.recent.clone());
             if !first {
                 self.files.request(Request::Remember(Box::new(self.preferences.clone())));
             }

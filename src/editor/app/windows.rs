@@ -7,7 +7,6 @@ use super::App;
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::export::ExportWindow;
-use crate::editor::menu::Recent;
 use crate::editor::palette::{self, Palette};
 use crate::editor::panels::{Desk, PRESETS};
 use crate::editor::preferences;
@@ -26,7 +25,6 @@ pub(super) struct Windows {
     pub(super) tour: Tour,
     /// Where the things are that the first steps speak of.
     pub(super) anchors: Option<Anchors>,
-    pub(super) recent: Vec<Recent>,
 }
 
 impl App {
@@ -54,7 +52,7 @@ impl App {
         windows.shortcuts.show(ctx, tools);
         preferences::show(ctx, &mut windows.preferences, &mut self.preferences);
         self.session.snapping = self.preferences.snapping;
-        let chosen = windows.welcome.show(ctx, &windows.recent);
+        let chosen = windows.welcome.show(ctx, &self.recents.found());
         actions_from(actions, chosen);
         if let Some(anchors) = &windows.anchors
             && windows.tour.show(ctx, anchors, self.document.project(), &self.session)

@@ -9,7 +9,7 @@ use egui::Ui;
 use lightloom_core::constraint::Constraint;
 
 use super::setting::Setting;
-use super::{Desk, icon_button, section};
+use super::{Desk, Icon, icon_button, remove_button, section};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
@@ -35,9 +35,12 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
         return;
     }
     tools(ui, desk, constraints);
-    for (i, constraint) in constraints.iter().enumerate() {
-        row::show(ui, desk, constraint, i);
-    }
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
+        for (i, constraint) in constraints.iter().enumerate() {
+            row::show(ui, desk, constraint, i);
+        }
+    });
     let chosen: Vec<usize> =
         desk.session.selection.constraints().filter(|index| *index < constraints.len()).collect();
     match chosen[..] {
@@ -57,8 +60,8 @@ fn tools(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint]) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.add_enabled_ui(!chosen.is_empty(), |ui| {
-            for (sign, name, down) in [("⬆", "Move up", false), ("⬇", "Move down", true)] {
-                if icon_button(ui, sign, name)
+            for (icon, name, down) in [(Icon::Up, "Move up", false), (Icon::Down, "Move down", true)] {
+                if icon_button(ui, icon, name)
                     && let Some((order, selection)) = moved(constraints.len(), &chosen, down)
                 {
                     let moved = order.iter().map(|&index| constraints[index].clone()).collect();
@@ -66,7 +69,7 @@ fn tools(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint]) {
                     desk.ask(Action::Select(Selection::all(selection)));
                 }
             }
-            if icon_button(ui, "✕", "Delete what is selected") {
+            if remove_button(ui, "Delete what is selected") {
                 let free =
                     chosen.iter().copied().filter(|&i| constraints.get(i).is_some_and(|c| !c.is_locked()));
                 desk.ask(Edit::Remove(free.collect()));

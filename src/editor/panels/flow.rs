@@ -4,7 +4,7 @@ use egui::Ui;
 use lightloom_core::flow::{FitKind, FlowSettings, GridSize, Movement};
 use lightloom_core::matching::Method;
 
-use super::setting::{Choice, Setting, format_number};
+use super::setting::{Choice, Setting, ends, format_number};
 use super::{Desk, fade, fold, pictures, presets, turbulence};
 use crate::editor::document::Edit;
 
@@ -17,7 +17,7 @@ const GAMMA: Setting = Setting::real("Gamma", "flow.gamma", [0.0, 1.0], &[0.5])
 const ALPHA: Setting = Setting::real("Alpha", "flow.alpha", [1e-12, 1e6], &[1e-3])
     .slider(1e-6, 1.0)
     .logarithmic()
-    .help("Smoothness of the field. Low values follow each photon and look busy, high ones carry all light along in wide folds.")
+    .help("Smoothness of the field: it is smooth over about the root of alpha, told below in per cent of the plane's longer side. Low values follow each photon and look busy, high ones carry all light along in wide folds.")
     .pictures(&pictures::ALPHA);
 const BETA: Setting = Setting::real("Beta", "flow.beta", [0.0, 1e6], &[1.0])
     .slider(0.0, 100.0)
@@ -48,7 +48,6 @@ const FIT: Setting = Setting::choice(
 )
 .help("How liquid and gradient are put together.");
 const GRID: Setting = Setting::whole("Grid", "flow.grid", [8.0, FINEST], &[128.0])
-    .unit("cells")
     .slider(16.0, 512.0)
     .logarithmic()
     .help("Cells of the field along the longer side of the plane. Finer ones follow finer lines and take longer.");
@@ -87,6 +86,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     presets::show(ui, &mut flow);
     ui.add_space(4.0);
     GAMMA.number(ui, &mut flow.gamma);
+    ends(ui, "liquid", "gradient");
     ALPHA.number(ui, &mut flow.alpha);
     smoothing(ui, desk, &flow);
     BETA.number(ui, &mut flow.beta);
@@ -128,10 +128,10 @@ fn grid(ui: &mut Ui, size: &mut GridSize) {
 /// What alpha means on this plane: the length over which the field is smooth.
 fn smoothing(ui: &mut Ui, desk: &Desk, flow: &FlowSettings) {
     let share = flow.alpha.sqrt();
-    let cells = flow.grid.cells(super::extent(desk.document.project())).into_iter().max().unwrap_or(0);
+    let cells = flow.grid.cells(desk.document.project().extent()).into_iter().max().unwrap_or(0);
     let percent = format_number(round(f64::from(share) * 100.0), false);
     let in_cells = format_number(round(f64::from(share) * f64::from(cells)), false);
-    super::aside(ui, &format!("smooth over {percent} % of the plane, {in_cells} cells"));
+    super::aside(ui, &format!("smooth over {percent} %, {in_cells} cells"));
 }
 
 /// To two digits that count.

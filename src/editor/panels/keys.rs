@@ -4,7 +4,7 @@ use egui::Ui;
 use lightloom_core::project::{Ease, KeyFrame};
 
 use super::setting::{Choice, Setting};
-use super::{Desk, aside, icon_button, shows};
+use super::{Desk, aside, remove_button, shows};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
 use crate::editor::document::Edit;
@@ -62,7 +62,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
             desk.ask(Command::AddKey);
         }
         ui.add_enabled_ui(keys.len() > 1, |ui| {
-            if icon_button(ui, "✕", "Remove this key frame") {
+            if remove_button(ui, "Remove this key frame") {
                 let mut fewer = keys.clone();
                 fewer.remove(index);
                 desk.session.focus.key = None;

@@ -4,6 +4,7 @@ mod caustics;
 mod drawn;
 mod fade;
 mod flow;
+mod icons;
 mod keys;
 mod pictures;
 mod presets;
@@ -16,10 +17,9 @@ mod turbulence;
 mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
-use glam::Vec2;
-use lightloom_core::project::Project;
 
 pub(crate) use drawn::title;
+use icons::Icon;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
 pub use setting::Setting;
@@ -98,17 +98,6 @@ pub fn show(ui: &mut Ui, desk: &mut Desk) {
         ui.set_max_width(ui.available_width() - 4.0);
         (entry.show)(ui, desk);
     });
-}
-
-/// Extent of the project's plane; its longer side is 1.
-pub(super) fn extent(project: &Project) -> Vec2 {
-    match &project.scene {
-        Some(scene) => {
-            let size = Vec2::from(scene.receiver.size);
-            size / size.max_element()
-        }
-        None => project.plane.extent(),
-    }
 }
 
 /// `name`, or where that is taken the first of "name 2", "name 3", … that is free.

@@ -68,16 +68,15 @@ fn list<'a>(
     names: impl Iterator<Item = (&'a str, &'a str)>,
     chosen: &mut Option<usize>,
 ) {
-    ui.spacing_mut().item_spacing.y = 2.0;
-    for (i, (name, aside)) in names.enumerate() {
-        ui.horizontal(|ui| {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for (i, (name, aside)) in names.enumerate() {
             let size = egui::vec2(ui.available_width(), 22.0);
-            let text = egui::Button::selectable(*chosen == Some(i), name)
-                .right_text(egui::RichText::new(aside).weak());
-            let response = ui.add_sized(size, text.truncate()).accessible_name(format!("{kind} {name}"));
-            if response.clicked() {
+            let button = egui::Button::selectable(*chosen == Some(i), name);
+            let button = button.right_text(egui::RichText::new(aside).weak()).truncate();
+            if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
                 *chosen = if *chosen == Some(i) { None } else { Some(i) };
             }
-        });
-    }
+        }
+    });
 }

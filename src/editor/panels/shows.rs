@@ -119,7 +119,7 @@ fn picture(ui: &mut Ui, desk: &Desk, image: &mut ImageTarget) {
     INVERT.toggle(ui, &mut image.invert);
     THRESHOLD.number(ui, &mut image.threshold);
     let placement = &mut image.placement;
-    let middle = super::extent(desk.document.project()) / 2.0;
+    let middle = desk.document.project().extent() / 2.0;
     let mut centre = placement.centre.unwrap_or(middle.into());
     let row = CENTRE.row(ui, placement.centre.is_some(), |ui| {
         let width = (ui.available_width() - 4.0) / 2.0;

@@ -1,7 +1,8 @@
 //! Small parts that several panels have.
 
-use egui::{Button, CollapsingHeader, Ui};
+use egui::{CollapsingHeader, Ui};
 
+use super::icons::{self, Icon};
 use super::setting;
 
 /// A part that is folded until it is opened.
@@ -22,25 +23,24 @@ pub(super) fn aside(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.add_space(setting::NAMES + 4.0);
-        ui.small(words);
+        // Never wider than the panel: all that follows would be, too.
+        ui.add(egui::Label::new(egui::RichText::new(words).small()).truncate());
     });
 }
 
-/// A button with a sign for its name.
-pub(super) fn icon_button(ui: &mut Ui, sign: &str, name: &str) -> bool {
-    ui.spacing_mut().button_padding.x = 4.0;
-    let button = Button::new(sign).min_size(egui::vec2(22.0, 22.0));
-    ui.add(button).accessible_name(name).on_hover_text(name).clicked()
+/// A button with a picture; whether it was pressed.
+pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> bool {
+    icons::button(ui, icon, name, true).clicked()
 }
 
 /// A button that adds something.
 pub(super) fn add_button(ui: &mut Ui, name: &str) -> bool {
-    icon_button(ui, "+", name)
+    icon_button(ui, Icon::Add, name)
 }
 
 /// A button that removes something.
 pub(super) fn remove_button(ui: &mut Ui, name: &str) -> bool {
-    icon_button(ui, "✕", name)
+    icon_button(ui, Icon::Remove, name)
 }
 
 /// A button that opens a list; gives the number of the one that was taken.

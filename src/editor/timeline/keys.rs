@@ -62,7 +62,7 @@ impl Timeline {
     ) {
         let key = &project.keys[index];
         let x = scale.x(f64::from(key.frame));
-        let extent = extent(project);
+        let extent = project.extent();
         let size = picture_size(extent).min(vec2(room(&project.keys, index, scale), PICTURE));
         let grip =
             Rect::from_center_size(pos2(x, lane.center().y), vec2(size.x.max(18.0), lane.height() - 4.0));
@@ -103,17 +103,6 @@ impl Timeline {
         });
         menu(&response, index, desk, project);
     }
-}
-
-/// The plane's extent, as the project says it; its longer side is 1.
-fn extent(project: &Project) -> Vec2 {
-    project.scene.as_ref().map_or_else(
-        || project.plane.extent(),
-        |scene| {
-            let size = Vec2::from(scene.receiver.size);
-            if size.min_element() > 0.0 { size / size.max_element() } else { Vec2::ONE }
-        },
-    )
 }
 
 fn picture_size(extent: Vec2) -> egui::Vec2 {

@@ -1,7 +1,5 @@
 //! The tools, and the one in hand.
 
-use egui::{Key, Modifiers};
-
 use super::{Gesture, Ghost, Grip, Look, Tool, all};
 use crate::editor::action::Action;
 
@@ -61,17 +59,6 @@ impl Toolbox {
     pub fn grip(&self) -> Grip {
         self.tool().grip()
     }
-
-    /// The tool whose key was pressed, by its place in the list. The key is used up.
-    pub fn called(&self, ctx: &egui::Context) -> Option<usize> {
-        if ctx.text_edit_focused() || is_covered(ctx) {
-            return None;
-        }
-        let pressed = |input: &mut egui::InputState, key: Key| {
-            input.modifiers.is_none() && input.consume_key(Modifiers::NONE, key)
-        };
-        ctx.input_mut(|input| self.tools.iter().position(|tool| pressed(input, tool.key())))
-    }
 }
 
 /// Whether a dialog or a menu is open, which keys belong to.
@@ -81,9 +68,10 @@ pub(crate) fn is_covered(ctx: &egui::Context) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::editor::command::COMMANDS;
+    use egui::Key;
 
     use super::*;
+    use crate::editor::command::COMMANDS;
 
     #[test]
     fn no_tool_shares_its_key_or_name() {

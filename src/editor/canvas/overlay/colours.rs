@@ -6,7 +6,7 @@ use egui::Color32;
 const OPAQUE: f32 = 0.82;
 /// Below and above nothing, and where the sign has no meaning.
 const SIGNED: [Color32; 2] = [Color32::from_rgb(46, 130, 255), Color32::from_rgb(255, 72, 52)];
-const UNSIGNED: Color32 = Color32::from_rgb(255, 214, 64);
+const UNSIGNED: Color32 = Color32::from_rgb(30, 200, 120);
 /// From rest to the greatest speed.
 const SPEEDS: [Color32; 4] = [
     Color32::from_rgb(72, 92, 190),

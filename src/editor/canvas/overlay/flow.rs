@@ -9,10 +9,14 @@ use crate::editor::theme;
 
 /// Longest arrow over the distance between two.
 const ARROW: f32 = 0.86;
-/// Arrows slower than this share of the fastest are dots.
+/// Arrows slower than this share of the full colour's speed are dots.
 const STILL: f32 = 0.02;
+/// The colour of trails.
+const TRAIL: Color32 = Color32::from_rgb(190, 235, 205);
 /// Points of a streamline that glow at once.
 const COMET: f32 = 9.0;
+/// The colour of its glow; its length tells the speed.
+const STREAM: Color32 = Color32::from_rgb(150, 225, 255);
 /// Seconds in which a streamline is run through.
 const RUN: f64 = 2.4;
 
@@ -39,28 +43,27 @@ impl Overlay<'_> {
 
     /// Arrows, streamlines and trails; `time` in seconds moves the streamlines.
     pub(super) fn flow(&self, flow: &FlowPicture, time: f64) {
-        self.arrows(&flow.arrows, flow.fastest);
-        let steps = flow.streamlines.iter().flat_map(|stream| stream.windows(2));
-        let longest = steps.map(|pair| pair[0].distance(pair[1])).fold(f32::MIN_POSITIVE, f32::max);
+        self.arrows(&flow.arrows, flow.fast);
         for (i, stream) in flow.streamlines.iter().enumerate() {
-            self.comet(stream, (time / RUN + 0.618 * i as f64).fract() as f32, longest);
+            self.comet(stream, (time / RUN + 0.618 * i as f64).fract() as f32);
         }
         for trail in &flow.trails {
-            self.polyline(trail, Stroke::new(1.0, Color32::from_white_alpha(60)), false);
+            self.polyline(trail, Stroke::new(2.4, Color32::from_black_alpha(70)), false);
+            self.polyline(trail, Stroke::new(1.0, TRAIL.gamma_multiply(0.5)), false);
             if let Some(end) = trail.last().and_then(|&p| (self.screen)(p)) {
-                self.painter.circle_filled(end, 1.8, Color32::from_white_alpha(150));
+                self.painter.circle(end, 1.8, TRAIL, Stroke::new(0.8, Color32::from_black_alpha(120)));
             }
         }
     }
 
-    fn arrows(&self, arrows: &[(Vec2, Vec2)], fastest: f32) {
+    fn arrows(&self, arrows: &[(Vec2, Vec2)], fast: f32) {
         let [(first, _), (second, _), ..] = arrows else { return };
         let spacing = first.distance(*second);
-        if fastest <= 0.0 {
+        if fast <= 0.0 {
             return;
         }
         for &(p, u) in arrows {
-            let speed = u.length() / fastest;
+            let speed = (u.length() / fast).min(1.0);
             let colour = colours::speed(speed);
             if speed < STILL {
                 if let Some(at) = (self.screen)(p) {
@@ -82,13 +85,13 @@ impl Overlay<'_> {
         let (back, side) = (to - way * head, way.rot90() * (0.42 * head));
         let rim = Color32::from_black_alpha(110);
         self.painter.line_segment([from, back], Stroke::new(3.0, rim));
-        self.painter.line_segment([from, back], Stroke::new(1.4, colour));
+        self.painter.line_segment([from, back], Stroke::new(1.6, colour));
         let corners = vec![to, back + side, back - side];
         self.painter.add(Shape::convex_polygon(corners, colour, Stroke::new(0.8, rim)));
     }
 
     /// A glow that runs along a streamline; 0 and 1 are its begin and end.
-    fn comet(&self, stream: &[Vec2], share: f32, longest: f32) {
+    fn comet(&self, stream: &[Vec2], share: f32) {
         let head = share * (stream.len() as f32 + COMET);
         for (i, piece) in stream.windows(2).enumerate() {
             let behind = head - i as f32;
@@ -96,11 +99,12 @@ impl Overlay<'_> {
                 continue;
             }
             let Some((a, b)) = (self.screen)(piece[0]).zip((self.screen)(piece[1])) else { continue };
-            // Steps take equal times: their length is the speed.
-            let speed = piece[0].distance(piece[1]) / longest;
             let alpha = 1.0 - behind / COMET;
-            let colour = colours::speed(speed).gamma_multiply(0.9 * alpha);
-            self.painter.line_segment([a, b], Stroke::new(1.0 + 0.8 * alpha, colour));
+            self.painter.line_segment(
+                [a, b],
+                Stroke::new(2.2 + alpha, Color32::from_black_alpha(90).gamma_multiply(alpha)),
+            );
+            self.painter.line_segment([a, b], Stroke::new(0.8 + alpha, STREAM.gamma_multiply(alpha)));
         }
     }
 

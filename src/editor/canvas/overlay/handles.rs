@@ -8,11 +8,11 @@ use crate::editor::selection::Selection;
 use crate::editor::theme;
 
 /// Side of a handle, points.
-const SIDE: f32 = 7.0;
+const SIDE: f32 = 6.0;
 /// Side of a handle among others that stand close.
-const SMALL: f32 = 4.0;
+const SMALL: f32 = 3.5;
 /// Points closer than this on the screen count as close.
-const CLOSE: f32 = 11.0;
+const CLOSE: f32 = 13.0;
 
 impl Overlay<'_> {
     /// A square for each point; those that are selected alone are filled.

@@ -60,8 +60,8 @@ pub fn legends(painter: &Painter, flow: &FlowPicture) {
         });
         corner.y -= BOX[1] + 6.0;
     }
-    if flow.fastest > 0.0 {
-        legend(painter, corner, "Speed, plane units per segment", [0.0, flow.fastest], colours::speed);
+    if flow.fast > 0.0 {
+        legend(painter, corner, "Speed, plane units per segment", [0.0, flow.fast], colours::speed);
     }
 }
 

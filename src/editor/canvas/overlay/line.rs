@@ -39,7 +39,7 @@ impl Overlay<'_> {
     /// The line itself.
     pub(super) fn line(&self, points: &[Vec2], manner: Manner) {
         if manner.selected {
-            self.polyline(points, Stroke::new(WIDTH + 6.0, theme::ACCENT.gamma_multiply(0.75)), false);
+            self.polyline(points, Stroke::new(WIDTH + 6.0, theme::ACCENT.gamma_multiply(0.6)), false);
         } else if manner.hovered {
             self.polyline(points, Stroke::new(WIDTH + 5.0, Color32::from_white_alpha(110)), false);
         }

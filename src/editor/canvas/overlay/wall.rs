@@ -78,7 +78,7 @@ impl Overlay<'_> {
 
     fn glow(&self, points: &[Vec2], width: f32, manner: Manner) {
         if manner.selected {
-            self.polyline(points, Stroke::new(width + 4.0, theme::ACCENT.gamma_multiply(0.75)), false);
+            self.polyline(points, Stroke::new(width + 4.0, theme::ACCENT.gamma_multiply(0.6)), false);
         } else if manner.hovered {
             self.polyline(points, Stroke::new(width + 3.5, Color32::from_white_alpha(110)), false);
         }

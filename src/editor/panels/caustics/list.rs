@@ -6,10 +6,8 @@ use lightloom_core::scene::LightDesc;
 
 use crate::editor::action::Action;
 use crate::editor::panels::Desk;
+use crate::editor::panels::icons::{self, Icon, SIDE};
 use crate::editor::panels::setting::format_number;
-
-/// Side of the buttons, points.
-const BUTTON: f32 = 22.0;
 
 /// One caustic, or the rest.
 pub(super) fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
@@ -26,7 +24,7 @@ pub(super) fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
         let text = if shown { RichText::new(name) } else { RichText::new(name).weak() };
         let chosen = desk.session.focus.caustic == Some(group);
         let light = RichText::new(cast(desk, group).unwrap_or_default()).small().weak();
-        let size = vec2(ui.available_width(), BUTTON);
+        let size = vec2(ui.available_width(), SIDE);
         let button = Button::selectable(chosen, text).right_text(light).truncate();
         let button = ui.add_enabled_ui(caustic.is_some(), |ui| ui.add_sized(size, button)).inner;
         let help = "What its light and mesh cast, as far as it is worked out. A click shows its values.";
@@ -38,17 +36,16 @@ pub(super) fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
 
 fn eye(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
     let hidden = desk.session.hidden.contains(&group);
-    let (sign, what) = if hidden { ("–", "Show") } else { ("👁", "Hide") };
-    let what = format!("{what}: {name}");
-    let button = ui.add(Button::new(sign).min_size(vec2(BUTTON, BUTTON)));
-    if button.accessible_name(&what).on_hover_text(what).clicked() && !desk.session.hidden.remove(&group) {
+    let (icon, what) = if hidden { (Icon::EyeShut, "Show") } else { (Icon::Eye, "Hide") };
+    let button = icons::button(ui, icon, &format!("{what}: {name}"), !hidden);
+    if button.clicked() && !desk.session.hidden.remove(&group) {
         desk.session.hidden.insert(group);
     }
 }
 
 fn solo(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
     let on = desk.session.solo.contains(&group);
-    let button = ui.add(Button::selectable(on, "S").frame(true).min_size(vec2(BUTTON, BUTTON)));
+    let button = ui.add(Button::selectable(on, "S").frame(true).min_size(vec2(SIDE, SIDE)));
     let button = button.accessible_name(format!("Solo: {name}"));
     if button.on_hover_text("Show this alone; several can be alone").clicked() {
         let mut alone = desk.session.solo.clone();

@@ -1,11 +1,12 @@
 //! One line of the list: kind, name, eye, padlock.
 
-use egui::{Align2, Button, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lightloom_core::constraint::Constraint;
 
 use super::title;
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
+use crate::editor::panels::icons::{self, Icon};
 use crate::editor::panels::{Desk, setting};
 use crate::editor::selection::Selection;
 use crate::editor::theme;
@@ -19,7 +20,6 @@ const SIGN: f32 = 26.0;
 
 /// One constraint in the list.
 pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize) {
-    ui.spacing_mut().item_spacing.y = 1.0;
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click());
     let selected = desk.session.selection.contains(index);
     let name = title(constraint, index);
@@ -102,19 +102,14 @@ fn rename(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize, w
 fn switches(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize, place: Rect) {
     let name = title(constraint, index);
     let (eye, padlock) = place.split_left_right_at_x(place.center().x);
-    let mut button = |rect: Rect, sign: &str, on: bool, words: String| {
-        let text = egui::RichText::new(sign);
-        let text = if on { text } else { text.weak() };
-        ui.put(rect, Button::new(text).frame(false)).accessible_name(&words).on_hover_text(words).clicked()
-    };
     let on = constraint.is_enabled();
-    let what = if on { "Switch off" } else { "Switch on" };
-    if button(eye, if on { "👁" } else { "–" }, on, format!("{what}: {name}")) {
+    let (icon, what) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
+    if icons::button_at(ui, eye, icon, &format!("{what}: {name}"), on).clicked() {
         desk.ask(Edit::Change(vec![(index, with(constraint, |_, enabled, _| *enabled = !on))]));
     }
     let locked = constraint.is_locked();
-    let what = if locked { "Unlock" } else { "Lock" };
-    if button(padlock, if locked { "🔒" } else { "🔓" }, locked, format!("{what}: {name}")) {
+    let (icon, what) = if locked { (Icon::Lock, "Unlock") } else { (Icon::LockOpen, "Lock") };
+    if icons::button_at(ui, padlock, icon, &format!("{what}: {name}"), locked).clicked() {
         desk.ask(Edit::Change(vec![(index, with(constraint, |_, _, lock| *lock = !locked))]));
     }
 }

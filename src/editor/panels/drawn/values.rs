@@ -5,7 +5,7 @@ use lightloom_core::constraint::{Constraint, DirectedLine, Span, Wall};
 
 use crate::editor::document::Edit;
 use crate::editor::panels::setting::{Choice, Setting, format_number};
-use crate::editor::panels::{Desk, aside, extent};
+use crate::editor::panels::{Desk, aside};
 
 const WEIGHT: Setting = Setting::real("Weight", "constraints[directed_line].weight", [0.0, 1000.0], &[1.0])
     .slider(0.0, 100.0)
@@ -135,7 +135,7 @@ fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Chang
 /// A length on the plane in per cent of it, and in cells of the field.
 fn in_plane(ui: &mut Ui, desk: &Desk, length: f32) {
     let project = desk.document.project();
-    let cells = project.flow.grid.cells(extent(project)).into_iter().max().unwrap_or(0);
+    let cells = project.flow.grid.cells(project.extent()).into_iter().max().unwrap_or(0);
     let tenths = |value: f32| format_number((f64::from(value) * 10.0).round() / 10.0, false);
     aside(ui, &format!("{} % of the plane, {} cells", tenths(length * 100.0), tenths(length * cells as f32)));
 }

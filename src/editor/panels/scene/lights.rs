@@ -7,7 +7,7 @@ use lightloom_core::scene::{LightDesc, SceneDesc};
 
 use super::{XYZ, list};
 use crate::editor::panels::setting::{Choice, Setting};
-use crate::editor::panels::{Desk, free_name, icon_button, menu, section};
+use crate::editor::panels::{Desk, free_name, menu, remove_button, section};
 
 /// A kind of light, as it begins.
 const KINDS: &[fn() -> LightDesc] = &[
@@ -109,7 +109,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics
             scene.lights.push(light);
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
-            if icon_button(ui, "✕", "Remove this light")
+            if remove_button(ui, "Remove this light")
                 && let Some(index) = chosen
             {
                 scene.lights.remove(index);

@@ -7,7 +7,7 @@ use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 use super::{XYZ, list, materials};
 use crate::editor::action::Action;
 use crate::editor::panels::setting::Setting;
-use crate::editor::panels::{Desk, free_name, icon_button, section, shows};
+use crate::editor::panels::{Desk, free_name, remove_button, section, shows};
 use crate::editor::pick::Pick;
 
 const NAME: Setting =
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics
             desk.ask(Action::Pick(Pick::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
-            if icon_button(ui, "✕", "Remove this mesh")
+            if remove_button(ui, "Remove this mesh")
                 && let Some(index) = chosen
             {
                 scene.meshes.remove(index);

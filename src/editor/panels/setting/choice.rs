@@ -3,6 +3,7 @@
 use egui::{Button, ComboBox, Ui};
 
 use super::Setting;
+use crate::editor::panels::icons::{self, Icon};
 
 /// Something that can be chosen.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,7 @@ impl Setting {
         ui.spacing_mut().button_padding.x = 2.0;
         let mut picked = None;
         for (i, choice) in self.options.iter().enumerate() {
-            let button = Button::selectable(i == now, choice.name).frame(true).truncate();
+            let button = Button::selectable(i == now, choice.name).frame_when_inactive(true).truncate();
             let response = ui.add_sized(size, button);
             let response = response.accessible_name(format!("{}: {}", self.spoken(), choice.name));
             if self.explain(response).clicked() {
@@ -142,7 +143,8 @@ pub(in crate::editor::panels) fn presets<'a>(
     items: impl Iterator<Item = &'a str>,
 ) -> Option<usize> {
     let mut taken = None;
-    let menu = ui.menu_button("▾", |ui| {
+    let button = icons::button(ui, Icon::List, name, true);
+    egui::Popup::menu(&button).show(|ui| {
         for (i, item) in items.enumerate() {
             if ui.button(item).clicked() {
                 taken = Some(i);
@@ -150,6 +152,5 @@ pub(in crate::editor::panels) fn presets<'a>(
             }
         }
     });
-    menu.response.accessible_name(name).on_hover_text(name);
     taken
 }

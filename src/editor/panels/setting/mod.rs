@@ -14,6 +14,7 @@ mod text;
 pub use choice::Choice;
 pub(super) use choice::presets;
 pub use format::number as format_number;
+pub(super) use number::ends;
 pub(super) use row::NAMES;
 pub(super) use text::field as words_field;
 

@@ -6,7 +6,7 @@ use egui::{DragValue, Response, Slider, SliderClamping, Ui};
 use super::{Kind, Setting, format};
 
 /// Width of a field beside a slider, points.
-const FIELD: f32 = 62.0;
+const FIELD: f32 = 68.0;
 /// Least width of a slider: below it there is only the field.
 const SLIDER: f32 = 48.0;
 
@@ -20,8 +20,8 @@ impl Setting {
     pub fn number_beside<T: Numeric>(&self, ui: &mut Ui, value: &mut T, room: f32) -> bool {
         let before = *value;
         let row = self.row(ui, self.is_changed(&[before.to_f64()]), |ui| {
-            ui.set_max_width(ui.available_width() - room);
-            self.slider_and_field(ui, value);
+            let width = ui.available_width() - room;
+            self.slider_and_field(ui, value, width);
         });
         if row.reset
             && let [default] = self.default
@@ -42,7 +42,10 @@ impl Setting {
             self.explain(switch);
             match (none, &mut *value) {
                 (true, value) => *value = None,
-                (false, Some(value)) => self.slider_and_field(ui, value),
+                (false, Some(value)) => {
+                    let width = ui.available_width();
+                    self.slider_and_field(ui, value, width);
+                }
                 (false, value) => *value = Some(T::from_f64(first)),
             }
         });
@@ -81,8 +84,7 @@ impl Setting {
         self.default.len() != value.len() || value.iter().zip(self.default).any(differ)
     }
 
-    pub(super) fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T) {
-        let room = ui.available_width();
+    fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T, room: f32) {
         if room < SLIDER + FIELD {
             self.field(ui, value, room, &self.spoken());
             return;
@@ -133,10 +135,26 @@ impl Setting {
         .update_while_editing(false)
         .custom_formatter(|value, _| format::number(value, whole))
         .custom_parser(|text| format::parse(text, self.unit));
+        // Long numbers need the room.
+        ui.spacing_mut().button_padding.x = 2.0;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
         let response = ui.add_sized(size, field).accessible_name(name);
         self.explain(response)
     }
+}
+
+/// What the ends of the slider above stand for.
+pub(in crate::editor::panels) fn ends(ui: &mut Ui, low: &str, high: &str) {
+    ui.horizontal(|ui| {
+        let left = super::NAMES + 4.0;
+        let width = ui.available_width() - left - FIELD - 4.0;
+        let (rect, _) = ui.allocate_exact_size(egui::vec2(left + width, 12.0), egui::Sense::hover());
+        let font = egui::TextStyle::Small.resolve(ui.style());
+        let colour = ui.visuals().weak_text_color();
+        let slider = rect.with_min_x(rect.left() + left);
+        ui.painter().text(slider.left_top(), egui::Align2::LEFT_TOP, low, font.clone(), colour);
+        ui.painter().text(slider.right_top(), egui::Align2::RIGHT_TOP, high, font, colour);
+    });
 }
 
 /// Where a slider by factors begins that reaches down to 0.

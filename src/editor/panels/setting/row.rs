@@ -1,6 +1,6 @@
 //! One line of a panel: the name on the left, the value on the right, both aligned over the whole panel.
 
-use egui::{Align2, Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+use egui::{Align2, PointerButton, Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 
 use super::Setting;
 use crate::editor::{panels::pictures, theme};
@@ -30,13 +30,11 @@ impl Setting {
     ) -> Row<R> {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            let name = self.name(ui, changed);
-            let left = ui.cursor().left();
+            self.name(ui, changed);
             let inner = widgets(ui);
-            let value = ui.min_rect().with_min_x(left);
-            let twice = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
-            let reset = name.double_clicked() || (twice && ui.rect_contains_pointer(value));
-            Row { inner, reset }
+            // On the name or on the value: a slider knows no clicks.
+            let twice = ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary));
+            Row { inner, reset: twice && ui.rect_contains_pointer(ui.min_rect()) }
         })
         .inner
     }
@@ -59,10 +57,9 @@ impl Setting {
         .inner
     }
 
-    fn name(&self, ui: &mut Ui, changed: bool) -> Response {
+    fn name(&self, ui: &mut Ui, changed: bool) {
         let size = vec2(NAMES, ui.spacing().interact_size.y);
-        // No stop for the Tab key: it has nothing to type.
-        let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         let painter = ui.painter_at(rect);
         let colour = if changed { ui.visuals().strong_text_color() } else { ui.visuals().text_color() };
         let at = rect.left_center() + vec2(MARK, 0.0);
@@ -71,7 +68,7 @@ impl Setting {
             painter.circle_filled(rect.left_center() + vec2(3.0, 0.0), 2.5, theme::ACCENT);
         }
         response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), self.name));
-        self.explain(response)
+        self.explain(response);
     }
 
     /// What a screen reader says: the name, and whose it is where several parts of a panel have one of that name.

@@ -26,7 +26,7 @@ pub(in crate::editor::panels) fn field(
     width: f32,
 ) -> (egui::Response, Option<String>) {
     let mut words: String = ui.data_mut(|data| data.get_temp(id)).unwrap_or_else(|| now.to_owned());
-    let response = ui.add(TextEdit::singleline(&mut words).id(id).desired_width(width - 8.0));
+    let response = ui.add(TextEdit::singleline(&mut words).id(id).desired_width(width));
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(id, words));
         return (response, None);

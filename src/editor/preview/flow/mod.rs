@@ -18,8 +18,8 @@ use followed::Roads;
 pub struct FlowPicture {
     /// Places on a lattice, with the velocities there.
     pub arrows: Vec<(Vec2, Vec2)>,
-    /// The greatest speed on the lattice.
-    pub fastest: f32,
+    /// The speed that gets the full colour: but one in twenty places of the lattice are slower.
+    pub fast: f32,
     /// Ways through the field as it stands, at equal steps of time.
     pub streamlines: Vec<Vec<Vec2>>,
     /// The map that is shown.

@@ -1,0 +1,42 @@
+//! Files that were open lately, and whether they are still there: asked on a thread, for a disk may be far away.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::editor::menu::Recent;
+use crate::editor::preview::worker::{Turn, Worker};
+
+/// Looks for the newest list of files.
+pub(super) struct Recents {
+    worker: Worker<Vec<PathBuf>>,
+    found: Arc<Mutex<Vec<Recent>>>,
+}
+
+impl Recents {
+    /// `wake` is called when the files were looked for.
+    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+        let found: Arc<Mutex<Vec<Recent>>> = Arc::default();
+        let theirs = found.clone();
+        let seen = wake.clone();
+        let worker = Worker::new("recent files", wake, move || {
+            let (found, seen) = (theirs.clone(), seen.clone());
+            move |paths: Vec<PathBuf>, _: &Turn| {
+                let look = |path: PathBuf| Recent { is_there: path.is_file(), path };
+                let recent = paths.into_iter().map(look).collect();
+                *found.lock().unwrap_or_else(PoisonError::into_inner) = recent;
+                seen();
+            }
+        });
+        Self { worker, found }
+    }
+
+    /// Looks for these.
+    pub(super) fn ask(&self, paths: Vec<PathBuf>) {
+        self.worker.ask(paths);
+    }
+
+    /// What was found last.
+    pub(super) fn found(&self) -> Vec<Recent> {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
