@@ -18,6 +18,7 @@ mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
 
+pub(crate) use drawn::title;
 use icons::Icon;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
