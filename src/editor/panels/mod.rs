@@ -8,7 +8,7 @@ mod icons;
 mod keys;
 mod pictures;
 mod presets;
-pub mod readouts;
+pub(super) mod readouts;
 mod render;
 mod scene;
 pub mod setting;
