@@ -92,9 +92,10 @@ fn arrows_and_streamlines_go_where_the_light_goes() {
 fn the_residual_is_of_the_photons() {
     let (_folder, subject) = subject(0.0, Vec::new());
     let session = session(|session| session.show.map = Some(FieldMap::Residual));
-    let flow = seen(&subject, &session, |flow| flow.map.is_some());
+    // Before the field is fitted nothing is left undone.
+    let flow = seen(&subject, &session, |flow| flow.map.as_ref().is_some_and(|map| map.most > 0.0));
     let map = flow.map.as_ref().unwrap();
-    assert!(map.values.iter().all(|v| *v >= 0.0) && map.most > 0.0);
+    assert!(map.values.iter().all(|v| *v >= 0.0));
     // No photon is near the corners.
     assert_eq!((map.values[0], map.values[map.values.len() - 1]), (0.0, 0.0));
 }

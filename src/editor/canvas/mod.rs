@@ -21,11 +21,14 @@ use super::session::PlaneEye;
 use super::theme;
 use super::tools::{Ghost, Grip, Look, Toolbox};
 
+/// Draws something where the plane stands on the screen.
+pub type Light<'a> = &'a dyn Fn(&Painter, &Space);
+
 /// What the window shows under the drawings, and knows of them.
 #[derive(Clone, Copy, Default)]
 pub struct Under<'a> {
     /// Draws the light where the plane stands on the screen.
-    pub light: Option<&'a dyn Fn(&Painter, &Space)>,
+    pub light: Option<Light<'a>>,
     /// The picture of the target that follows the playhead, with its size in pixels.
     pub target: Option<(TextureId, Vec2)>,
     /// Where the photons are now, by row; empty while unknown.

@@ -56,7 +56,7 @@ pub fn reverse(project: &Project, selection: &Selection) -> Arranged {
         after.extend(&if turned.is_empty() { Selection::one(i) } else { Selection::some(i, turned) });
         changes.push((i, through(constraint, &points)));
     }
-    (!changes.is_empty()).then(|| (Edit::Change(changes), after))
+    if changes.is_empty() { None } else { Some((Edit::Change(changes), after)) }
 }
 
 /// Joins the selected lines of the kind of the first into one, nearest ends first; a wall alone closes to a loop.

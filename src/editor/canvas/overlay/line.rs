@@ -69,7 +69,8 @@ impl Overlay<'_> {
         let tip = tip + way * (0.25 * HEAD[0]);
         let (back, side) = (tip - way * HEAD[0], way.rot90() * HEAD[1]);
         let corners = vec![tip, back + side, back + way * 2.5, back - side];
-        let rim = Stroke::new(1.2, Color32::from_black_alpha(150).gamma_multiply(colour.a() as f32 / 255.0));
+        let rim =
+            Stroke::new(1.2, Color32::from_black_alpha(150).gamma_multiply(f32::from(colour.a()) / 255.0));
         // Two triangles: with its notch the head is not convex.
         for half in [[0, 1, 2], [0, 2, 3]] {
             let half = half.map(|i| corners[i]).to_vec();
