@@ -175,10 +175,10 @@ fn the_ends_of_a_bar_retime_its_constraint_and_undo_takes_it_back() {
 #[test]
 fn a_selected_constraint_without_span_has_a_bar_that_gives_it_one() {
     let mut harness = window();
-    assert!(harness.query_by_label_contains("Wall 1, acts always").is_none());
+    assert!(harness.query_by_label_contains("Wall 2, acts always").is_none());
     harness.state_mut().table.session.selection = Selection::one(1);
     harness.run_ok();
-    let at = centre(&harness, "Wall 1, first frame");
+    let at = centre(&harness, "Wall 2, first frame");
     let by = Vec2::new(9.0 * per_frame(&harness), 0.0);
     drag(&mut harness, at, by, false);
     let project = harness.state().table.document.project().clone();

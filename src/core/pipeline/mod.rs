@@ -1,7 +1,8 @@
 //! The only place that knows the whole road: Project -> Scene -> photons -> matching -> flow -> passes -> frames.
 //!
 //! Each stage remembers the input it was made from: a new gamma refits and traces nothing; a new camera renders anew
-//! and fits nothing. Preview and final are the same code at two [`Quality`] values.
+//! and fits nothing. Preview and final are the same code at two [`Quality`] values; a [`Sketcher`] cuts the same stages
+//! finer, for a window in which a project is edited.
 
 mod acting;
 mod batch;

@@ -99,6 +99,8 @@ fn status(
             let (name, help) = drawn_by(card, renderer);
             ui.weak(name).on_hover_text(help);
             ui.separator();
+            panels::readouts::strip(ui, desk);
+            ui.separator();
             clicked = export::strip(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 ui.add(egui::Label::new(word).truncate());

@@ -18,7 +18,7 @@ use crate::editor::selection::Selection;
 pub(super) const SETTINGS: &[Setting] = values::SETTINGS;
 
 /// What the list calls a constraint: its name, or its kind and number.
-pub(super) fn title(constraint: &Constraint, index: usize) -> String {
+pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
     let (kind, name) = match constraint {
         Constraint::DirectedLine(line) => ("Line", &line.name),
         Constraint::Wall(wall) => ("Wall", &wall.name),

@@ -8,7 +8,7 @@ mod icons;
 mod keys;
 mod pictures;
 mod presets;
-pub mod readouts;
+pub(super) mod readouts;
 mod render;
 mod scene;
 pub mod setting;
@@ -18,6 +18,7 @@ mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
 
+pub(crate) use drawn::title;
 use icons::Icon;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};

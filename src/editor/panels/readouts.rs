@@ -13,7 +13,7 @@ const ENERGY: f64 = 0.01;
 
 /// A number with its name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Readout {
+struct Readout {
     /// What is told.
     pub name: &'static str,
     /// The number with its unit.
@@ -25,7 +25,7 @@ pub struct Readout {
 }
 
 /// What there is to tell of a sketch at a frame; `tolerance` is that of the solver.
-pub fn of(sketch: &Sketch, frame: i32, tolerance: f32) -> Vec<Readout> {
+fn of(sketch: &Sketch, frame: i32, tolerance: f32) -> Vec<Readout> {
     let detail = match sketch.detail() {
         Detail::Draft => "draft",
         Detail::Preview => "preview",
@@ -180,8 +180,17 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
     });
 }
 
-/// The most important of it in one line, for the status bar.
-pub fn in_short(sketch: &Sketch, frame: i32) -> Vec<Readout> {
+/// The most important of it for the status bar, from right to left.
+pub(in crate::editor) fn strip(ui: &mut Ui, desk: &Desk) {
+    let Some(sketch) = desk.preview.sketch() else { return };
+    for readout in in_short(sketch, desk.session.playhead).into_iter().rev() {
+        let text = RichText::new(readout.value);
+        let text = if readout.is_bad { text.color(theme::WARN) } else { text.weak() };
+        ui.label(text).on_hover_text(readout.help);
+    }
+}
+
+fn in_short(sketch: &Sketch, frame: i32) -> Vec<Readout> {
     let mut all = vec![Readout {
         name: "Photons",
         value: format!("{} photons", format_number(sketch.photons() as f64, true)),

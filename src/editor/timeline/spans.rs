@@ -13,7 +13,7 @@ use super::moves::Part;
 use super::scale::Scale;
 use super::{GUTTER, Timeline, moves};
 use crate::editor::action::Action;
-use crate::editor::panels::Desk;
+use crate::editor::panels::{self, Desk};
 use crate::editor::playback;
 use crate::editor::selection::Selection;
 use crate::editor::theme;
@@ -53,7 +53,7 @@ impl Timeline {
         project: &Project,
     ) {
         let constraint = &project.constraints[index];
-        let (name, _) = name(project, index);
+        let name = panels::title(constraint, index);
         let track = row.with_min_x(row.left() + GUTTER);
         let label = Rect::from_min_max(row.left_top(), pos2(track.left() - 6.0, row.bottom()));
         let strong = desk.session.selection.contains(index);
@@ -123,17 +123,6 @@ impl Timeline {
 fn grips(bar: Rect) -> [(Part, Rect); 3] {
     let end = |x: f32| Rect::from_center_size(pos2(x, bar.center().y), vec2(10.0, bar.height() + 4.0));
     [(Part::Middle, bar), (Part::From, end(bar.left())), (Part::To, end(bar.right()))]
-}
-
-/// What the constraint is called in the list, and its colour.
-fn name(project: &Project, index: usize) -> (String, egui::Color32) {
-    let same =
-        |c: &&Constraint| std::mem::discriminant(*c) == std::mem::discriminant(&project.constraints[index]);
-    let number = project.constraints[..=index].iter().filter(same).count();
-    match &project.constraints[index] {
-        Constraint::DirectedLine(_) => (format!("Line {number}"), theme::LINE),
-        Constraint::Wall(_) => (format!("Wall {number}"), theme::WALL),
-    }
 }
 
 fn words(part: Part, span: &Span, own: bool) -> String {

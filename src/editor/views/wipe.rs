@@ -1,6 +1,8 @@
 //! The wipe: this flow on the left of a handle, another way to move the light on its right.
 
-use egui::{Align2, Color32, CursorIcon, FontId, Rect, Sense, Ui, WidgetInfo, pos2};
+use egui::{
+    Align2, Color32, ComboBox, CursorIcon, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 use lightloom_core::flow::Movement;
 
 use crate::editor::session::{Other, Wipe};
@@ -35,14 +37,29 @@ pub(super) fn handle(ui: &mut Ui, view: Rect, wipe: &mut Wipe) {
         let tip = |x: f32, y: f32| pos2(knob.x + side * x, knob.y + y);
         painter.line(vec![tip(2.5, -3.0), tip(5.5, 0.0), tip(2.5, 3.0)], (1.5, Color32::WHITE));
     }
-    let names = [("This flow", Align2::RIGHT_BOTTOM, -10.0), (name(wipe.with), Align2::LEFT_BOTTOM, 10.0)];
-    for (text, align, x) in names {
-        let at = pos2(middle + x, view.bottom() - 10.0);
-        let rect = painter.text(at, align, text, FontId::proportional(13.0), Color32::TRANSPARENT);
-        painter.rect_filled(rect.expand(4.0), 3.0, Color32::from_black_alpha(150));
-        painter.text(at, align, text, FontId::proportional(13.0), Color32::WHITE);
-    }
+    let at = pos2(middle - 10.0, view.bottom() - 14.0);
+    let text =
+        |colour| painter.text(at, Align2::RIGHT_BOTTOM, "This flow", FontId::proportional(13.0), colour);
+    painter.rect_filled(text(Color32::TRANSPARENT).expand(4.0), 3.0, Color32::from_black_alpha(150));
+    text(Color32::WHITE);
+    choice(ui, Rect::from_min_size(pos2(middle + 8.0, view.bottom() - 34.0), vec2(150.0, 24.0)), wipe);
 }
+
+/// What stands on the right.
+fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
+    let mut ui = ui.new_child(UiBuilder::new().id_salt("compared").max_rect(place));
+    let box_ = ComboBox::from_id_salt("compared with").selected_text(name(wipe.with)).width(place.width());
+    let response = box_.show_ui(&mut ui, |ui| {
+        for with in OTHERS {
+            ui.selectable_value(&mut wipe.with, with, name(with));
+        }
+    });
+    response.response.on_hover_text("What this flow is compared with");
+}
+
+/// All that a flow can be compared with.
+const OTHERS: [Other; 3] =
+    [Other::Method(Movement::Linear), Other::Method(Movement::Stylized), Other::NothingDrawn];
 
 /// What something is called that a flow is compared with.
 fn name(other: Other) -> &'static str {

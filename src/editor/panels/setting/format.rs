@@ -71,8 +71,8 @@ mod tests {
         ];
         for (value, text) in shown {
             assert_eq!(number(value, false), text);
-            // Five digits.
-            assert!((parse(text, "").unwrap_or(f64::NAN) - value).abs() <= 1e-5 * value.abs());
+            // Half a unit of the fifth digit.
+            assert!((parse(text, "").unwrap_or(f64::NAN) - value).abs() <= 5e-5 * value.abs());
         }
     }
 
