@@ -92,7 +92,7 @@ enum Stage {
     /// The system's dialog is open.
     Asked(PickRequest, Receiver<PickResult>),
     /// Ours is.
-    Browsing(PickRequest, Browser),
+    Browsing(PickRequest, Box<Browser>),
 }
 
 impl PickRequest {
@@ -170,7 +170,7 @@ impl Picker {
                     None
                 }
                 Ok(PickResult::Unavailable) | Err(TryRecvError::Disconnected) => {
-                    let browser = Browser::new(&request, ctx);
+                    let browser = Box::new(Browser::new(&request, ctx));
                     self.stage = Stage::Browsing(request, browser);
                     None
                 }

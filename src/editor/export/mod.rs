@@ -33,7 +33,7 @@ impl Exports {
     /// Puts an export at the end of the queue.
     pub fn add(&mut self, order: Order) -> Arc<Job> {
         let job = Arc::new(Job::new(order));
-        if !self.queue.as_ref().is_some_and(|queue| queue.send(job.clone()).is_ok()) {
+        if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
             job.fail("the system starts no thread for it");
         }
         self.jobs.push(job.clone());

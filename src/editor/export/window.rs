@@ -241,7 +241,10 @@ impl ExportWindow {
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
         jobs[active].show(desk.session.playhead);
         ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
-            for (index, job) in jobs.iter().enumerate().rev() {
+            // The one at work first, then the newest.
+            let others = (0..jobs.len()).rev().filter(|index| *index != active);
+            for index in std::iter::once(active).chain(others) {
+                let job = &jobs[index];
                 ui.push_id(index, |ui| {
                     if index == active {
                         self.picture(ui, index, job);
