@@ -38,7 +38,26 @@ pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<
         return Vec::new();
     }
     let events = ctx.input(|i| i.events.clone());
-    events.iter().filter_map(|event| asked(event, tools, busy, typing, focused)).collect()
+    let action = |event: &Event| {
+        let action = asked(event, tools, busy, typing, focused);
+        let space = matches!(event, Event::Key { key: Key::Space, .. });
+        if space { tapped(ctx, event, action) } else { action }
+    };
+    events.iter().filter_map(action).collect()
+}
+
+/// What the space bar asks for when it is let go: held while the pointer drags, it moves the view.
+fn tapped(ctx: &Context, event: &Event, action: Option<Action>) -> Option<Action> {
+    let id = egui::Id::new("space bar");
+    if matches!(event, Event::Key { pressed: true, .. }) {
+        // A key that is held is told again and again.
+        if let Some(action) = action {
+            ctx.data_mut(|data| data.insert_temp(id, action));
+        }
+        return None;
+    }
+    let dragged = ctx.input(|input| input.pointer.any_down() || input.pointer.any_released());
+    ctx.data_mut(|data| data.remove_temp::<Action>(id)).filter(|_| !dragged)
 }
 
 fn asked(
