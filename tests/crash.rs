@@ -163,6 +163,7 @@ fn large_project() -> ProjectFile {
         thickness: 0.02,
         span: None,
         enabled: true,
+        locked: false,
     }));
     ProjectFile::new(project).unwrap()
 }

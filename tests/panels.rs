@@ -18,11 +18,11 @@ use lightloom_core::project::Project;
 
 /// The last edit that was asked for.
 fn last_edit(bench: &Bench) -> Edit {
-    let edits = bench.state().asked.iter().filter_map(|action| match action {
+    let mut edits = bench.state().asked.iter().filter_map(|action| match action {
         Action::Edit(edit) => Some(edit.clone()),
         _ => None,
     });
-    edits.last().expect("an edit")
+    edits.next_back().expect("an edit")
 }
 
 #[test]

@@ -130,8 +130,7 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     };
     let (plane, gamma) = places(&folder);
     fs::create_dir_all(folder.path().join("config")).unwrap();
-    let preferences = lightloom::editor::store::Preferences { first_start_seen: true, ..Default::default() };
-    preferences.save(&folder.path().join("config")).unwrap();
+    window::preferences().save(&folder.path().join("config")).unwrap();
     let path = window::project(&folder, "letters_free");
     let Some(()) = screen.open(&path) else {
         eprintln!("nothing draws on a screen here: no window is tested");

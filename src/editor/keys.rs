@@ -48,16 +48,16 @@ pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<
 
 /// What the space bar asks for when it is let go: held while the pointer drags, it moves the view.
 fn tapped(ctx: &Context, event: &Event, action: Option<Action>) -> Option<Action> {
-    let id = egui::Id::new("space bar");
+    let id = egui::Id::unique("space bar");
     if matches!(event, Event::Key { pressed: true, .. }) {
         // A key that is held is told again and again.
-        if let Some(action) = action {
+        if action.is_some() {
             ctx.data_mut(|data| data.insert_temp(id, action));
         }
         return None;
     }
     let dragged = ctx.input(|input| input.pointer.any_down() || input.pointer.any_released());
-    ctx.data_mut(|data| data.remove_temp::<Action>(id)).filter(|_| !dragged)
+    ctx.data_mut(|data| data.remove_temp::<Option<Action>>(id)).flatten().filter(|_| !dragged)
 }
 
 fn asked(

@@ -49,11 +49,7 @@ fn otherwise() -> Value {
 
 /// The JSON pointer of a place; none where this project has none.
 fn pointer(value: &Value, place: &str) -> Option<String> {
-    let Some((head, rest)) =
-        place.split_once('.').map(|(head, rest)| (head, Some(rest))).or(Some((place, None)))
-    else {
-        return None;
-    };
+    let (head, rest) = place.split_once('.').map_or((place, None), |(head, rest)| (head, Some(rest)));
     let (name, element) = head.split_once('[').map_or((head, None), |(name, element)| (name, Some(element)));
     let inner = value.get(name)?;
     let on = |value: &Value, so_far: String| match rest {
@@ -168,9 +164,7 @@ fn every_default_is_the_core_s_own() {
         let same = match setting.kind {
             Kind::Switch => value.as_bool() == Some(setting.default == [1.0]),
             Kind::Choice if setting.options[0].value.is_empty() => true,
-            Kind::Choice => {
-                *value == json!(setting.options[0].value) || value.to_string() == setting.options[0].value
-            }
+            Kind::Choice => *value == json!(setting.options[0].value) || *value == setting.options[0].value,
             _ => {
                 let numbers: Vec<f32> = match value {
                     Value::Array(values) => values.iter().map(|v| v.as_f64().unwrap() as f32).collect(),

@@ -1,5 +1,5 @@
 //! A window without a screen, on a project of its own.
-#![allow(clippy::unwrap_used, dead_code)]
+#![allow(clippy::unwrap_used, dead_code, unreachable_pub)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ pub fn window(folder: &TempDir, name: &str, answers: Vec<PickResult>) -> Harness
         document: document(&path),
         message: None,
         folders: Some(folders(folder.path())),
-        preferences: Preferences { first_start_seen: true, ..Preferences::default() },
+        preferences: preferences(),
         dialogs: Arc::new(Scripted::new(answers)),
         card: Card::None,
     };
@@ -61,6 +61,13 @@ pub fn window(folder: &TempDir, name: &str, answers: Vec<PickResult>) -> Harness
         .with_pixels_per_point(1.0)
         .with_max_steps(8)
         .build_eframe(|cc| App::new(&cc.egui_ctx, setup.take().unwrap()))
+}
+
+/// Those of a user who has seen the first steps.
+pub fn preferences() -> Preferences {
+    let mut preferences = Preferences::default();
+    preferences.first_start_seen = true;
+    preferences
 }
 
 /// The file of the project `name` in a folder of examples.

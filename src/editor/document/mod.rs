@@ -133,9 +133,8 @@ impl Document {
 
     /// The document moves to another folder: `there` names the same files from it, now and in what can be undone.
     pub fn relocate(&mut self, there: impl Fn(&Project) -> Project) {
-        let moved = |project: &Arc<Project>| Arc::new(there(project));
-        self.project = moved(&self.project);
-        self.history.change_all(moved);
+        self.project = Arc::new(there(&self.project));
+        self.history.change_all(|project| Arc::new(there(project)));
     }
 
     /// It holds work that no file has.
