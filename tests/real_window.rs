@@ -14,6 +14,9 @@ use std::time::{Duration, Instant};
 use egui::Rect;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
+use lightloom::editor::action::Action;
+use lightloom::editor::command::Command as EditorCommand;
+use lightloom::editor::export::Wish;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
@@ -97,6 +100,13 @@ impl Screen {
         std::thread::sleep(Duration::from_millis(400));
     }
 
+    fn click(&self, at: [f32; 2]) {
+        let [x, y] = at.map(|n| format!("{n:.0}"));
+        self.tool(&["mousemove", &x, &y]);
+        self.tool(&["click", "1"]);
+        std::thread::sleep(Duration::from_millis(400));
+    }
+
     /// The pixels of the screen, by what `xwd` says: a file without compression.
     fn pixels(&self) -> Vec<u8> {
         let seen = Command::new("xwd").args(["-root", "-silent", "-display", &self.display]).output();
@@ -113,12 +123,32 @@ impl Screen {
     }
 }
 
-/// Where the plane view and the slider of gamma stand.
-fn places(folder: &tempfile::TempDir) -> (Rect, Rect) {
+/// Where things stand in the window.
+struct Places {
+    plane: Rect,
+    gamma: Rect,
+    frames: Rect,
+    export: Rect,
+}
+
+fn places(folder: &tempfile::TempDir) -> Places {
     let mut harness = window::window(folder, "letters_free", Vec::new());
     harness.run_steps(6);
     let plane = harness.get_by_label("Plane").rect();
-    (plane, harness.get_by_role_and_label(Role::Slider, "Gamma").rect())
+    let gamma = harness.get_by_role_and_label(Role::Slider, "Gamma").rect();
+    harness.state_mut().ask(Action::Command(EditorCommand::Export));
+    harness.run_steps(6);
+    let frames = harness.get_by_role_and_label(Role::TextInput, "Frames").rect();
+    Places { plane, gamma, frames, export: harness.get_by_label("Export 60 frames").rect() }
+}
+
+/// The example with frames that are rendered in no time.
+fn make_small(path: &Path) {
+    let text = fs::read_to_string(path).unwrap();
+    let size = r#""width": 720, "height": 720, "photons": 500000, "passes": 8"#;
+    assert!(text.contains(size), "the example says its size in other words");
+    let small = r#""width": 96, "height": 96, "photons": 6000, "passes": 1"#;
+    fs::write(path, text.replace(size, small)).unwrap();
 }
 
 #[test]
@@ -128,10 +158,12 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
         eprintln!("no Xvfb or no xdotool: no window is tested");
         return;
     };
-    let (plane, gamma) = places(&folder);
+    let path = window::project(&folder, "letters_free");
+    make_small(&path);
+    let original = fs::read(&path).unwrap();
+    let Places { plane, gamma, frames, export } = places(&folder);
     fs::create_dir_all(folder.path().join("config")).unwrap();
     window::preferences().save(&folder.path().join("config")).unwrap();
-    let path = window::project(&folder, "letters_free");
     let Some(()) = screen.open(&path) else {
         eprintln!("nothing draws on a screen here: no window is tested");
         return;
@@ -157,8 +189,23 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     screen.key("ctrl+z");
     screen.key("ctrl+s");
     screen.until("both undone in the file", || saved().constraints.is_empty() && saved().flow.gamma == 0.25);
-    let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
-    assert_eq!(fs::read(&path).unwrap(), fs::read(original).unwrap());
+    assert_eq!(fs::read(&path).unwrap(), original);
+
+    screen.key("ctrl+e");
+    let middle = |place: Rect| [place.center().x, place.center().y];
+    screen.click(middle(frames));
+    screen.key("ctrl+a");
+    screen.tool(&["type", "1-5"]);
+    screen.key("Tab");
+    screen.click(middle(export));
+    let folder = Wish::of(&saved(), Some(&path)).folder;
+    screen.until("the export", || folder.join("summary.json").is_file());
+    let pictures =
+        fs::read_dir(&folder).unwrap().filter_map(|entry| entry.unwrap().file_name().into_string().ok());
+    assert_eq!(
+        pictures.filter(|name| name.starts_with("letters_free.") && name.ends_with(".png")).count(),
+        5
+    );
     screen.key("ctrl+q");
     let program = screen.program.as_mut().unwrap();
     let begun = Instant::now();

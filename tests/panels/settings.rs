@@ -164,7 +164,10 @@ fn every_default_is_the_core_s_own() {
         let same = match setting.kind {
             Kind::Switch => value.as_bool() == Some(setting.default == [1.0]),
             Kind::Choice if setting.options[0].value.is_empty() => true,
-            Kind::Choice => *value == json!(setting.options[0].value) || *value == setting.options[0].value,
+            Kind::Choice => {
+                let first = setting.options[0].value;
+                *value == json!(first) || value.as_u64().map(|n| n.to_string()).as_deref() == Some(first)
+            }
             _ => {
                 let numbers: Vec<f32> = match value {
                     Value::Array(values) => values.iter().map(|v| v.as_f64().unwrap() as f32).collect(),

@@ -207,14 +207,17 @@ mod tests {
     #[test]
     fn shielded_work_is_finished_before_the_newer_request_is_taken() {
         let (done, seen) = channel();
+        let (go, shall) = channel();
+        let shall = Arc::new(Mutex::new(shall));
         let worker = Worker::new(
             "test",
             || {},
             move || {
-                let done = done.clone();
+                let (done, shall) = (done.clone(), shall.clone());
                 move |request: u32, turn: &Turn| {
                     let stopped = turn.shielded(|progress| {
-                        std::thread::sleep(Duration::from_millis(20));
+                        done.send((request, false, false)).unwrap();
+                        shall.lock().unwrap().recv().unwrap();
                         progress.is_cancelled()
                     });
                     done.send((request, stopped, turn.progress.is_cancelled())).unwrap();
@@ -222,11 +225,13 @@ mod tests {
             },
         );
         worker.ask(1);
-        while worker.progress().is_none() {
-            std::thread::yield_now();
-        }
+        assert_eq!(seen.recv().unwrap().0, 1);
+        // Newer work waits now, and the older is in the middle of what it shall finish.
         worker.ask(2);
+        go.send(()).unwrap();
         assert_eq!(seen.recv().unwrap(), (1, false, true));
+        assert_eq!(seen.recv().unwrap().0, 2);
+        go.send(()).unwrap();
         assert_eq!(seen.recv().unwrap(), (2, false, false));
     }
 

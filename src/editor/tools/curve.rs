@@ -206,7 +206,8 @@ mod tests {
             })
             .collect();
         let line = fit(&shaky, TOLERANCE);
-        assert!(line.len() < 45, "{}", line.len());
+        // A tenth of what was drawn.
+        assert!(line.len() <= 50, "{}", line.len());
         assert!(stray(&shaky, &line) <= 2.0 * TOLERANCE);
         assert_eq!((line[0], *line.last().unwrap()), (shaky[0], shaky[499]));
     }
