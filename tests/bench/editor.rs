@@ -23,6 +23,8 @@ fn main() {
     if std::env::args().any(|arg| arg == "--list") {
         return;
     }
+    let told = typing("letters_free");
+    println!("{told}");
     for name in ["letters_free", "dark_glass", "bottles"] {
         measure(name, "gamma", |project, i| {
             let mut flow = project.flow.clone();
@@ -38,10 +40,9 @@ fn main() {
             Edit::Constraints(constraints)
         });
     }
-    typing("letters_free");
 }
 
-/// Edits one after the other, each once the window rests.
+/// Edits one after the other, half a second apart: the work of the last is still going on.
 fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
     let folder = window::examples();
     let mut harness = window::window(&folder, name, Vec::new());
@@ -52,9 +53,9 @@ fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
     let (mut first, mut all) = (Vec::new(), Vec::new());
     for i in 0..EDITS {
         let painted = harness.state().preview().painted().number;
-        let edit = edit(harness.state().document().project(), i);
+        let change = edit(harness.state().document().project(), i);
         let begun = Instant::now();
-        harness.state_mut().ask(Action::Edit(edit));
+        harness.state_mut().ask(Action::Edit(change));
         harness.step();
         let seen = |app: &App| app.preview().is_current() && app.preview().painted().number > painted;
         while !seen(harness.state()) {
@@ -62,8 +63,18 @@ fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
             std::thread::sleep(Duration::from_micros(500));
         }
         first.push(begun.elapsed());
+        let pause = Instant::now();
+        while pause.elapsed() < Duration::from_millis(500) {
+            harness.step();
+            std::thread::sleep(Duration::from_millis(8));
+        }
         // All frames at the preview's own quality, in a few of the runs: it is long.
         if i % 10 == 0 {
+            window::until(&mut harness, "rest", is_fine);
+            let change = edit(harness.state().document().project(), i + 5);
+            let begun = Instant::now();
+            harness.state_mut().ask(Action::Edit(change));
+            harness.step();
             window::until(&mut harness, "all frames", |app| all_are(app, State::Preview));
             all.push(begun.elapsed());
             window::until(&mut harness, "rest", is_fine);
@@ -73,7 +84,7 @@ fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
 }
 
 /// A slider is dragged for a while: an edit in every frame of the window.
-fn typing(name: &str) {
+fn typing(name: &str) -> String {
     let folder = window::examples();
     let mut harness = window::window(&folder, name, Vec::new());
     window::until(&mut harness, "light", is_fine);
@@ -93,11 +104,11 @@ fn typing(name: &str) {
         std::thread::sleep(Duration::from_millis(16).saturating_sub(frames[frames.len() - 1]));
     }
     let long = frames.iter().filter(|frame| frame.as_millis() > 50).count();
-    println!(
+    format!(
         "{name}, a minute of edits, one in each frame of the window: {pictures} pictures; the window's own time {}; {long} of {} over 50 ms",
         told(frames.clone()),
         frames.len()
-    );
+    )
 }
 
 fn is_fine(app: &App) -> bool {

@@ -86,14 +86,12 @@ fn status(
 ) -> bool {
     let mut clicked = false;
     ui.horizontal_centered(|ui| {
-        if let Some(activity) = desk.preview.activity() {
-            let share = egui::ProgressBar::new(activity.fraction).desired_width(90.0).desired_height(6.0);
-            ui.add(share);
-            ui.weak(doing(activity.stage));
-        } else {
-            ui.add_space(98.0);
-            ui.weak("Ready");
-        }
+        let activity = desk.preview.activity();
+        let (doing, share) = activity.map_or(("ready", 1.0), |now| (doing(now.stage), now.fraction));
+        let bar = egui::ProgressBar::new(share).desired_width(70.0).desired_height(6.0);
+        ui.add_enabled(activity.is_some(), bar).accessible_name("Preview");
+        // As wide as the longest word, so that nothing jumps.
+        ui.add_sized([120.0, 18.0], egui::Label::new(RichText::new(doing).weak()).halign(Align::Min));
         ui.separator();
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let (name, help) = drawn_by(card, renderer);

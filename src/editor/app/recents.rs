@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::editor::menu::Recent;
-use crate::editor::preview::worker::{Turn, Worker};
+use crate::editor::preview::worker::{Share, Turn, Worker};
 
 /// Looks for the newest list of files.
 pub(super) struct Recents {
@@ -18,7 +18,7 @@ impl Recents {
         let found: Arc<Mutex<Vec<Recent>>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
-        let worker = Worker::new("recent files", wake, move || {
+        let worker = Worker::new("recent files", Share::One, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
             move |paths: Vec<PathBuf>, _: &Turn| {
                 let look = |path: PathBuf| Recent { is_there: path.is_file(), path };

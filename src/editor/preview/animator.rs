@@ -7,7 +7,7 @@ use lightloom_core::progress::Snapshot;
 use lightloom_core::{Error, Progress, Result};
 
 use super::subject::{Studio, Subject};
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 
 /// What the worker found out about one version of a project.
 #[derive(Clone, Default)]
@@ -35,11 +35,11 @@ struct Request {
 
 impl Animator {
     /// `wake` is called whenever there is something new to see.
-    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub(super) fn new(share: Share, wake: impl Fn() + Clone + Send + 'static) -> Self {
         let found: Arc<Mutex<Found>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
-        let worker = Worker::new("animation", wake, move || {
+        let worker = Worker::new("animation", share, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
             let mut studio = Studio::default();
             move |request: Request, turn: &Turn| answer(&mut studio, &request, turn, &found, &seen)

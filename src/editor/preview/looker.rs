@@ -10,7 +10,7 @@ use lightloom_core::scene::CameraDesc;
 
 use super::painter::{Moment, shown};
 use super::subject::{Studio, Subject};
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 
 /// Texels of the light along the receiver's longer side.
 const TEXELS: usize = 512;
@@ -52,7 +52,7 @@ impl Looker {
         let seen: Arc<Mutex<Seen>> = Arc::default();
         let theirs = seen.clone();
         let tell = wake.clone();
-        let worker = Worker::new("free look", wake, move || {
+        let worker = Worker::new("free look", Share::Whole, wake, move || {
             let (seen, tell) = (theirs.clone(), tell.clone());
             let (mut studio, mut exposure) = (Studio::default(), Exposure::default());
             move |stand: Stand, turn: &Turn| {

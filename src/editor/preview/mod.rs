@@ -32,6 +32,7 @@ use painter::Painter;
 use stager::Stager;
 use target::Targets;
 use wishes::Wishes;
+use worker::Share;
 
 /// The newest results, and what is still being worked on.
 pub struct Preview {
@@ -70,8 +71,8 @@ impl Preview {
     /// Nothing is worked on yet. `wake` is called from other threads whenever there is something new to see.
     pub fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
-            animator: Animator::new(wake.clone()),
-            other: Animator::new(wake.clone()),
+            animator: Animator::new(Share::Whole, wake.clone()),
+            other: Animator::new(Share::Half, wake.clone()),
             compared: None,
             painter: Painter::new(wake.clone()),
             stager: Stager::new(wake.clone()),

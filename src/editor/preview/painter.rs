@@ -4,12 +4,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Color32, ColorImage};
 use glam::Vec3;
-use lightloom_core::pipeline::{Exposure, Shot, Sketch};
+use lightloom_core::pipeline::{Detail, Exposure, Shot, Sketch};
 use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
 use rayon::prelude::*;
 
 use super::gpu::Swarm;
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 
 /// The light of one moment, and how it is shown.
 #[derive(Clone)]
@@ -72,17 +72,20 @@ impl Painter {
         let painted: Arc<Mutex<Painted>> = Arc::default();
         let theirs = painted.clone();
         let seen = wake.clone();
-        let worker = Worker::new("pictures", wake, move || {
+        let worker = Worker::new("pictures", Share::Whole, wake, move || {
             let (painted, seen) = (theirs.clone(), seen.clone());
             let mut easel = Easel::default();
             move |wish: Wish, turn: &Turn| {
                 // A picture takes less than the patience of a viewer, and while one scrubs a newer moment always waits:
                 // each is finished, or none would ever be seen.
-                let picture = turn.shielded(|_| easel.paint(&wish));
-                let mut painted = painted.lock().unwrap_or_else(PoisonError::into_inner);
-                *painted = Painted { number: painted.number + 1, ..picture };
-                drop(painted);
-                seen();
+                turn.shielded(|_| {
+                    easel.paint(&wish, &mut |picture| {
+                        let mut painted = painted.lock().unwrap_or_else(PoisonError::into_inner);
+                        *painted = Painted { number: painted.number + 1, ..picture.clone() };
+                        drop(painted);
+                        seen();
+                    });
+                });
             }
         });
         Self { worker, painted }
@@ -110,12 +113,12 @@ struct Easel {
 }
 
 impl Easel {
-    fn paint(&mut self, wish: &Wish) -> Painted {
+    /// Paints the plane, shows it, then the shot.
+    fn paint(&mut self, wish: &Wish, show: &mut dyn FnMut(&Painted)) {
         let view = wish.view.view();
         let mut painted = Painted { frame: wish.moment.frame, ..Painted::default() };
-        let moments = [Some(&wish.moment), wish.other.as_ref()];
-        for (side, moment) in moments.into_iter().enumerate() {
-            let Some(moment) = moment else { continue };
+        let moments = || [Some(&wish.moment), wish.other.as_ref()].into_iter().enumerate();
+        for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
             match wish.plane {
                 Plane::Hidden => {}
                 Plane::Picture(pixels) => {
@@ -124,12 +127,14 @@ impl Easel {
                 }
                 Plane::Photons => painted.swarm[side] = swarm(moment).map(Arc::new),
             }
-            if let Some(shot) = &wish.shot {
-                let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
-                painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
-            }
         }
-        painted
+        show(&painted);
+        let Some(shot) = &wish.shot else { return };
+        for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
+            let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
+            painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
+        }
+        show(&painted);
     }
 
     fn expose(&mut self, moment: &Moment, resolution: usize) -> Option<&ReceiverTexture> {
@@ -137,7 +142,13 @@ impl Easel {
     }
 
     fn plane(&mut self, moment: &Moment, pixels: usize, paper: Paper) -> Option<Image> {
-        let light = self.expose(moment, pixels)?;
+        // Few photons are spread so wide that more pixels would show nothing more.
+        let most = match moment.sketch.detail() {
+            Detail::Draft => 384,
+            Detail::Preview => 768,
+            Detail::Fine => 1024,
+        };
+        let light = self.expose(moment, pixels.min(most))?;
         Some(plane_picture(light, moment.sketch.extent(), paper))
     }
 }

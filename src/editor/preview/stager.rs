@@ -6,7 +6,7 @@ use lightloom_core::pipeline::Shot;
 use lightloom_core::{Error, Result};
 
 use super::subject::{Studio, Subject};
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 
 /// Paths per pixel of the picture without caustics, one after the other: a first look, and what suffices to draw on.
 const SAMPLES: [u32; 3] = [1, 4, 24];
@@ -35,7 +35,7 @@ impl Stager {
         let found: Arc<Mutex<Found>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
-        let worker = Worker::new("background", wake, move || {
+        let worker = Worker::new("background", Share::Half, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
             let mut studio = Studio::default();
             move |request: Request, turn: &Turn| {

@@ -9,7 +9,7 @@ use lightloom_core::project::AssetFolder;
 use lightloom_core::target::{Brightness, ImageTarget, Placement};
 
 use super::subject::Subject;
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 
 /// Cells along the longer side of what is shown.
 const SIDE: usize = 512;
@@ -45,7 +45,7 @@ impl Targets {
         let found: Arc<Mutex<Option<TargetPicture>>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
-        let worker = Worker::new("target", wake, move || {
+        let worker = Worker::new("target", Share::One, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
             move |request: Request, _: &Turn| {
                 // What is wrong with the file is told by the animation, which reads it too.

@@ -7,11 +7,37 @@ use std::time::{Duration, Instant};
 
 use lightloom_core::Progress;
 use lightloom_core::progress::Snapshot;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// A thread with one slot for what it shall do next.
 pub struct Worker<Q> {
     shared: Arc<Shared<Q>>,
     thread: Option<JoinHandle<()>>,
+}
+
+/// How much of the processor a worker may take. Each has threads of its own: in a common pool a short piece of work waits
+/// until a long one, such as the picture without caustics, lets a thread go; the system shares more fairly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// All threads: it answers what is waited for.
+    Whole,
+    /// Half of them: it can wait.
+    Half,
+    /// One: there is little to do.
+    One,
+}
+
+impl Share {
+    /// The pool of the current thread, which is one of its threads; the common one where the system gives no more.
+    fn pool(self) -> Option<ThreadPool> {
+        let all = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = match self {
+            Self::Whole => all,
+            Self::Half => (all / 2).max(1),
+            Self::One => 1,
+        };
+        ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build().ok()
+    }
 }
 
 /// How long shielded work is left alone, although something newer waits.
@@ -65,10 +91,11 @@ impl<Q> Shared<Q> {
 }
 
 impl<Q: Send + 'static> Worker<Q> {
-    /// Starts a thread called `name`. `make` builds what does the work, on that thread, and again after a panic. Without a
+    /// Starts a thread called `name` that may take a `share` of the processor. `make` builds what does the work, on that thread, and again after a panic. Without a
     /// thread, which the system may refuse, requests are answered by nobody and [`Self::panicked`] says so.
     pub fn new<W: FnMut(Q, &Turn)>(
         name: &str,
+        share: Share,
         wake: impl Fn() + Send + 'static,
         make: impl Fn() -> W + Send + 'static,
     ) -> Self {
@@ -76,6 +103,7 @@ impl<Q: Send + 'static> Worker<Q> {
         let shared = Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new() });
         let theirs = shared.clone();
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
+            let _pool = share.pool();
             while run(&theirs, &make) {
                 wake();
             }
@@ -183,6 +211,7 @@ mod tests {
         let (done, seen) = channel();
         let worker = Worker::new(
             "test",
+            Share::One,
             || {},
             move || {
                 let done = done.clone();
@@ -211,6 +240,7 @@ mod tests {
         let shall = Arc::new(Mutex::new(shall));
         let worker = Worker::new(
             "test",
+            Share::One,
             || {},
             move || {
                 let (done, shall) = (done.clone(), shall.clone());
@@ -240,6 +270,7 @@ mod tests {
         let (done, seen) = channel();
         let worker = Worker::new(
             "test",
+            Share::One,
             || {},
             move || {
                 let done = done.clone();
@@ -265,6 +296,7 @@ mod tests {
     fn dropping_it_stops_the_work() {
         let worker = Worker::new(
             "test",
+            Share::One,
             || {},
             || {
                 |(): (), turn: &Turn| {

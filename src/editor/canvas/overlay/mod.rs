@@ -78,7 +78,9 @@ impl Overlay<'_> {
         if show.grid {
             self.grid(project.flow.grid.cells(look.extent), look.extent);
         }
-        if let Some((texture, corners)) = target.filter(|_| show.target).zip(target_corners(look)) {
+        if let Some((texture, corners)) =
+            target.filter(|_| show.target && !look.session.playing).zip(target_corners(look))
+        {
             self.target(texture, corners);
         }
         self.flow(flow, self.painter.ctx().input(|input| input.time));

@@ -9,7 +9,7 @@ use glam::Vec2;
 use lightloom_core::pipeline::Sketch;
 use lightloom_core::project::Project;
 
-use super::worker::{Turn, Worker};
+use super::worker::{Share, Turn, Worker};
 use crate::editor::session::{FieldMap, Session, Shown};
 use followed::Roads;
 
@@ -93,7 +93,7 @@ impl FlowViewer {
         let found: Arc<Mutex<Arc<FlowPicture>>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
-        let worker = Worker::new("flow view", wake, move || {
+        let worker = Worker::new("flow view", Share::Half, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
             let mut roads = Roads::default();
             move |request: Request, turn: &Turn| {
