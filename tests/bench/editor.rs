@@ -117,8 +117,8 @@ fn is_fine(app: &App) -> bool {
 
 fn all_are(app: &App, state: State) -> bool {
     let keys = &app.document().project().keys;
-    let frames = keys.first().map_or(0, |key| key.frame)..=keys.last().map_or(0, |key| key.frame);
-    frames.clone().all(|frame| app.preview().coverage().of(frame) >= state)
+    let mut frames = keys.first().map_or(0, |key| key.frame)..=keys.last().map_or(0, |key| key.frame);
+    frames.all(|frame| app.preview().coverage().of(frame) >= state)
 }
 
 fn told(mut times: Vec<Duration>) -> String {

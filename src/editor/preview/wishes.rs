@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lightloom_core::pipeline::{Shot, Sketch};
 use lightloom_core::project::Project;
-use lightloom_core::render::Paper;
+use lightloom_core::render::{Paper, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
 use super::looker::Stand;
@@ -34,7 +34,7 @@ impl Default for Wanted {
 pub(super) struct Wishes {
     painted: Option<Painting>,
     staged: Option<Staging>,
-    looked: Option<(Painting, CameraDesc, [u32; 2])>,
+    looked: Option<(Painting, Same<Project>, CameraDesc, [u32; 2])>,
 }
 
 /// An object by identity. It is kept, so that no other takes its address meanwhile.
@@ -57,7 +57,8 @@ struct Painting {
     shot: Same<Shot>,
     frame: i32,
     shown: Vec<bool>,
-    project: Same<Project>,
+    view: ViewSettings,
+    paper: Paper,
     plane: Plane,
 }
 
@@ -89,11 +90,12 @@ impl Preview {
                 .iter()
                 .flat_map(|s| (0..s.groups().len()).map(|g| session.shows_group(g)))
                 .collect(),
-            project: Same(Some(subject.project.clone())),
+            view: subject.project.render.view.clone(),
+            paper: paper(&subject.project),
             plane: wanted.plane,
         };
         if let Some((camera, size)) = &wanted.look {
-            let asked = (painting, camera.clone(), *size);
+            let asked = (painting, Same(Some(subject.project.clone())), camera.clone(), *size);
             if self.wishes.looked.as_ref() != Some(&asked) {
                 self.looker.ask(Stand {
                     subject: subject.clone(),
