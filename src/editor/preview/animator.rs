@@ -20,6 +20,14 @@ pub(super) struct Found {
     pub(super) problem: Option<String>,
 }
 
+impl Found {
+    /// The best light there is at a frame.
+    pub(super) fn best(&self, frame: i32) -> Option<&Arc<Sketch>> {
+        let ready = |sketch: &&Arc<Sketch>| sketch.frames().contains(&frame) && sketch.is_ready(frame);
+        self.sketches.iter().rev().flatten().find(ready)
+    }
+}
+
 /// Sketches the newest version of a project.
 pub(super) struct Animator {
     worker: Worker<Request>,
@@ -55,8 +63,12 @@ impl Animator {
 
     /// What was found out about the newest version; none where it is still that of an older one.
     pub(super) fn found(&self) -> Option<Found> {
-        let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        (found.version == self.version).then(|| found.clone())
+        Some(self.last()).filter(|found| found.version == self.version)
+    }
+
+    /// What was found out last, of whichever version.
+    pub(super) fn last(&self) -> Found {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// What the worker does now: the stage, and how far it is.

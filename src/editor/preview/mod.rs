@@ -166,7 +166,11 @@ impl Preview {
             let fraction = seen.fraction as f32;
             Some(Activity { stage: seen.stage?, fraction })
         });
-        let Some(found) = self.animator.found() else { return };
+        let Some(found) = self.animator.found() else {
+            // While edits come quickly, as from a slider, the light of the last but one is better than that of long ago.
+            self.last = self.animator.last().best(self.frame).or(self.last.as_ref()).cloned();
+            return;
+        };
         for (detail, sketch) in found.sketches.iter().enumerate() {
             let Some(sketch) = sketch else { continue };
             let is_seen = |seen: &Arc<Sketch>| Arc::ptr_eq(seen, sketch);
@@ -189,18 +193,14 @@ impl Preview {
 
     /// The best light there is for the frame that is shown; it may be of an older version while a newer one is worked on.
     pub fn sketch(&self) -> Option<&Arc<Sketch>> {
-        let ready =
-            |sketch: &&Arc<Sketch>| sketch.frames().contains(&self.frame) && sketch.is_ready(self.frame);
-        let new = self.found.sketches.iter().rev().flatten();
-        new.clone().find(ready).or(self.last.as_ref()).or_else(|| new.clone().next())
+        let any = || self.found.sketches.iter().rev().flatten().next();
+        self.found.best(self.frame).or(self.last.as_ref()).or_else(any)
     }
 
     /// The other side of the wipe at the frame that is shown.
     fn other_sketch(&self) -> Option<Arc<Sketch>> {
         self.compared.as_ref()?;
-        let found = self.other.found()?;
-        let ready = |sketch: &&Arc<Sketch>| sketch.is_ready(self.frame);
-        found.sketches.iter().rev().flatten().find(ready).cloned()
+        self.other.found()?.best(self.frame).cloned()
     }
 
     /// The newest pictures of the plane and the shot.

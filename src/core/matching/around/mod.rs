@@ -110,9 +110,9 @@ impl AroundMap {
             .map(|i| {
                 let column = column_of[i];
                 let own = (tails[column].clone(), price[column]);
-                Anchor::new(i, &from, &to, own, &buckets, detour.barriers())
+                progress.check().map(|()| Anchor::new(i, &from, &to, own, &buckets, detour.barriers()))
             })
-            .collect();
+            .collect::<Result<_>>()?;
         Ok(Self { anchors, buckets })
     }
 
