@@ -29,7 +29,7 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
-    /// Measure what gamma does to a project's flow, at preview size: a plot and a table.
+    /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
     Report(ReportArgs),
     /// Print the JSON schema of project files.
     Schema,
@@ -57,9 +57,15 @@ pub(crate) struct FitArgs {
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     pub(crate) project: ProjectArgs,
-    /// Folder for gamma.svg, gamma.csv and gamma.json; made if it is not there.
+    /// Folder for report.html, report.json, and the folder report with tables and plots; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// Measure at preview size, within a minute.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Sections to measure, such as gamma,render; all without it.
+    #[arg(long, value_name = "SECTIONS", value_delimiter = ',')]
+    pub(crate) only: Vec<String>,
 }
 
 #[derive(Args)]

@@ -5,7 +5,7 @@ use std::path::Path;
 use lightloom_core::flow::Movement;
 use lightloom_core::pipeline::{Comparison, Pipeline, Summary, prepare_folder, write_report};
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::GammaResponse;
+use lightloom_core::report::Report;
 use lightloom_core::{Progress, Result};
 
 use super::args::ProjectArgs;
@@ -18,7 +18,7 @@ type Saved<'a> = &'a (dyn Fn(&Path) + Sync);
 pub(super) trait Outcome {
     /// The file for it in the output folder.
     const FILE: &'static str;
-    /// Folders below the output folder that get frames, too.
+    /// Folders below the output folder that are written into, too.
     fn folders() -> Vec<&'static str> {
         Vec::new()
     }
@@ -49,8 +49,11 @@ impl Outcome for Comparison {
     }
 }
 
-impl Outcome for GammaResponse {
-    const FILE: &'static str = "gamma.json";
+impl Outcome for Report {
+    const FILE: &'static str = "report.json";
+    fn folders() -> Vec<&'static str> {
+        vec!["report"]
+    }
     fn to_json(&self) -> String {
         self.to_json()
     }

@@ -1,16 +1,20 @@
-//! `lightloom report`: what the settings do to a project, as plots and tables.
+//! `lightloom report`: what a project's settings buy and what they cost, on a page.
 
 use lightloom_core::Result;
-use lightloom_core::report::gamma_response;
+use lightloom_core::report::{Effort, report};
 
 use super::args::ReportArgs;
 use super::job;
 
+/// Exit code where a section failed: a numerical failure.
+const FAILED: u8 = 7;
+
 pub(super) fn run(args: &ReportArgs) -> Result<u8> {
-    job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        let response = gamma_response(pipeline, project, progress)?;
-        response.write(&args.out)?.iter().for_each(|path| saved(path));
-        Ok(response)
+    let effort = if args.quick { Effort::Quick } else { Effort::Full };
+    let report = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
+        let report = report(pipeline, project, effort, &args.only, progress)?;
+        report.write(&args.out, "report")?.iter().for_each(|path| saved(path));
+        Ok(report)
     })?;
-    Ok(0)
+    Ok(if report.has_failed() { FAILED } else { 0 })
 }

@@ -24,7 +24,7 @@ pub fn prepare_folder(dir: &Path, project_path: &Path, project: &Project, place:
         inputs.filter_map(|path| path.canonicalize().ok()).filter(|path| path.parent() == Some(&folder))
     {
         let name = input.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if OUTPUTS.contains(&name.as_str()) || project.output.writes(&name) {
+        if OUTPUTS.contains(&name.as_str()) || project.output.writes(&name) || is_of_report(&input) {
             let what = format!(
                 "'{name}' there is what the project is made from, and would be overwritten; name another folder"
             );
@@ -34,8 +34,14 @@ pub fn prepare_folder(dir: &Path, project_path: &Path, project: &Project, place:
     Ok(())
 }
 
+/// Whether a report may write a file of this name: any table or plot in a folder of that name.
+fn is_of_report(path: &Path) -> bool {
+    let ends = |name: &str| path.extension().is_some_and(|extension| extension == name);
+    path.parent().is_some_and(|folder| folder.ends_with("report")) && (ends("csv") || ends("svg"))
+}
+
 /// What stands in an output folder beside the frames.
-const OUTPUTS: [&str; 10] = [
+const OUTPUTS: [&str; 9] = [
     "summary.json",
     "contact_sheet.png",
     "tracks.npy",
@@ -43,9 +49,8 @@ const OUTPUTS: [&str; 10] = [
     "fields.npz",
     "compare.png",
     "compare.json",
-    "gamma.svg",
-    "gamma.csv",
-    "gamma.json",
+    "report.html",
+    "report.json",
 ];
 
 /// Writes what a run has to say of itself, such as its summary, as the file `name` of its folder.

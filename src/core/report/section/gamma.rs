@@ -1,13 +1,11 @@
 //! What gamma does, for the joint fit and for the separate blend: does the slider act over its whole travel?
 
-use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
-
 use serde::Serialize;
 
-use super::plot::{Line, Panel, Tone, draw};
-use crate::files::write_atomic;
+use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
+use super::super::plot::{Axis, Line, Panel, Plot, Style};
+use super::super::workbench::Workbench;
+use super::{Section, nothing_moves};
 use crate::flow::{Course, FitKind, FlowSettings, Movement, fit_segment, metric};
 use crate::pipeline::{FirstMove, Pipeline, Quality};
 use crate::project::Project;
@@ -102,6 +100,62 @@ fn respond(photons: &FirstMove, settings: &FlowSettings, progress: &Progress) ->
     })
 }
 
+pub(in crate::report) const SECTION: Section =
+    Section { name: "gamma", needless: nothing_moves, measure, seconds: [6.0, 8.0] };
+
+/// At preview size in any case: the shape of the response does not depend on the grid.
+fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
+    progress.begin("gamma", 1);
+    let response = gamma_response(bench.pipeline, &bench.project, &progress.inner())?;
+    progress.advance(1);
+    Ok(response.chapter())
+}
+
+impl GammaResponse {
+    /// Four panels over gamma, divergence and curl of the first field and of the whole run, and the table.
+    pub fn chapter(&self) -> Chapter {
+        let panel = |title: &str, value: fn(&Response) -> f64| {
+            let points = |fit| self.of(fit).map(|row| (row.gamma.into(), value(row))).collect();
+            let lines = vec![
+                Line::new("joint", Style::Line(0), points(FitKind::Joint)),
+                Line::new("separate", Style::Line(1), points(FitKind::Separate)),
+            ];
+            Panel { title: title.to_owned(), x: Axis::linear("gamma"), y: Axis::linear(""), lines }
+        };
+        let panels = vec![
+            panel("divergence, first field", |row| row.divergence_first),
+            panel("curl, first field", |row| row.curl_first),
+            panel("divergence, whole run", |row| row.divergence_rms),
+            panel("curl, whole run", |row| row.curl_rms),
+        ];
+        let title = format!("{}, alpha {}", self.project, self.alpha);
+        let mut chapter = Chapter::new("gamma", "What gamma does");
+        chapter.say(
+            "Root mean square of divergence and curl where the photons are, at preview size and without turbulence. \
+             A slider that acts evenly has straight lines in the upper row.",
+        );
+        chapter.parts.push(Part::Plot(Plot { name: "gamma".to_owned(), title, panels }));
+        chapter.parts.push(Part::Table(self.table()));
+        chapter
+    }
+
+    fn table(&self) -> Table {
+        let columns = ["fit"].into_iter().chain(COLUMNS.map(|(name, _)| name));
+        let caption = "The flow from the first key at every gamma, fitted jointly and separately.";
+        let mut table = Table::new("gamma", caption, &columns.collect::<Vec<_>>());
+        for row in &self.rows {
+            let fit = if row.fit == FitKind::Joint { "joint" } else { "separate" };
+            let numbers = COLUMNS.iter().map(|(_, value)| Cell::from(value(row)));
+            table.push(Tone::Plain, [fit.into()].into_iter().chain(numbers).collect());
+        }
+        table
+    }
+
+    fn of(&self, fit: FitKind) -> impl Iterator<Item = &Response> {
+        self.rows.iter().filter(move |row| row.fit == fit)
+    }
+}
+
 /// What is written of each row, with its name.
 type Column = (&'static str, fn(&Response) -> f64);
 const COLUMNS: [Column; 10] = [
@@ -116,79 +170,3 @@ const COLUMNS: [Column; 10] = [
     ("wander", |row| row.wander),
     ("peak_speed_ratio", |row| row.peak_speed_ratio),
 ];
-
-impl GammaResponse {
-    /// Writes `gamma.svg` and `gamma.csv` into the folder `out`, and returns their paths.
-    ///
-    /// # Errors
-    /// `Io` when a file cannot be written.
-    pub fn write(&self, out: &Path) -> Result<[PathBuf; 2]> {
-        let files = ["gamma.svg", "gamma.csv"].map(|name| out.join(name));
-        for (path, text) in files.iter().zip([self.to_svg()?, self.to_csv()]) {
-            write_atomic(path, |file| file.write_all(text.as_bytes()))?;
-        }
-        Ok(files)
-    }
-
-    /// Four panels over gamma: divergence and curl, of the first field and of the whole run; blue joint, red separate.
-    ///
-    /// # Errors
-    /// `Numeric` when there is nothing finite to draw.
-    pub fn to_svg(&self) -> Result<String> {
-        let panel = |title: &'static str, value: fn(&Response) -> f64| {
-            let line = |(fit, label, tone)| Line {
-                label,
-                tone,
-                points: self.of(fit).map(|row| (row.gamma.into(), value(row))).collect(),
-            };
-            let lines = [(FitKind::Joint, "joint", Tone::Blue), (FitKind::Separate, "separate", Tone::Red)];
-            Panel { title, lines: lines.map(line).to_vec() }
-        };
-        let panels = [
-            panel("divergence, first field", |row| row.divergence_first),
-            panel("curl, first field", |row| row.curl_first),
-            panel("divergence, whole run", |row| row.divergence_rms),
-            panel("curl, whole run", |row| row.curl_rms),
-        ];
-        draw(&format!("{}, alpha {}", self.project, self.alpha), "gamma", &panels)
-    }
-
-    /// A row of comma separated numbers for each fit and gamma, under their names.
-    pub fn to_csv(&self) -> String {
-        let mut text = String::from("fit");
-        COLUMNS.iter().for_each(|(name, _)| text.extend([",", name]));
-        for row in &self.rows {
-            text.push_str(if row.fit == FitKind::Joint { "\njoint" } else { "\nseparate" });
-            for (_, value) in COLUMNS {
-                let _ = write!(text, ",{:.6}", value(row));
-            }
-        }
-        text + "\n"
-    }
-
-    /// As indented JSON.
-    pub fn to_json(&self) -> String {
-        // Plain numbers and strings: serialisation has nothing to fail on.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-
-    /// Divergence and curl over the whole run as lines for people.
-    pub fn to_text(&self) -> String {
-        let mut text = format!(
-            "{}, alpha {}: divergence and curl over the run\n  gamma       joint           separate\n",
-            self.project, self.alpha
-        );
-        for (joint, separate) in self.of(FitKind::Joint).zip(self.of(FitKind::Separate)) {
-            let _ = writeln!(
-                text,
-                "  {:<6}{:8.3}{:8.3}  {:8.3}{:8.3}",
-                joint.gamma, joint.divergence_rms, joint.curl_rms, separate.divergence_rms, separate.curl_rms
-            );
-        }
-        text
-    }
-
-    fn of(&self, fit: FitKind) -> impl Iterator<Item = &Response> {
-        self.rows.iter().filter(move |row| row.fit == fit)
-    }
-}
