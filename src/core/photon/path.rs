@@ -40,11 +40,13 @@ pub struct Ledger {
     pub capped: DVec3,
     /// Met nothing specular first.
     pub direct: DVec3,
+    /// Rays followed: a count, of all candidates.
+    pub rays: u64,
 }
 
 impl Ledger {
     fn columns(&mut self) -> [&mut DVec3; 8] {
-        let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct } = self;
+        let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct, .. } = self;
         [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
     }
 
@@ -58,9 +60,10 @@ impl Ledger {
         for (column, more) in self.columns().into_iter().zip(other.columns()) {
             *column += *more;
         }
+        self.rays += other.rays;
     }
 
-    /// Multiplies all by a factor.
+    /// Multiplies the fluxes by a factor.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
         self.columns().into_iter().for_each(|column| *column *= factor);
         self
@@ -80,6 +83,7 @@ pub(super) fn follow(
     let mut last_specular = None;
     ledger.emitted += flux.as_dvec3();
     for surface in 0..MAX_SURFACES {
+        ledger.rays += 1;
         let Some(mut hit) = scene.intersect(&ray) else {
             let end = if last_specular.is_some() { &mut ledger.escaped } else { &mut ledger.direct };
             *end += beam.weight.as_dvec3();

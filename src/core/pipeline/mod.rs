@@ -9,6 +9,7 @@ mod batch;
 mod check;
 mod compare;
 mod finish;
+mod gauge;
 mod grouping;
 mod light;
 mod loader;
@@ -34,6 +35,7 @@ use std::sync::Arc;
 
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
+pub use gauge::TraceGauge;
 pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;
@@ -204,8 +206,10 @@ impl Pipeline {
         let mut meter = Meter::default();
         let prepared = self.prepare(project, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
-        let batch = prepared.start(project, tracer.as_ref(), 0, progress)?;
-        motion::first_move(batch, project, prepared.extent, progress)
+        // Only these two are told of; learning where to aim is done once, whatever the number of photons.
+        let mut meter = Meter::quick();
+        let batch = meter.measure("trace", || prepared.start(project, tracer.as_ref(), 0, progress))?;
+        motion::first_move(batch, project, prepared.extent, meter, progress)
     }
 
     /// What would be done and what it would cost. Opens every file the project names, and traces a few photons to see which

@@ -10,7 +10,7 @@ use super::acting::{Acting, all_acting};
 use super::batch::Batch;
 use super::grouping::{CausticLight, Grouping};
 use super::light::{KeyPhotons, Partners};
-use super::meter::Meter;
+use super::meter::{Meter, StageCost};
 use super::mover;
 use super::summary::FlowNumbers;
 use crate::constraint::{ActiveLine, ActiveWall};
@@ -200,6 +200,16 @@ pub struct FirstMove {
     pub walls: Vec<ActiveWall>,
     /// Number of the segment, from 0.
     pub number: usize,
+    /// Seconds of "trace" (or of drawing the first key's points) and "match".
+    pub costs: Vec<StageCost>,
+}
+
+impl FirstMove {
+    /// How they flow with these settings.
+    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
+        let Self { source, target, extent, lines, walls, number, .. } = self;
+        Course { source, target, extent: *extent, settings, lines, walls, number: *number }
+    }
 }
 
 /// Goes from key to key until photons move.
@@ -207,17 +217,19 @@ pub(super) fn first_move(
     mut batch: Batch,
     project: &Project,
     extent: Vec2,
+    mut meter: Meter,
     progress: &Progress,
 ) -> Result<FirstMove> {
     for (number, Acting { lines, walls }) in all_acting(project, extent).into_iter().enumerate() {
         progress.begin("match", 1);
-        let next = match_next(&batch, false, progress)?.next;
+        let next = meter.measure("match", || match_next(&batch, false, progress))?.next;
         for groups in layers(&batch) {
             let [source, target] =
                 [&batch.at, &next].map(|photons| column(photons, &groups, |at| &at.positions));
             if mean_straight(&source, &target) > 0.0 {
                 let (source, target) = (source.into_owned(), target.into_owned());
-                return Ok(FirstMove { source, target, extent, lines, walls, number });
+                let costs = meter.costs().to_vec();
+                return Ok(FirstMove { source, target, extent, lines, walls, number, costs });
             }
         }
         batch.arrive(next);

@@ -6,7 +6,7 @@ use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
 use super::super::plot::{Axis, Line, Panel, Plot, Style};
 use super::super::workbench::Workbench;
 use super::{Section, nothing_moves};
-use crate::flow::{Course, FitKind, FlowSettings, Movement, fit_segment, metric};
+use crate::flow::{FitKind, FlowSettings, Movement, fit_segment, metric};
 use crate::pipeline::{FirstMove, Pipeline, Quality};
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -80,10 +80,9 @@ pub fn gamma_response(
 }
 
 fn respond(photons: &FirstMove, settings: &FlowSettings, progress: &Progress) -> Result<Response> {
-    let FirstMove { source, target, extent, lines, walls, number } = photons;
-    let course = Course { source, target, extent: *extent, settings, lines, walls, number: *number };
-    let (fields, report) = fit_segment(&course, progress, None)?;
-    let first = fields.nodes().first().map(|field| metric::divergence_and_curl_rms(&[field], source));
+    let (fields, report) = fit_segment(&photons.course(settings), progress, None)?;
+    let first =
+        fields.nodes().first().map(|field| metric::divergence_and_curl_rms(&[field], &photons.source));
     let [divergence_first, curl_first] = first.unwrap_or_default();
     Ok(Response {
         fit: settings.fit,
