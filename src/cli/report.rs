@@ -12,7 +12,7 @@ const FAILED: u8 = 7;
 pub(super) fn run(args: &ReportArgs) -> Result<u8> {
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let report = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        let report = report(pipeline, project, effort, &args.only, progress)?;
+        let report = report(pipeline, project, effort, &args.only, &args.out, progress)?;
         report.write(&args.out, "report")?.iter().for_each(|path| saved(path));
         Ok(report)
     })?;

@@ -44,6 +44,11 @@ impl Loader {
         Self { assets, geometry, scene, opened: Opened::default() }
     }
 
+    /// Through which files are found.
+    pub(super) fn assets(&self) -> &AssetFolder {
+        &self.assets
+    }
+
     /// Checks a project and opens every file it names.
     pub(super) fn prepare(&mut self, project: &Project, progress: &Progress) -> Result<Prepared> {
         project.check()?;

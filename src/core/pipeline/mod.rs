@@ -89,6 +89,11 @@ impl Pipeline {
         Self { loader: Loader::new(assets), seen: Seen::default(), motion: Stage::default() }
     }
 
+    /// A pipeline that finds the same files and has done nothing yet.
+    pub fn afresh(&self) -> Self {
+        Self::new(self.loader.assets().clone())
+    }
+
     /// Renders the project's frames into the folder `out`, which must be there. `saved` is told of each file.
     ///
     /// A run that is cancelled after its first pass still writes all frames, at the quality reached.

@@ -7,6 +7,7 @@ mod chapter;
 mod page;
 mod plot;
 mod section;
+mod slope;
 mod workbench;
 
 use std::io::Write as _;
@@ -56,7 +57,7 @@ pub struct Absent {
 /// Measures a project: all sections that it has something for, or those in `only` (all when empty).
 ///
 /// A section that fails is named as absent and the others go on. A run that is cancelled after its first section returns
-/// what is there.
+/// what is there. `scratch` is a folder with room for the frames of a render, such as that of the report.
 ///
 /// # Errors
 /// A name in `only` that is no section; anything wrong with the project or its files; cancelled before anything was measured.
@@ -65,12 +66,13 @@ pub fn report(
     project: &Project,
     effort: Effort,
     only: &[String],
+    scratch: &Path,
     progress: &Progress,
 ) -> Result<Report> {
     let start = Instant::now();
     let chosen = section::choose(only)?;
     progress.set_road(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
-    let mut bench = Workbench::new(pipeline, project, effort, progress)?;
+    let mut bench = Workbench::new(pipeline, project, effort, scratch, progress)?;
     let (mut chapters, mut absent) = (Vec::new(), Vec::new());
     for section in chosen {
         let mut leave_out = |why: String, failed| absent.push(Absent { section: section.name, why, failed });

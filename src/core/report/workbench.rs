@@ -1,11 +1,12 @@
 //! What the sections measure with.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::pipeline::{FirstMove, Pipeline, Quality};
+use crate::pipeline::{FirstMove, Pipeline, Quality, Summary};
 use crate::project::Project;
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,8 @@ pub(super) struct Workbench<'a> {
     /// As it is to be measured: at preview size when quick.
     pub(super) project: Project,
     pub(super) effort: Effort,
+    /// A folder with room for the frames of a render.
+    pub(super) scratch: &'a Path,
     first_move: Option<Arc<FirstMove>>,
 }
 
@@ -34,6 +37,7 @@ impl<'a> Workbench<'a> {
         pipeline: &'a mut Pipeline,
         project: &Project,
         effort: Effort,
+        scratch: &'a Path,
         progress: &Progress,
     ) -> Result<Self> {
         progress.check()?;
@@ -42,7 +46,7 @@ impl<'a> Workbench<'a> {
             Effort::Quick => Quality::Preview,
             Effort::Full => Quality::Final,
         };
-        Ok(Self { pipeline, project: quality.apply(project), effort, first_move: None })
+        Ok(Self { pipeline, project: quality.apply(project), effort, scratch, first_move: None })
     }
 
     /// `quick` or `full`, whichever is asked for.
@@ -51,6 +55,16 @@ impl<'a> Workbench<'a> {
             Effort::Quick => quick,
             Effort::Full => full,
         }
+    }
+
+    /// Renders a project into a folder that goes again, by a pipeline that remembers nothing of before.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files; input and output; cancelled.
+    pub(super) fn render(&self, project: &Project, progress: &Progress) -> Result<Summary> {
+        let folder =
+            tempfile::tempdir_in(self.scratch).map_err(Error::io("make a folder in", self.scratch))?;
+        self.pipeline.afresh().render(project, folder.path(), &progress.inner(), &|_| {})
     }
 
     /// The photons of the project's first pass at the first keys between which they move, matched. Made once.
@@ -64,6 +78,20 @@ impl<'a> Workbench<'a> {
         let made = Arc::new(self.pipeline.first_move(&self.project, &progress.inner())?);
         Ok(self.first_move.insert(made).clone())
     }
+}
+
+/// Seconds of the fastest of some runs: others on the machine only ever make it slower. Ends early once a second is spent.
+pub(super) fn fastest(runs: usize, mut work: impl FnMut() -> Result<()>) -> Result<f64> {
+    let (mut best, mut spent) = (f64::INFINITY, 0.0);
+    for _ in 0..runs.max(1) {
+        let ((), seconds) = timed(&mut work)?;
+        best = best.min(seconds);
+        spent += seconds;
+        if spent > 1.0 {
+            break;
+        }
+    }
+    Ok(best)
 }
 
 /// What `work` returns, and the seconds it took.

@@ -1,6 +1,10 @@
 //! The sections of a report: one file measures one thing.
 
 pub(super) mod gamma;
+mod growth;
+mod left_out;
+mod machine;
+mod time;
 
 use super::chapter::Chapter;
 use super::workbench::{Effort, Workbench};
@@ -20,7 +24,8 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 1] = [gamma::SECTION];
+pub(super) const SECTIONS: [Section; 5] =
+    [gamma::SECTION, time::SECTION, growth::SECTION, machine::SECTION, left_out::SECTION];
 
 impl Section {
     /// Seconds it is expected to take.
