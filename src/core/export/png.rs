@@ -6,8 +6,8 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Result;
 use crate::render::image::Image;
+use crate::{Error, Result};
 
 /// Bits per channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -24,6 +24,21 @@ pub enum PngDepth {
 /// Writes screen values (0..=1, already through the view transform), rounded with a dither that hides the steps of
 /// smooth gradients. The dither depends on the place alone: it does not flicker, and grey stays grey.
 pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
+    crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth))
+}
+
+/// As [`write`], 8 bit, into memory.
+///
+/// # Errors
+/// A picture without pixels, or with more than PNG can count.
+pub fn encode(encoded: &Image) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write_to(&mut bytes, encoded, PngDepth::Eight)
+        .map_err(|error| Error::Numeric { stage: "png", what: error.to_string() })?;
+    Ok(bytes)
+}
+
+fn write_to(writer: impl io::Write, encoded: &Image, depth: PngDepth) -> io::Result<()> {
     let (bits, bytes) = match depth {
         PngDepth::Eight => (png::BitDepth::Eight, quantize(encoded, 255.0, |v, out| out.push(v as u8))),
         PngDepth::Sixteen => {
@@ -31,16 +46,14 @@ pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
             (png::BitDepth::Sixteen, quantize(encoded, 65_535.0, push))
         }
     };
-    crate::files::write_atomic(path, |writer| {
-        let mut encoder = png::Encoder::new(writer, encoded.width as u32, encoded.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(bits);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        encoder.set_compression(png::Compression::Fast);
-        let mut writer = encoder.write_header().map_err(io::Error::other)?;
-        writer.write_image_data(&bytes).map_err(io::Error::other)?;
-        writer.finish().map_err(io::Error::other)
-    })
+    let mut encoder = png::Encoder::new(writer, encoded.width as u32, encoded.height as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(bits);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header().map_err(io::Error::other)?;
+    writer.write_image_data(&bytes).map_err(io::Error::other)?;
+    writer.finish().map_err(io::Error::other)
 }
 
 fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u8> {

@@ -21,6 +21,7 @@ mod output_folder;
 mod passes;
 mod plan;
 mod quality;
+mod rehearsal;
 mod ride;
 mod seen;
 mod sketch;
@@ -43,6 +44,7 @@ pub use onlooker::Onlooker;
 pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
+pub(crate) use rehearsal::{Passed, Rehearsal, Take};
 pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 

@@ -3,6 +3,8 @@
 //! All frames refine together, so a run that is stopped has every frame at the quality reached so far. Nothing of a
 //! pass outlives it but its sum in the [`ProgressiveRender`].
 
+use std::time::Instant;
+
 use glam::{Vec2, Vec3};
 
 use super::batch::Batch;
@@ -21,6 +23,8 @@ pub(super) struct Exposer<'a> {
     flux: Vec<Vec3>,
     /// Over all frames and passes.
     pub(super) account: Account,
+    /// Seconds that gathering the light took, of all frames and passes.
+    pub(super) seconds: f64,
 }
 
 /// How well the light was kept, over all frames and passes.
@@ -46,6 +50,7 @@ impl<'a> Exposer<'a> {
             positions: Vec::new(),
             flux: Vec::new(),
             account: Account::default(),
+            seconds: 0.0,
         }
     }
 
@@ -99,7 +104,9 @@ impl<'a> Exposer<'a> {
 
     /// Adds the photons as they stand to the frame of `slot`; `asked` is the flux they should have, watts.
     fn expose(&mut self, slot: usize, pass: usize, asked: f64) -> Result<()> {
+        let start = Instant::now();
         let outside = self.render.add(slot, pass, &self.positions, &self.flux, &mut self.work)?;
+        self.seconds += start.elapsed().as_secs_f64();
         let flux = total(&self.flux);
         let account = &mut self.account;
         account.outside = account.outside.max(outside.photons);

@@ -118,6 +118,11 @@ impl Supplies {
         self.seed
     }
 
+    /// The same with other random numbers.
+    pub(super) fn with_seed(&self, seed: u64) -> Self {
+        Self { seed, ..self.clone() }
+    }
+
     /// The groups of photons.
     pub(super) fn grouping(&self) -> &Grouping {
         &self.grouping

@@ -4,10 +4,12 @@
 //! gives chapters their form. What a section needs of a project it finds on the [`Workbench`].
 
 mod chapter;
+mod crop;
 mod page;
 mod plot;
 mod section;
 mod slope;
+mod ssim;
 mod workbench;
 
 use std::io::Write as _;

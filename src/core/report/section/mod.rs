@@ -4,6 +4,7 @@ pub(super) mod gamma;
 mod growth;
 mod left_out;
 mod machine;
+mod render_error;
 mod time;
 
 use super::chapter::Chapter;
@@ -24,8 +25,14 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 5] =
-    [gamma::SECTION, time::SECTION, growth::SECTION, machine::SECTION, left_out::SECTION];
+pub(super) const SECTIONS: [Section; 6] = [
+    render_error::SECTION,
+    gamma::SECTION,
+    time::SECTION,
+    growth::SECTION,
+    machine::SECTION,
+    left_out::SECTION,
+];
 
 impl Section {
     /// Seconds it is expected to take.
