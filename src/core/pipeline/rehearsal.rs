@@ -9,7 +9,7 @@ use glam::Vec2;
 use super::batch::Batch;
 use super::loader::Prepared;
 use super::meter::Meter;
-use super::motion::Motion;
+use super::motion::{Motion, Segment};
 use super::passes::Exposer;
 use super::slots::Slots;
 use super::{Pipeline, learn};
@@ -46,10 +46,8 @@ pub(crate) struct Take {
 pub(crate) struct Passed<'a> {
     /// How many.
     pub(crate) passes: usize,
-    /// Seconds of all passes so far for tracing, matching and carrying the photons.
-    pub(crate) carrying: f64,
-    /// Seconds of all passes so far for gathering the light of all frames.
-    pub(crate) exposing: f64,
+    /// Seconds of all passes so far.
+    pub(crate) seconds: f64,
     render: &'a ProgressiveRender,
     slots: &'a Slots,
 }
@@ -89,22 +87,19 @@ impl Rehearsal {
         (self.prepared.plan.photons, self.prepared.plan.passes)
     }
 
-    /// Different frames that a render of the project gathers light for, and the last of them.
-    pub(crate) fn frames(&self) -> (usize, i32) {
-        let Slots { moments, frames } = &self.prepared.slots;
-        let last = frames.iter().max_by_key(|(_, slot)| *slot);
-        (moments.len(), last.map_or(0, |(frame, _)| *frame))
+    /// The frames of a render of the project.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = i32> {
+        self.prepared.slots.frames.iter().map(|(frame, _)| *frame)
     }
 
-    /// The frame halfway between the first two keys between which light moves; the only one where none does.
-    pub(crate) fn middle(&self) -> i32 {
-        let moves = |segment: &super::motion::Segment| !segment.layers.is_empty();
+    /// The frame at this share of the way between the first two keys between which light moves; the only one where none
+    /// does.
+    pub(crate) fn frame_at(&self, share: f64) -> i32 {
+        let moves = |segment: &Segment| !segment.layers.is_empty();
         let first = self.motion.segments.iter().position(moves).unwrap_or(0);
-        let [from, to] = [first, first + 1].map(|key| self.project.keys.get(key).map(|key| key.frame));
-        match (from, to) {
-            (Some(from), Some(to)) => from + (to - from) / 2,
-            (from, _) => from.unwrap_or(0),
-        }
+        let keys = &self.project.keys;
+        let [from, to] = [first, first + 1].map(|key| keys[key.min(keys.len() - 1)].frame);
+        from + (share * f64::from(to - from)).round() as i32
     }
 
     /// What light on the plane looks like.
@@ -138,15 +133,14 @@ impl Rehearsal {
         let needed = slots.moments.last().map_or(0, |moment| moment.segment + 1);
         let segments = &motion.segments[..needed.min(motion.segments.len())];
         let mut exposer = Exposer::new(&render);
-        let mut carrying = 0.0;
+        let mut seconds = 0.0;
         for pass in 0..take.passes {
-            let (start, exposed) = (Instant::now(), exposer.seconds);
+            let start = Instant::now();
             let light = supplies.light(tracer.as_ref(), pass as u64, take.photons, &progress.inner())?;
             let batch = Batch::start(&supplies, light, pass as u64, project, extent);
             exposer.run(batch, segments, &slots, if take.shrinks { pass } else { 0 }, &progress.inner())?;
-            carrying += start.elapsed().as_secs_f64() - (exposer.seconds - exposed);
-            let exposing = exposer.seconds;
-            passed(&Passed { passes: pass + 1, carrying, exposing, render: &render, slots: &slots })?;
+            seconds += start.elapsed().as_secs_f64();
+            passed(&Passed { passes: pass + 1, seconds, render: &render, slots: &slots })?;
             progress.advance(1);
             progress.check()?;
         }

@@ -7,6 +7,7 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use serde::Serialize;
 
+use super::chapter::short;
 use crate::{Error, Result};
 
 /// Some panels under a title.
@@ -178,7 +179,7 @@ where
         .x_label_area_size(34)
         .y_label_area_size(56)
         .build_cartesian_2d(x, y)?;
-    let number = |value: &f64| super::chapter::short(*value);
+    let number = |value: &f64| tick(*value);
     chart
         .configure_mesh()
         .x_desc(&panel.x.label)
@@ -221,6 +222,16 @@ where
         .draw()
 }
 
+/// A number at an axis: no more digits than it needs.
+fn tick(value: f64) -> String {
+    let text = short(value);
+    let (digits, power) =
+        text.split_once('e').map_or((text.as_str(), None), |(digits, power)| (digits, Some(power)));
+    let digits =
+        if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
+    power.map_or(digits.to_owned(), |power| format!("{digits}e{power}"))
+}
+
 /// The corner on the right where fewer points are in the way of the legend.
 fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
     let along = |value: f64, log: bool| if log { value.ln() } else { value };
@@ -236,4 +247,18 @@ fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
     let right = || places.iter().filter(|p| p.0 > x);
     let (above, below) = (right().filter(|p| p.1 > y).count(), right().filter(|p| p.1 < y).count());
     if above > below { SeriesLabelPosition::LowerRight } else { SeriesLabelPosition::UpperRight }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_have_no_digits_to_spare() {
+        for (value, text) in
+            [(0.01, "0.01"), (1e-4, "1e-4"), (2.5e7, "2.5e7"), (100.0, "100"), (0.0, "0"), (1.2, "1.2")]
+        {
+            assert_eq!(tick(value), text);
+        }
+    }
 }

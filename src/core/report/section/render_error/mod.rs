@@ -68,13 +68,13 @@ impl Runs {
         let still = 100.0 * self.reference.still_share();
         format!(
             "The light on the plane at frame {}, seen straight on where it falls, so that no noise of the background \
-             counts. The reference is the same flow lit by {} photons of other random numbers, with the smallest kernel \
-             of all runs throughout (radius {} of the plane): blur finer than that is not seen as an error. Rms error: root \
+             counts. The reference is the same flow lit by {} photons of other random numbers, with the \
+             kernel of the last pass throughout (radius {} of the plane): blur finer than that is not seen as an error. Rms error: root \
              mean square difference of the irradiance over its mean; the noise of the reference is taken out by comparing \
              with two independent halves of it. Perceptual error: 1 - SSIM (Wang et al. 2004) of the pictures through the \
              view transform. Frame-to-frame noise: rms change to the next frame over the light there, where the \
              reference changes by less than 2 % ({} % of the lit part). Seconds are those of the passes of all {} frames, \
-             by the pace measured here.",
+             by one that was timed.",
             self.frame,
             short(self.photons as f64),
             short(f64::from(self.radius)),
@@ -97,12 +97,16 @@ impl Runs {
             short(row.rms)
         );
         if let Some(exponent) = split.slopes()[0].filter(|exponent| *exponent < -0.05) {
-            let factor = 2.0_f64.powf(-1.0 / exponent);
             text += &format!(
-                " With more passes the error falls as the {}th power of the photons: half of it takes {} times as long.",
+                " The error falls as the power {} of the passes, so that half of it takes {} times as long.",
                 short(exponent),
-                short(factor)
+                short(2.0_f64.powf(-1.0 / exponent))
             );
+            let passes = self.planned.1;
+            if own.is_none() && passes > row.passes {
+                let rms = row.rms * (passes as f64 / row.passes as f64).powf(exponent);
+                text += &format!(" The {passes} of the project would reach {}.", short(rms));
+            }
         }
         let best = self.best_within(row.seconds * 1.05);
         if let Some((other, better)) = best.filter(|(_, better)| better.rms < 0.95 * row.rms) {

@@ -1,6 +1,8 @@
 //! Passes of several sizes, and how far their light is from the reference after each.
 
 use super::reference::{Distance, Reference, Seen, Shown};
+use crate::constraint::Constraint;
+use crate::export::evenly_chosen;
 use crate::pipeline::{Passed, Rehearsal, Take};
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
@@ -8,14 +10,28 @@ use crate::render::{Image, RenderSettings, TextureLayout, first_radius};
 use crate::report::workbench::Workbench;
 use crate::{Error, Progress, Result};
 
-/// Photons of a pass as shares of the project's own.
-const SHARES: [f64; 3] = [0.1, 0.3, 1.0];
-/// Fewest passes of the project's own size that are looked at: a slope needs some.
-const FEWEST: usize = 4;
-/// Photons of all passes of one size at most, quick and full.
-const MOST: [usize; 2] = [200_000, 8_000_000];
+/// Where on the way between two keys the light is looked at: early, since a pass goes no further.
+const SHARE: f64 = 0.1;
+/// Longest animation whose pass is timed; longer ones are taken to go on at its pace.
+const TIMED: usize = 100;
+
+/// How much is run.
+struct Budget {
+    /// Photons of a pass as shares of the project's own; the last is 1.
+    shares: &'static [f64],
+    /// Fewest passes of the project's own size that are looked at: a slope needs some.
+    fewest: usize,
+    /// Photons of all passes of one size at most, without walls and with: around those each photon finds its way.
+    most: [usize; 2],
+    /// Pixels side by side of a picture.
+    width: usize,
+}
+
+const QUICK: Budget = Budget { shares: &[0.2, 1.0], fewest: 2, most: [200_000, 100_000], width: 320 };
+const FULL: Budget = Budget { shares: &[0.1, 0.3, 1.0], fewest: 4, most: [8_000_000, 4_000_000], width: 640 };
+
 /// Photons of the reference over those of the longest run.
-const LONGER: usize = 4;
+const LONGER: usize = 2;
 
 /// All that was measured.
 pub(super) struct Runs {
@@ -47,7 +63,7 @@ pub(super) struct Split {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reached {
     pub(super) passes: usize,
-    /// Seconds of the passes of a render of all frames, by the pace of these.
+    /// Seconds of as many passes through all frames, by the pace of one that was measured.
     pub(super) seconds: f64,
     /// Seconds measured, of one or two frames.
     pub(super) measured: f64,
@@ -61,7 +77,7 @@ struct Sizes {
     splits: Vec<Size>,
     /// Photons of a pass of the reference, and passes of each of its halves.
     reference: (usize, usize),
-    /// Last radius of all.
+    /// The kernel's of the reference: that of the last pass of the project's own size.
     radius: f32,
     layout: TextureLayout,
     frames: Vec<i32>,
@@ -77,29 +93,32 @@ struct Size {
 }
 
 impl Sizes {
-    fn new(rehearsal: &Rehearsal, settings: &RenderSettings, most: usize) -> Self {
+    fn new(rehearsal: &Rehearsal, project: &Project, budget: &Budget) -> Self {
         let (photons, passes) = rehearsal.planned();
-        let photons = photons.min(most / FEWEST).max(1);
-        let all = (photons * passes.max(FEWEST)).min(most);
-        let split = |share: f64| {
+        let most = budget.most[usize::from(has_walls(project))];
+        let photons = photons.min(most / budget.fewest).max(1);
+        let all = (photons * passes.max(budget.fewest)).min(most);
+        let split = |share: &f64| {
             let photons = ((photons as f64 * share).round() as usize).max(1);
-            let settings = RenderSettings { photons: photons as u64, ..settings.clone() };
+            let settings = RenderSettings { photons: photons as u64, ..project.render.clone() };
             Size { photons, passes: all / photons, radius: first_radius(&settings, rehearsal.extent()) }
         };
-        let splits: Vec<_> = SHARES.map(split).to_vec();
-        let last = splits.iter().map(|size| radius_of_pass(size.radius, size.passes - 1));
-        let radius = last.fold(f32::INFINITY, f32::min);
+        let splits: Vec<Size> = budget.shares.iter().map(split).collect();
+        let last = |size: &Size| radius_of_pass(size.radius, size.passes - 1);
+        let radius = splits.last().map_or(0.5, last);
+        let finest = splits.iter().map(last).fold(radius, f32::min);
         let widest = splits.iter().map(|size| size.radius).fold(0.0, f32::max);
-        let (middle, last) = (rehearsal.middle(), rehearsal.frames().1);
-        let frames = if middle < last { vec![middle, middle + 1] } else { vec![middle] };
+        let frame = rehearsal.frame_at(SHARE);
+        let frames = if frame < rehearsal.frame_at(1.0) { vec![frame, frame + 1] } else { vec![frame] };
         let reference = (photons, (LONGER * all).div_ceil(2 * photons));
-        Self { splits, reference, radius, layout: rehearsal.layout((widest, radius)), frames }
+        Self { splits, reference, radius, layout: rehearsal.layout((widest, finest)), frames }
     }
 
     /// Photons of all runs.
     fn photons(&self) -> usize {
         let (photons, passes) = self.reference;
-        self.splits.iter().map(|size| size.photons * size.passes).sum::<usize>() + 2 * photons * passes
+        // The pass that is timed counts as one more.
+        self.splits.iter().map(|size| size.photons * (size.passes + 1)).sum::<usize>() + 2 * photons * passes
     }
 }
 
@@ -110,20 +129,19 @@ impl Sizes {
 pub(super) fn run(bench: &mut Workbench, progress: &Progress) -> Result<Runs> {
     let rehearsal = bench.pipeline.rehearse(&bench.project, &progress.inner())?;
     let project = &bench.project;
-    let most = bench.pick(MOST[0], MOST[1]);
-    let sizes = Sizes::new(&rehearsal, &project.render, most);
+    let budget = bench.pick(QUICK, FULL);
+    let sizes = Sizes::new(&rehearsal, project, &budget);
     progress.begin("render", sizes.photons() as u64);
     let desk = Desk { rehearsal: &rehearsal, project, sizes: &sizes, scratch: bench.scratch, progress };
     let halves = [desk.half(1)?, desk.half(2)?];
-    let shown = Shown { view: project.render.view.view(), width: bench.pick(320, 640) };
+    let shown = Shown { view: project.render.view.view(), width: budget.width };
     let Some(reference) = Reference::new([&halves[0], &halves[1]], shown) else {
         return Err(Error::value("keys", "no light falls on the receiver, so there is none to measure"));
     };
     drop(halves);
     let mut splits = Vec::new();
-    let way = desk.way()?;
     for &size in &sizes.splits {
-        splits.push(desk.split(&reference, size, way)?);
+        splits.push(desk.split(&reference, size)?);
     }
     let planned = rehearsal.planned();
     Ok(Runs {
@@ -132,9 +150,14 @@ pub(super) fn run(bench: &mut Workbench, progress: &Progress) -> Result<Runs> {
         radius: sizes.radius,
         planned,
         frame: sizes.frames[0],
-        frames: rehearsal.frames().0,
+        frames: rehearsal.frames().count(),
         splits,
     })
+}
+
+fn has_walls(project: &Project) -> bool {
+    let is_wall = |c: &Constraint| c.is_enabled() && matches!(c, Constraint::Wall(_));
+    project.fits() && project.constraints.iter().any(is_wall)
 }
 
 /// What the runs have in common.
@@ -181,27 +204,24 @@ impl Desk<'_> {
         seen.ok_or(Error::Cancelled)
     }
 
-    /// How many times longer the photons of a pass take to the last frame than to the one that is looked at.
-    fn way(&self) -> Result<f64> {
-        let photons = self.sizes.splits[SHARES.len() / 2].photons;
-        let carrying = |frame: i32| {
-            let take = Take { frames: vec![frame], ..self.take(photons, 1) };
-            let mut seconds = 0.0;
-            self.rehearsal.run(&take, self.scratch, &self.progress.inner(), &mut |passed| {
-                seconds = passed.carrying;
-                Ok(())
-            })?;
-            Ok::<f64, Error>(seconds)
-        };
-        let [here, last] = [carrying(self.sizes.frames[0])?, carrying(self.rehearsal.frames().1)?];
-        Ok((last / here.max(1e-9)).max(1.0))
+    /// Seconds of a pass of this size through all frames.
+    fn pace(&self, Size { photons, radius, .. }: Size) -> Result<f64> {
+        let all: Vec<i32> = self.rehearsal.frames().collect();
+        let frames = evenly_chosen(&all, TIMED);
+        let share = frames.len() as f64 / all.len() as f64;
+        let mut seconds = 0.0;
+        self.run(&Take { radius, frames, ..self.take(photons, 1) }, |passed| {
+            seconds = passed.seconds / share;
+            Ok(())
+        })?;
+        Ok(seconds)
     }
 
     /// Passes of one size, looked at after 1, 2, 4, ... of them and after the last.
-    fn split(&self, reference: &Reference, size: Size, way: f64) -> Result<Split> {
+    fn split(&self, reference: &Reference, size: Size) -> Result<Split> {
         let Size { photons, passes, radius } = size;
         let take = Take { radius, shrinks: true, ..self.take(photons, passes) };
-        let (seen, all) = (take.frames.len() as f64, self.rehearsal.frames().0 as f64);
+        let pace = self.pace(size)?;
         let (mut rows, mut pictures) = (Vec::new(), Vec::new());
         self.run(&take, |passed| {
             if !passed.passes.is_power_of_two() && passed.passes < passes {
@@ -211,8 +231,8 @@ impl Desk<'_> {
                 reference.distance(&Seen::of(passed, take.frames.len(), self.rehearsal)?);
             rows.push(Reached {
                 passes: passed.passes,
-                seconds: passed.carrying * way + passed.exposing / seen * all,
-                measured: passed.carrying + passed.exposing,
+                seconds: pace * passed.passes as f64,
+                measured: passed.seconds,
                 rms,
                 perceptual,
                 flicker,
