@@ -27,6 +27,7 @@ mod seen;
 mod sketch;
 mod slots;
 mod stage;
+mod stills;
 mod summary;
 mod supply;
 mod tracks;
@@ -45,7 +46,9 @@ pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
 pub(crate) use rehearsal::{Passed, Rehearsal, Take};
+pub(crate) use sketch::covered;
 pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
+pub(crate) use stills::{Still, Stills};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
 use crate::photon::Tracer;

@@ -32,6 +32,7 @@ use shot::Views;
 
 pub use detail::Detail;
 pub use exposure::Exposure;
+pub(crate) use exposure::covered;
 pub use field::FieldAt;
 pub use outcome::Sketch;
 pub use shot::{Look, Shot};
@@ -212,7 +213,7 @@ impl Run<'_> {
         };
         let stops: Vec<Stop> =
             walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect();
-        let covered = stops.iter().map(|stop| exposure::covered(&stop.positions, *extent)).sum::<f32>();
+        let covered = stops.iter().map(|stop| covered(&stop.positions, *extent)).sum::<f32>();
         Course {
             covered: covered / stops.len() as f32,
             detail: self.detail,

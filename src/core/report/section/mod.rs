@@ -5,6 +5,7 @@ mod growth;
 mod left_out;
 mod machine;
 mod render_error;
+mod study;
 mod time;
 
 use super::chapter::Chapter;
@@ -25,8 +26,9 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 6] = [
+pub(super) const SECTIONS: [Section; 7] = [
     render_error::SECTION,
+    study::SECTION,
     gamma::SECTION,
     time::SECTION,
     growth::SECTION,
