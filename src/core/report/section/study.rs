@@ -31,7 +31,7 @@ struct Sheet {
 }
 
 const QUICK: Sheet =
-    Sheet { grids: &[16, 64], gammas: &[0.0, 0.5, 1.0], photons: 8_000, steps: 12, texels: 384 };
+    Sheet { grids: &[16, 64], gammas: &[0.0, 0.5, 1.0], photons: 10_000, steps: 12, texels: 384 };
 const FULL: Sheet = Sheet {
     grids: &[16, 32, 64, 128],
     gammas: &[0.0, 0.25, 0.5, 0.75, 1.0],

@@ -21,6 +21,11 @@ pub(in crate::report) const SECTION: Section =
 /// fall as N^(-2/3) (Knaus and Zwicker 2011).
 const LIMIT: f64 = -1.0 / 3.0;
 
+/// Exponents above this one are those of edges under a shrinking kernel (-1/12), not of noise.
+const BLUR: f64 = -0.2;
+/// Noise of the reference, over the mean light, that a picture shows.
+const NOISY: f64 = 0.2;
+
 fn same_in_every_pass(project: &Project) -> Option<&'static str> {
     (project.matching == Method::Given)
         .then_some("rows of point files are paired as given, so more passes bring no other photons")
@@ -68,16 +73,16 @@ impl Runs {
         let still = 100.0 * self.reference.still_share();
         format!(
             "The light on the plane at frame {}, seen straight on where it falls, so that no noise of the background \
-             counts. The reference is the same flow lit by {} photons of other random numbers, with the \
-             kernel of the last pass throughout (radius {} of the plane): blur finer than that is not seen as an error. Rms error: root \
-             mean square difference of the irradiance over its mean; the noise of the reference is taken out by comparing \
-             with two independent halves of it. Perceptual error: 1 - SSIM (Wang et al. 2004) of the pictures through the \
-             view transform. Frame-to-frame noise: rms change to the next frame over the light there, where the \
+             counts. The reference is the same flow lit by {} photons of other random numbers, spread by one kernel of \
+             radius {} of the plane: finer blur is not seen as an error. Rms error: root mean square difference of the \
+             irradiance over its mean; the noise of the reference is taken out by comparing with two independent \
+             halves of it. Perceptual error: 1 - SSIM (Wang et al. 2004) of the pictures through the view transform. \
+             Frame-to-frame noise: rms change to the next frame, less that of the reference, over the light where the \
              reference changes by less than 2 % ({} % of the lit part). Seconds are those of the passes of all {} frames, \
              by one that was timed.",
             self.frame,
             short(self.photons as f64),
-            short(f64::from(self.radius)),
+            short(f64::from(self.reference.radius)),
             short(still),
             self.frames
         )
@@ -90,32 +95,42 @@ impl Runs {
         };
         let Some(row) = own.or(split.rows.last()) else { return String::new() };
         let mut text = format!(
-            "{} passes of {} photons, about {} s, have an rms error of {}.",
-            row.passes,
-            short(split.photons as f64),
+            "{}, about {} s, have an rms error of {}.",
+            passes_of(row.passes, split.photons),
             short(row.seconds),
             short(row.rms)
         );
-        if let Some(exponent) = split.slopes()[0].filter(|exponent| *exponent < -0.05) {
-            text += &format!(
-                " The error falls as the power {} of the passes, so that half of it takes {} times as long.",
-                short(exponent),
-                short(2.0_f64.powf(-1.0 / exponent))
-            );
-            let passes = self.planned.1;
-            if own.is_none() && passes > row.passes {
-                let rms = row.rms * (passes as f64 / row.passes as f64).powf(exponent);
-                text += &format!(" The {passes} of the project would reach {}.", short(rms));
-            }
+        if let Some(exponent) = split.slopes()[0] {
+            text += &self.outlook(split, row, own.is_none(), exponent);
         }
         let best = self.best_within(row.seconds * 1.05);
         if let Some((other, better)) = best.filter(|(_, better)| better.rms < 0.95 * row.rms) {
+            let passes = passes_of(better.passes, other.photons);
+            text += &format!(" In the same time {passes} reach {}.", short(better.rms));
+        }
+        if self.reference.noise > NOISY {
+            text += " The reference itself is noisy, which hides part of the perceptual differences.";
+        }
+        text
+    }
+
+    /// What more passes than those of `row` bring, whose error falls with this exponent.
+    fn outlook(&self, split: &Split, row: &Reached, is_short: bool, exponent: f64) -> String {
+        let left = 100.0 * 2.0_f64.powf(exponent);
+        let mut text = format!(" Twice the passes leave {left:.0} % of it (at the limit 79 %).");
+        if exponent > BLUR {
+            let radius = short(f64::from(split.radius));
             text += &format!(
-                " In the same time {} passes of {} photons reach {}.",
-                better.passes,
-                short(other.photons as f64),
-                short(better.rms)
+                " What is left is mostly blur, which more passes hardly lower: a smaller render.radius than {radius} would."
             );
+        } else {
+            let times = short(2.0_f64.powf(-1.0 / exponent));
+            text += &format!(" Half of it takes {times} times as long.");
+        }
+        let passes = self.planned.1;
+        if is_short && passes > row.passes {
+            let rms = row.rms * (passes as f64 / row.passes as f64).powf(exponent);
+            text += &format!(" The {passes} passes of the project would reach {}.", short(rms));
         }
         text
     }
@@ -235,10 +250,14 @@ impl Runs {
         let mut reference = vec![Cell::Nothing; columns.len()];
         reference[0] = format!("reference, {} in all", short(self.photons as f64)).into();
         reference[4] = self.reference.noise.into();
-        reference[6] = self.reference.flicker.into();
         table.push(Tone::Plain, reference);
         table
     }
+}
+
+fn passes_of(passes: usize, photons: usize) -> String {
+    let word = if passes == 1 { "pass" } else { "passes" };
+    format!("{passes} {word} of {} photons", short(photons as f64))
 }
 
 /// A line of the limit's slope through the first point of a split.

@@ -1,12 +1,12 @@
 //! Passes of several sizes, and how far their light is from the reference after each.
 
-use super::reference::{Distance, Reference, Seen, Shown};
+use super::reference::{Distance, Reference, SHARPEST, Seen, Shown, light};
 use crate::constraint::Constraint;
 use crate::export::evenly_chosen;
 use crate::pipeline::{Passed, Rehearsal, Take};
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
-use crate::render::{Image, RenderSettings, TextureLayout, first_radius};
+use crate::render::{Image, ReceiverTexture, RenderSettings, TextureLayout, first_radius};
 use crate::report::workbench::Workbench;
 use crate::{Error, Progress, Result};
 
@@ -23,23 +23,22 @@ struct Budget {
     fewest: usize,
     /// Photons of all passes of one size at most, without walls and with: around those each photon finds its way.
     most: [usize; 2],
+    /// Photons of the reference over those of the longest run, without walls and with.
+    longer: [usize; 2],
     /// Pixels side by side of a picture.
     width: usize,
 }
 
-const QUICK: Budget = Budget { shares: &[0.2, 1.0], fewest: 2, most: [200_000, 100_000], width: 320 };
-const FULL: Budget = Budget { shares: &[0.1, 0.3, 1.0], fewest: 4, most: [8_000_000, 4_000_000], width: 640 };
-
-/// Photons of the reference over those of the longest run.
-const LONGER: usize = 2;
+const QUICK: Budget =
+    Budget { shares: &[0.2, 1.0], fewest: 2, most: [200_000, 100_000], longer: [8, 2], width: 320 };
+const FULL: Budget =
+    Budget { shares: &[0.1, 0.3, 1.0], fewest: 4, most: [8_000_000, 4_000_000], longer: [3, 2], width: 640 };
 
 /// All that was measured.
 pub(super) struct Runs {
     pub(super) reference: Reference,
     /// Photons of the reference.
     pub(super) photons: usize,
-    /// Its kernel's radius, plane units.
-    pub(super) radius: f32,
     /// Photons of one pass and passes, as the project has them.
     pub(super) planned: (usize, usize),
     /// The frame that was looked at.
@@ -54,6 +53,8 @@ pub(super) struct Runs {
 pub(super) struct Split {
     /// Photons of each.
     pub(super) photons: usize,
+    /// The kernel's radius in the first pass, plane units.
+    pub(super) radius: f32,
     pub(super) rows: Vec<Reached>,
     /// The light after the first pass and after the last, as it is shown; one picture where these are one.
     pub(super) pictures: Vec<Image>,
@@ -77,7 +78,7 @@ struct Sizes {
     splits: Vec<Size>,
     /// Photons of a pass of the reference, and passes of each of its halves.
     reference: (usize, usize),
-    /// The kernel's of the reference: that of the last pass of the project's own size.
+    /// The kernel's in the last pass of the project's own size.
     radius: f32,
     layout: TextureLayout,
     frames: Vec<i32>,
@@ -95,7 +96,8 @@ struct Size {
 impl Sizes {
     fn new(rehearsal: &Rehearsal, project: &Project, budget: &Budget) -> Self {
         let (photons, passes) = rehearsal.planned();
-        let most = budget.most[usize::from(has_walls(project))];
+        let walled = usize::from(has_walls(project));
+        let (most, longer) = (budget.most[walled], budget.longer[walled]);
         let photons = photons.min(most / budget.fewest).max(1);
         let all = (photons * passes.max(budget.fewest)).min(most);
         let split = |share: &f64| {
@@ -106,11 +108,11 @@ impl Sizes {
         let splits: Vec<Size> = budget.shares.iter().map(split).collect();
         let last = |size: &Size| radius_of_pass(size.radius, size.passes - 1);
         let radius = splits.last().map_or(0.5, last);
-        let finest = splits.iter().map(last).fold(radius, f32::min);
+        let finest = splits.iter().map(last).fold(SHARPEST * radius, f32::min);
         let widest = splits.iter().map(|size| size.radius).fold(0.0, f32::max);
         let frame = rehearsal.frame_at(SHARE);
         let frames = if frame < rehearsal.frame_at(1.0) { vec![frame, frame + 1] } else { vec![frame] };
-        let reference = (photons, (LONGER * all).div_ceil(2 * photons));
+        let reference = (photons, (longer * all).div_ceil(2 * photons));
         Self { splits, reference, radius, layout: rehearsal.layout((widest, finest)), frames }
     }
 
@@ -135,7 +137,7 @@ pub(super) fn run(bench: &mut Workbench, progress: &Progress) -> Result<Runs> {
     let desk = Desk { rehearsal: &rehearsal, project, sizes: &sizes, scratch: bench.scratch, progress };
     let halves = [desk.half(1)?, desk.half(2)?];
     let shown = Shown { view: project.render.view.view(), width: budget.width };
-    let Some(reference) = Reference::new([&halves[0], &halves[1]], shown) else {
+    let Some(reference) = Reference::new([&halves[0], &halves[1]], sizes.radius, &rehearsal, &shown) else {
         return Err(Error::value("keys", "no light falls on the receiver, so there is none to measure"));
     };
     drop(halves);
@@ -147,7 +149,6 @@ pub(super) fn run(bench: &mut Workbench, progress: &Progress) -> Result<Runs> {
     Ok(Runs {
         reference,
         photons: 2 * sizes.reference.0 * sizes.reference.1,
-        radius: sizes.radius,
         planned,
         frame: sizes.frames[0],
         frames: rehearsal.frames().count(),
@@ -175,7 +176,7 @@ impl Desk<'_> {
             photons,
             passes,
             seed: self.project.seed,
-            radius: self.sizes.radius,
+            radius: 0.0,
             shrinks: false,
             layout: self.sizes.layout,
             frames: self.sizes.frames.clone(),
@@ -189,15 +190,15 @@ impl Desk<'_> {
         })
     }
 
-    /// One half of the reference, by a seed of its own.
-    fn half(&self, number: u64) -> Result<Seen> {
+    /// The light of one half of the reference, by a seed of its own, not spread.
+    fn half(&self, number: u64) -> Result<Vec<ReceiverTexture>> {
         let (photons, passes) = self.sizes.reference;
         let seed = self.project.seed.wrapping_add(number);
         let take = Take { seed, ..self.take(photons, passes) };
         let mut seen = None;
         self.run(&take, |passed| {
             if passed.passes == passes {
-                seen = Some(Seen::of(passed, take.frames.len(), self.rehearsal)?);
+                seen = Some(light(passed, take.frames.len())?);
             }
             Ok(())
         })?;
@@ -241,6 +242,6 @@ impl Desk<'_> {
             pictures.push(picture);
             Ok(())
         })?;
-        Ok(Split { photons, rows, pictures })
+        Ok(Split { photons, radius, rows, pictures })
     }
 }
