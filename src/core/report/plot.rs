@@ -158,10 +158,23 @@ fn bounds(values: impl Iterator<Item = f64>, log: bool, upwards: bool) -> Range<
     // Nothing at all still needs an axis.
     match (log, upwards) {
         _ if low > high => 0.1..1.0,
-        (true, _) => low / 1.3..high * 1.3,
+        (true, _) => with_labels(low / 1.3, high * 1.3),
         (false, true) if high > 0.0 => low.min(0.0)..1.08 * high,
         (false, _) if high > low => low..high,
         _ => low - 0.5..low + 0.5,
+    }
+}
+
+/// Widened by as little as it takes for two powers of ten to stand on a logarithmic axis: no other number is labelled.
+fn with_labels(low: f64, high: f64) -> Range<f64> {
+    // The next powers outside; a hair more, so that rounding leaves them on the axis.
+    let below = 10_f64.powf(low.log10().ceil() - 1.0) / 1.001;
+    let above = 10_f64.powf(high.log10().floor() + 1.0) * 1.001;
+    match high.log10().floor() - low.log10().ceil() {
+        1.0.. => low..high,
+        0.0 if above / high < low / below => low..above,
+        0.0 => below..high,
+        _ => below..above,
     }
 }
 
@@ -259,6 +272,15 @@ mod tests {
             [(0.01, "0.01"), (1e-4, "1e-4"), (2.5e7, "2.5e7"), (100.0, "100"), (0.0, "0"), (1.2, "1.2")]
         {
             assert_eq!(tick(value), text);
+        }
+    }
+
+    #[test]
+    fn logarithmic_axes_have_two_labels_or_more() {
+        for (low, high) in [(0.8, 3.0), (2.0, 7.0), (0.03, 0.2), (0.5, 2000.0), (1.0, 1.0)] {
+            let axis = with_labels(low, high);
+            let labels = (-5..5).filter(|power| axis.contains(&10_f64.powi(*power))).count();
+            assert!(labels >= 2 && axis.start <= low && axis.end >= high, "{axis:?}");
         }
     }
 }
