@@ -1,5 +1,6 @@
 //! The sections of a report: one file measures one thing.
 
+mod flow_error;
 pub(super) mod gamma;
 mod growth;
 mod left_out;
@@ -24,8 +25,14 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 5] =
-    [gamma::SECTION, time::SECTION, growth::SECTION, machine::SECTION, left_out::SECTION];
+pub(super) const SECTIONS: [Section; 6] = [
+    flow_error::SECTION,
+    gamma::SECTION,
+    time::SECTION,
+    growth::SECTION,
+    machine::SECTION,
+    left_out::SECTION,
+];
 
 impl Section {
     /// Seconds it is expected to take.
