@@ -17,6 +17,16 @@ pub(super) struct Setting {
     pub(super) tolerance: f32,
 }
 
+/// How many times finer than a project its reference is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Finer {
+    pub(super) steps: u32,
+    /// Along each side.
+    pub(super) cells: u32,
+    /// So many times as many guides, if there are as many photons.
+    pub(super) guides: u32,
+}
+
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Knob {
@@ -28,9 +38,11 @@ pub(super) enum Knob {
 
 /// Residual that the reference is solved to.
 const EXACT: f32 = 1e-10;
-/// How much finer the reference is than the project.
-const FINER_STEPS: u32 = 4;
-const FINER_CELLS: u32 = 2;
+/// Parts and multiples of the own steps and cells that are tried, and of the own guides.
+const FACTORS: [f64; 5] = [0.125, 0.25, 0.5, 1.0, 2.0];
+const FEWER: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 1.0];
+/// Coarser tolerances that are tried.
+const TOLERANCES: [f32; 3] = [1e-1, 1e-2, 1e-3];
 /// Fewest cells along a side that a field can have.
 const FEWEST_CELLS: u32 = 8;
 
@@ -42,12 +54,13 @@ impl Setting {
         Self { steps: settings.steps, cells, guides, tolerance: settings.tolerance }
     }
 
-    /// Finer than all that is measured.
-    pub(super) fn reference(self, photons: usize) -> Self {
+    /// So much finer than this; `photons` are all there are.
+    pub(super) fn reference(self, finer: Finer, photons: usize) -> Self {
+        let photons = u32::try_from(photons).unwrap_or(u32::MAX);
         Self {
-            steps: FINER_STEPS * self.steps,
-            cells: self.cells.map(|cells| FINER_CELLS * cells),
-            guides: u32::try_from(photons).unwrap_or(u32::MAX),
+            steps: self.steps.saturating_mul(finer.steps),
+            cells: self.cells.map(|cells| cells.saturating_mul(finer.cells)),
+            guides: self.guides.saturating_mul(finer.guides).min(photons),
             tolerance: EXACT.min(self.tolerance),
         }
     }
@@ -83,7 +96,7 @@ impl Setting {
     /// For people.
     pub(super) fn describe(&self) -> String {
         let Self { steps, cells: [x, y], guides, tolerance } = self;
-        format!("{steps} steps, {x} x {y} cells, {guides} guide photons, tolerance {tolerance:.0e}")
+        format!("{steps} steps, {x} x {y} cells, {guides} guide photons, tolerance {tolerance:e}")
     }
 }
 
@@ -109,25 +122,37 @@ impl Knob {
         }
     }
 
+    /// Whether `a` has it finer than `b`.
+    fn is_finer(self, a: &Setting, b: &Setting) -> bool {
+        match self {
+            Self::Tolerance => a.tolerance < b.tolerance,
+            _ => self.of(a) > self.of(b),
+        }
+    }
+
     /// The project's `own` setting with this knob turned from coarse to as fine as `reference` has it.
     pub(super) fn sweep(self, own: Setting, reference: &Setting) -> Vec<Setting> {
-        let scaled = |value: u32, factor: f64, least: u32| ((f64::from(value) * factor) as u32).max(least);
+        let scaled = |value: u32, factor: f64, least: u32| {
+            // Saturates; what is too large is finer than the reference and goes again.
+            ((f64::from(value) * factor).round() as u32).max(least)
+        };
         let mut sweep: Vec<Setting> = match self {
-            Self::Steps => [0.125, 0.25, 0.5, 1.0, 2.0]
-                .map(|factor| Setting { steps: scaled(own.steps, factor, 1), ..own })
-                .to_vec(),
-            Self::Grid => [0.125, 0.25, 0.5, 1.0]
+            Self::Steps => {
+                FACTORS.map(|factor| Setting { steps: scaled(own.steps, factor, 1), ..own }).to_vec()
+            }
+            Self::Grid => FACTORS
                 .map(|factor| own.cells.map(|cells| scaled(cells, factor, FEWEST_CELLS)))
                 .map(|cells| Setting { cells, ..own })
                 .to_vec(),
-            Self::Guides => [1.0 / 64.0, 1.0 / 16.0, 0.25, 1.0]
-                .map(|factor| Setting { guides: scaled(own.guides, factor, 1), ..own })
-                .to_vec(),
-            Self::Tolerance => [1e3, 1e2, 10.0, 1.0, 1e-2]
-                .map(|factor| (own.tolerance * factor).clamp(reference.tolerance, 0.1))
+            Self::Guides => {
+                FEWER.map(|factor| Setting { guides: scaled(own.guides, factor, 1), ..own }).to_vec()
+            }
+            Self::Tolerance => (TOLERANCES.into_iter().filter(|tolerance| *tolerance > own.tolerance))
+                .chain([own.tolerance])
                 .map(|tolerance| Setting { tolerance, ..own })
-                .to_vec(),
+                .collect(),
         };
+        sweep.retain(|setting| self.is_finer(reference, setting) || *setting == own);
         sweep.push(own.with(self, reference));
         sweep.dedup();
         sweep
@@ -144,14 +169,10 @@ mod tests {
         let small = FlowSettings { steps: 1, grid: GridSize::Longer(8), guides: 3, ..settings.clone() };
         for (settings, photons) in [(settings, 1_000_000), (small, 2)] {
             let own = Setting::of(&settings, Vec2::new(1.0, 0.8), photons);
-            let reference = own.reference(photons);
+            let reference = own.reference(Finer { steps: 3, cells: 2, guides: 4 }, photons);
             for knob in Knob::ALL {
                 let sweep = knob.sweep(own, &reference);
-                let finer = |pair: &[Setting]| match knob {
-                    Knob::Tolerance => pair[0].tolerance > pair[1].tolerance,
-                    _ => knob.of(&pair[0]) < knob.of(&pair[1]),
-                };
-                assert!(sweep.windows(2).all(finer), "{sweep:?}");
+                assert!(sweep.windows(2).all(|pair| knob.is_finer(&pair[1], &pair[0])), "{sweep:?}");
                 assert!(sweep.contains(&own));
                 assert_eq!(sweep.last(), Some(&own.with(knob, &reference)));
                 // Nothing else is turned.

@@ -17,7 +17,7 @@ use crate::report::chapter::Chapter;
 use crate::report::pareto::Offer;
 use crate::report::workbench::{Workbench, timed};
 use crate::{Progress, Result};
-use knob::{Knob, Setting};
+use knob::{Finer, Knob, Setting};
 use probes::{Apart, Probes};
 
 /// Errors for which all knobs are balanced.
@@ -72,8 +72,13 @@ struct Measured {
 fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     let photons = bench.first_move(progress)?;
     let (project, again) = (bench.project.clone(), bench.pick(0.2, 1.0));
-    let trial =
-        Trial { photons: &photons, flow: &project.flow, probes: Probes::new(&photons), again, progress };
+    // Around walls photons cost most, and the fit some three times as much.
+    let finer = match photons.walls.is_empty() {
+        true => bench.pick(Finer { steps: 3, cells: 4, guides: 4 }, Finer { steps: 4, cells: 4, guides: 4 }),
+        false => bench.pick(Finer { steps: 2, cells: 3, guides: 1 }, Finer { steps: 3, cells: 3, guides: 2 }),
+    };
+    let probes = Probes::new(&photons);
+    let trial = Trial { photons: &photons, flow: &project.flow, probes, finer, again, progress };
     Ok(trial.measure(&project)?.chapter())
 }
 
@@ -82,6 +87,7 @@ struct Trial<'a> {
     photons: &'a FirstMove,
     flow: &'a FlowSettings,
     probes: Probes,
+    finer: Finer,
     /// What took fewer seconds is timed twice.
     again: f64,
     progress: &'a Progress,
@@ -91,7 +97,7 @@ impl Trial<'_> {
     fn measure(&self, project: &Project) -> Result<Measured> {
         let photons = self.photons.source.len();
         let own = Setting::of(self.flow, self.photons.extent, photons);
-        let reference = own.reference(photons);
+        let reference = own.reference(self.finer, photons);
         let sweeps = Knob::ALL.map(|knob| (knob, knob.sweep(own, &reference)));
         let settings = sweeps.iter().flat_map(|(_, sweep)| sweep).chain([&reference]);
         self.progress.begin("flow", settings.map(Setting::work).sum());
@@ -157,7 +163,8 @@ fn balanced(own: Setting, alone: &[(Knob, Vec<(usize, Apart)>)], runs: &[Run]) -
         let (mut setting, mut finest) = (own, 0);
         for (knob, rows) in alone {
             let enough = rows.iter().position(|(_, apart)| apart.rms <= SHARE * aim)?;
-            finest += usize::from(enough + 1 == rows.len());
+            // Row 0 is the project's own.
+            finest += usize::from(enough + 1 == rows.len() && rows[enough].0 > 0);
             setting = setting.with(*knob, &runs[rows[enough].0].setting);
         }
         (finest <= 1).then_some(setting)

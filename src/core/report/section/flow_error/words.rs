@@ -72,10 +72,11 @@ impl Measured {
             Some(row) if !is_worth_it(&offers, 0) => {
                 let run = &self.runs[row];
                 format!(
-                    "{begin}. It is not on the front: {} takes {} s for {}.",
+                    "{begin}. It is not on the front: {} takes {} s for {}, {:.0} % of the time.",
                     run.setting.describe(),
                     short(run.seconds),
-                    short(run.error.rms)
+                    short(run.error.rms),
+                    100.0 * run.seconds / own.seconds
                 )
             }
             _ => format!(
@@ -116,17 +117,17 @@ impl Measured {
             let point = |&(row, apart): &(usize, Apart)| (knob.of(&self.runs[row].setting), apart.rms);
             let points: Vec<_> = rows.iter().map(point).collect();
             let own = rows.iter().filter(|(row, _)| *row == 0).map(point).collect();
-            let lines = vec![
-                Line::new("", Style::Line(0), points),
-                Line::new("the project's", Style::Rings(OWN), own),
-            ];
+            let lines = vec![Line::new("", Style::Line(0), points), Line::new("", Style::Rings(OWN), own)];
             let title = knob.name().to_owned();
             let label = if *knob == Knob::Grid { "cells along the longer side" } else { knob.name() };
             Panel { title, x: Axis::log(label), y: Axis::log("error (plane)"), lines }
         };
         Plot {
             name: "flow_alone".to_owned(),
-            title: format!("{}: error that each setting causes alone", self.project.name),
+            title: format!(
+                "{}: error that each setting causes alone (ring: the project's)",
+                self.project.name
+            ),
             panels: self.alone.iter().map(panel).collect(),
         }
     }
@@ -154,7 +155,7 @@ impl Measured {
 
     /// By which power of the step the error falls.
     fn order(&self, rows: &[(usize, Apart)]) -> String {
-        // The one before the finest is already near what it is compared with, and the finest is that.
+        // The finest is what they are compared with, and the one before is already near it.
         let kept = &rows[..rows.len().saturating_sub(2)];
         let points = kept.iter().map(|&(row, apart)| (Knob::Steps.of(&self.runs[row].setting), apart.rms));
         slope(&points.collect::<Vec<_>>()).map_or_else(String::new, |slope| {
@@ -184,7 +185,10 @@ impl Measured {
         for (knob, rows) in &self.alone {
             for (row, apart) in rows {
                 let run = &self.runs[*row];
-                let value = knob.of(&run.setting).into();
+                let value = match knob {
+                    Knob::Tolerance => format!("{:e}", run.setting.tolerance).into(),
+                    _ => knob.of(&run.setting).into(),
+                };
                 let tone = if *row == 0 { Tone::Marked } else { Tone::Plain };
                 table.push(
                     tone,
@@ -210,10 +214,10 @@ impl Measured {
                 Why::Alone(knob) => (knob.name(), Tone::Plain),
                 Why::Balanced => ("all in balance", Tone::Plain),
             };
-            let numbers = [f64::from(steps), f64::from(guides), f64::from(tolerance)].map(Cell::from);
-            let [steps, guides, tolerance] = numbers;
+            let [steps, guides] = [steps, guides].map(|count| Cell::from(f64::from(count)));
             let kept = if best.contains(&row) { "yes" } else { "no" };
-            let mut cells = vec![name.into(), steps, format!("{x} x {y}").into(), guides, tolerance];
+            let mut cells = vec![name.into(), steps, format!("{x} x {y}").into(), guides];
+            cells.push(format!("{tolerance:e}").into());
             cells.extend([*seconds, error.rms, error.high, error.most].map(Cell::from));
             cells.push(kept.into());
             table.push(tone, cells);
