@@ -5,6 +5,7 @@ pub(super) mod gamma;
 mod growth;
 mod left_out;
 mod machine;
+mod matching_cost;
 mod time;
 
 use super::chapter::Chapter;
@@ -25,8 +26,9 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 6] = [
+pub(super) const SECTIONS: [Section; 7] = [
     flow_error::SECTION,
+    matching_cost::SECTION,
     gamma::SECTION,
     time::SECTION,
     growth::SECTION,
