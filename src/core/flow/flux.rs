@@ -3,6 +3,8 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::math::sum::ordered_sum;
+
 /// The flux of each photon at time `t` of its way from `source` to `target`, linear RGB watts.
 ///
 /// # Panics
@@ -25,7 +27,7 @@ pub fn share_out(total: DVec3, colours: &[Vec3], count: usize) -> Vec<Vec3> {
     colours.iter().map(|colour| (colour.as_dvec3() * mean * scale).as_vec3()).collect()
 }
 
-/// Sum in f64, in the order of the rows.
+/// Sum in f64; the same for any number of threads.
 pub fn total(flux: &[Vec3]) -> DVec3 {
-    flux.iter().map(|f| f.as_dvec3()).sum()
+    ordered_sum(flux, |f| f.as_dvec3())
 }

@@ -16,5 +16,6 @@ pub mod real;
 pub mod rng;
 pub mod sobol;
 pub mod stencil;
+pub mod sum;
 pub mod transfer;
 pub mod vector;

@@ -10,13 +10,17 @@ use super::motion::Segment;
 use super::ride::Ride;
 use super::slots::Slots;
 use crate::flow::{Astray, flux};
+use crate::render::splat::Outside;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Progress, Result};
 
 /// Where the photons of the passes land.
 pub(super) struct Exposer<'a> {
     render: &'a ProgressiveRender,
-    work: Workspace,
+    /// Two, in turn: one is filled while the other is kept.
+    works: [Workspace; 2],
+    /// The frame whose light stands in the second, not yet kept.
+    pending: Option<usize>,
     positions: Vec<Vec2>,
     flux: Vec<Vec3>,
     /// Over all frames and passes.
@@ -42,7 +46,8 @@ impl<'a> Exposer<'a> {
     pub(super) fn new(render: &'a ProgressiveRender) -> Self {
         Self {
             render,
-            work: Workspace::new(*render.layout()),
+            works: [(); 2].map(|()| Workspace::new(*render.layout())),
+            pending: None,
             positions: Vec::new(),
             flux: Vec::new(),
             account: Account::default(),
@@ -62,7 +67,7 @@ impl<'a> Exposer<'a> {
             let at = || batch.at.iter();
             self.positions = at().flat_map(|group| &group.positions).copied().collect();
             self.flux = at().flat_map(|group| &group.flux).copied().collect();
-            self.expose(0, pass, batch.asked())?;
+            self.expose(0, pass, batch.asked(), |_, _| Ok(()))?;
             progress.advance(1);
         }
         for (i, segment) in segments.iter().enumerate() {
@@ -72,7 +77,7 @@ impl<'a> Exposer<'a> {
             self.carry(ride, asked, pass, slots.of_segment(i), progress)?;
             batch.arrive(next);
         }
-        Ok(())
+        self.pending.take().map_or(Ok(()), |slot| self.render.keep(slot, &self.works[1]))
     }
 
     /// Carries the photons through the moments of one segment; `asked` is the flux they should have at its ends.
@@ -87,9 +92,10 @@ impl<'a> Exposer<'a> {
         self.positions.resize(ride.len(), Vec2::ZERO);
         self.flux.resize(ride.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            ride.positions_at(time, &mut self.positions, &progress.inner())?;
-            ride.flux_at(time, &mut self.flux);
-            self.expose(slot, pass, between(asked, time))?;
+            self.expose(slot, pass, between(asked, time), |positions, flux| {
+                ride.flux_at(time, flux);
+                ride.positions_at(time, positions, &progress.inner())
+            })?;
             progress.advance(1);
             progress.check()?;
         }
@@ -97,15 +103,27 @@ impl<'a> Exposer<'a> {
         Ok(())
     }
 
-    /// Adds the photons as they stand to the frame of `slot`; `asked` is the flux they should have, watts.
-    fn expose(&mut self, slot: usize, pass: usize, asked: f64) -> Result<()> {
-        let outside = self.render.add(slot, pass, &self.positions, &self.flux, &mut self.work)?;
-        let flux = total(&self.flux);
-        let account = &mut self.account;
-        account.outside = account.outside.max(outside.photons);
-        account.keep_flux_ratio(flux, asked);
-        let inside = flux - outside.flux.element_sum();
-        farther(&mut account.texture_ratio, self.work.texture().total().element_sum(), inside);
+    /// Lets `place` say where the photons stand and what they carry, and adds them to the frame of `slot`; `asked` is the flux
+    /// they should have, watts. Meanwhile the frame before goes to the store.
+    fn expose(
+        &mut self,
+        slot: usize,
+        pass: usize,
+        asked: f64,
+        place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
+    ) -> Result<()> {
+        let Self { render, works: [work, before], pending, positions, flux, account } = self;
+        let keep = || pending.take().map_or(Ok(()), |slot| render.keep(slot, before));
+        let expose = || {
+            place(positions, flux)?;
+            let outside = render.expose(pass, positions, flux, work);
+            account.keep(outside, total(flux), asked, work.texture().total().element_sum());
+            Ok(())
+        };
+        let (exposed, kept) = rayon::join(expose, keep);
+        kept.and(exposed)?;
+        self.works.swap(0, 1);
+        self.pending = Some(slot);
         Ok(())
     }
 }
@@ -115,6 +133,13 @@ impl Account {
     pub(super) fn keep_astray(&mut self, astray: Astray) {
         self.crossings += astray.crossings;
         self.unreachable = self.unreachable.max(astray.unreachable);
+    }
+
+    /// Notes one frame: what lies beyond the texture, the flux of its photons, that asked for, and that in the texture, watts.
+    fn keep(&mut self, outside: Outside, flux: f64, asked: f64, lit: f64) {
+        self.outside = self.outside.max(outside.photons);
+        self.keep_flux_ratio(flux, asked);
+        farther(&mut self.texture_ratio, lit, flux - outside.flux.element_sum());
     }
 
     /// Notes the flux of one frame's photons against what is asked for, both in watts.

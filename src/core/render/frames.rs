@@ -2,7 +2,7 @@
 //! of frames.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -24,13 +24,15 @@ struct Inner {
     file: File,
     /// Passes added to each frame.
     passes: Vec<u32>,
+    /// Room for the texels of one call of the operating system.
+    packed: Vec<[f32; 3]>,
 }
 
 impl FrameStore {
     /// A store for `frames` frames in an unnamed file of `folder`, which must have room for [`Self::bytes`].
     pub fn new(layout: TextureLayout, frames: usize, folder: &Path) -> Result<Self> {
         let file = tempfile::tempfile_in(folder).map_err(Error::io("create a scratch file in", folder))?;
-        let inner = Mutex::new(Inner { file, passes: vec![0; frames] });
+        let inner = Mutex::new(Inner { file, passes: vec![0; frames], packed: Vec::new() });
         Ok(Self { layout, folder: folder.to_owned(), inner })
     }
 
@@ -48,16 +50,10 @@ impl FrameStore {
         assert_eq!(*pass.layout(), self.layout, "one layout for all textures");
         let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
         let fail = Error::io("write the scratch file in", &self.folder);
-        if inner.passes[frame] == 0 {
-            self.write(&mut inner.file, frame, pass.texels()).map_err(fail)?;
-        } else {
-            let mut sum = ReceiverTexture::new(self.layout);
-            self.read(&mut inner.file, frame, sum.texels_mut())
-                .map_err(Error::io("read the scratch file in", &self.folder))?;
-            sum.texels_mut().iter_mut().zip(pass.texels()).for_each(|(sum, texel)| *sum += texel);
-            self.write(&mut inner.file, frame, sum.texels()).map_err(fail)?;
-        }
-        inner.passes[frame] += 1;
+        let Inner { file, passes, packed } = &mut *inner;
+        let first = passes[frame] == 0;
+        self.sum(file, packed, (frame, first), pass.texels()).map_err(fail)?;
+        passes[frame] += 1;
         Ok(())
     }
 
@@ -79,13 +75,30 @@ impl FrameStore {
         Ok((texture, passes as usize))
     }
 
-    fn write(&self, file: &mut File, frame: usize, texels: &[Vec4]) -> io::Result<()> {
-        file.seek(SeekFrom::Start(frame_bytes(self.layout.len()) * frame as u64))?;
-        let mut packed = Vec::with_capacity(PACK);
-        for texels in texels.chunks(PACK) {
+    /// Piece by piece, so that a piece is still in the cache when it goes back.
+    fn sum(
+        &self,
+        file: &mut File,
+        packed: &mut Vec<[f32; 3]>,
+        (frame, first): (usize, bool),
+        texels: &[Vec4],
+    ) -> io::Result<()> {
+        let start = frame_bytes(self.layout.len()) * frame as u64;
+        for (piece, texels) in texels.chunks(PACK).enumerate() {
+            let place = SeekFrom::Start(start + frame_bytes(piece * PACK));
             packed.clear();
-            packed.extend(texels.iter().map(|t| [t.x, t.y, t.z]));
-            file.write_all(bytemuck::cast_slice(&packed))?;
+            if first {
+                packed.extend(texels.iter().map(|t| [t.x, t.y, t.z]));
+            } else {
+                packed.resize(texels.len(), [0.0; 3]);
+                file.seek(place)?;
+                file.read_exact(bytemuck::cast_slice_mut(packed))?;
+                for ([r, g, b], texel) in packed.iter_mut().zip(texels) {
+                    (*r, *g, *b) = (*r + texel.x, *g + texel.y, *b + texel.z);
+                }
+            }
+            file.seek(place)?;
+            file.write_all(bytemuck::cast_slice(packed))?;
         }
         Ok(())
     }

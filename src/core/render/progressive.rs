@@ -72,10 +72,22 @@ impl ProgressiveRender {
         flux: &[Vec3],
         work: &mut Workspace,
     ) -> Result<Outside> {
+        let outside = self.expose(pass, positions, flux, work);
+        self.keep(frame, work)?;
+        Ok(outside)
+    }
+
+    /// The first half of [`Self::add`]: the photons' light is in the workspace.
+    pub fn expose(&self, pass: usize, positions: &[Vec2], flux: &[Vec3], work: &mut Workspace) -> Outside {
         let outside = work.splatter.splat(positions, flux, &mut work.texture);
         work.smoother.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
-        self.store.add(frame, &work.texture)?;
-        Ok(outside)
+        outside
+    }
+
+    /// The second half: adds the light in the workspace to a frame. It waits for the system on one thread, so let it run
+    /// beside the next exposure.
+    pub fn keep(&self, frame: usize, work: &Workspace) -> Result<()> {
+        self.store.add(frame, &work.texture)
     }
 
     /// The light of a frame in watts per texel, the mean over its passes, and their number.

@@ -7,6 +7,8 @@
 use glam::{DVec3, Vec2, Vec4, Vec4Swizzles};
 use rayon::prelude::*;
 
+use crate::math::sum::ordered_sum;
+
 /// Where the texels lie on the plane; row 0 is at the bottom (smallest plane y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureLayout {
@@ -99,9 +101,9 @@ impl ReceiverTexture {
         &mut self.texels
     }
 
-    /// The flux of all texels, watts, summed in f64.
+    /// The flux of all texels, watts, summed in f64; the same for any number of threads.
     pub fn total(&self) -> DVec3 {
-        self.texels.iter().map(|t| t.xyz().as_dvec3()).sum()
+        ordered_sum(&self.texels, |t| t.xyz().as_dvec3())
     }
 
     /// Multiplies every texel.

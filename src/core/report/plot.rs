@@ -7,6 +7,7 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use serde::Serialize;
 
+use super::chapter::short;
 use crate::{Error, Result};
 
 /// Some panels under a title.
@@ -159,7 +160,7 @@ fn bounds(values: impl Iterator<Item = f64>, log: bool, upwards: bool) -> Range<
         _ if low > high => 0.1..1.0,
         // Only powers of ten are labelled: there shall be two of them.
         (true, _) if (high.log10().floor() - low.log10().ceil()) < 1.0 => {
-            10_f64.powf((low / 1.1).log10().floor())..10_f64.powf((high * 1.1).log10().ceil())
+            0.999 * 10_f64.powf((low / 1.1).log10().floor())..1.001 * 10_f64.powf((high * 1.1).log10().ceil())
         }
         (true, _) => low / 1.3..high * 1.3,
         (false, true) if high > 0.0 => low.min(0.0)..1.08 * high,
@@ -225,16 +226,14 @@ where
         .draw()
 }
 
-/// A number at an axis: powers of ten as they are, others with three digits that count.
+/// A number at an axis: no more digits than it needs.
 fn tick(value: f64) -> String {
-    let power = value.abs().log10();
-    match (power - power.round()).abs() < 1e-9 {
-        true if (-3.0..6.0).contains(&power.round()) => {
-            format!("{}", 10_f64.powf(power.round()).copysign(value))
-        }
-        true => format!("{}1e{}", if value < 0.0 { "-" } else { "" }, power.round()),
-        false => super::chapter::short(value),
-    }
+    let text = short(value);
+    let (digits, power) =
+        text.split_once('e').map_or((text.as_str(), None), |(digits, power)| (digits, Some(power)));
+    let digits =
+        if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
+    power.map_or(digits.to_owned(), |power| format!("{digits}e{power}"))
 }
 
 /// The corner where the fewest points are in the way of the legend; one on the right where that is as good.
@@ -259,4 +258,18 @@ fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
     ];
     let emptiest = corners.into_iter().min_by_key(|(points, _)| *points);
     emptiest.map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_have_no_digits_to_spare() {
+        for (value, text) in
+            [(0.01, "0.01"), (1e-4, "1e-4"), (2.5e7, "2.5e7"), (100.0, "100"), (0.0, "0"), (1.2, "1.2")]
+        {
+            assert_eq!(tick(value), text);
+        }
+    }
 }

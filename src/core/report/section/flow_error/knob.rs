@@ -25,6 +25,8 @@ pub(super) struct Finer {
     pub(super) cells: u32,
     /// So many times as many guides, if there are as many photons.
     pub(super) guides: u32,
+    /// Photons beyond which no guides are taken, by the project neither.
+    pub(super) most_guides: usize,
 }
 
 /// One of them.
@@ -36,8 +38,8 @@ pub(super) enum Knob {
     Tolerance,
 }
 
-/// Residual that the reference is solved to.
-const EXACT: f32 = 1e-10;
+/// Residual that the reference is solved to: a thousandth of the default, which itself is hardly seen.
+const EXACT: f32 = 1e-7;
 /// Parts and multiples of the own steps and cells that are tried, and of the own guides.
 const FACTORS: [f64; 5] = [0.125, 0.25, 0.5, 1.0, 2.0];
 const FEWER: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 1.0];
@@ -47,9 +49,9 @@ const TOLERANCES: [f32; 3] = [1e-1, 1e-2, 1e-3];
 const FEWEST_CELLS: u32 = 8;
 
 impl Setting {
-    /// As a project has it, on a plane of this extent and with so many photons to fit to.
-    pub(super) fn of(settings: &FlowSettings, extent: Vec2, photons: usize) -> Self {
-        let guides = settings.guides.min(u32::try_from(photons).unwrap_or(u32::MAX));
+    /// As a project has it, on a plane of this extent and with no more than so many guides.
+    pub(super) fn of(settings: &FlowSettings, extent: Vec2, most_guides: usize) -> Self {
+        let guides = settings.guides.min(u32::try_from(most_guides).unwrap_or(u32::MAX));
         let cells = settings.grid.cells(extent);
         Self { steps: settings.steps, cells, guides, tolerance: settings.tolerance }
     }
@@ -169,7 +171,7 @@ mod tests {
         let small = FlowSettings { steps: 1, grid: GridSize::Longer(8), guides: 3, ..settings.clone() };
         for (settings, photons) in [(settings, 1_000_000), (small, 2)] {
             let own = Setting::of(&settings, Vec2::new(1.0, 0.8), photons);
-            let reference = own.reference(Finer { steps: 3, cells: 2, guides: 4 }, photons);
+            let reference = own.reference(Finer { steps: 3, cells: 2, guides: 4, most_guides: usize::MAX }, photons);
             for knob in Knob::ALL {
                 let sweep = knob.sweep(own, &reference);
                 assert!(sweep.windows(2).all(|pair| knob.is_finer(&pair[1], &pair[0])), "{sweep:?}");

@@ -72,14 +72,22 @@ struct Measured {
 fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     let photons = bench.first_move(progress)?;
     let (project, again) = (bench.project.clone(), bench.pick(0.2, 1.0));
-    // Around walls photons cost most, and the fit some three times as much.
-    let finer = match photons.walls.is_empty() {
-        true => bench.pick(Finer { steps: 3, cells: 4, guides: 4 }, Finer { steps: 4, cells: 4, guides: 4 }),
-        false => bench.pick(Finer { steps: 2, cells: 3, guides: 1 }, Finer { steps: 3, cells: 3, guides: 2 }),
-    };
+    let finer = finer(bench, !photons.walls.is_empty());
     let probes = Probes::new(&photons);
     let trial = Trial { photons: &photons, flow: &project.flow, probes, finer, again, progress };
     Ok(trial.measure(&project)?.chapter())
+}
+
+/// What a reference may cost: around walls photons cost most, and a fit about three times as much.
+fn finer(bench: &Workbench, walls: bool) -> Finer {
+    let free = Finer { steps: 3, cells: 3, guides: 4, most_guides: usize::MAX };
+    match walls {
+        false => bench.pick(free, Finer { steps: 4, cells: 4, ..free }),
+        true => bench.pick(
+            Finer { steps: 2, cells: 2, guides: 1, most_guides: 10_000 },
+            Finer { steps: 2, guides: 2, ..free },
+        ),
+    }
 }
 
 /// Photons on which settings are tried.
@@ -96,7 +104,7 @@ struct Trial<'a> {
 impl Trial<'_> {
     fn measure(&self, project: &Project) -> Result<Measured> {
         let photons = self.photons.source.len();
-        let own = Setting::of(self.flow, self.photons.extent, photons);
+        let own = Setting::of(self.flow, self.photons.extent, photons.min(self.finer.most_guides));
         let reference = own.reference(self.finer, photons);
         let sweeps = Knob::ALL.map(|knob| (knob, knob.sweep(own, &reference)));
         let settings = sweeps.iter().flat_map(|(_, sweep)| sweep).chain([&reference]);

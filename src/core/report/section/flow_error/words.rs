@@ -48,15 +48,22 @@ impl Measured {
         format!(
             "{} photons are carried along each flow, {turbulence}{walls}, and looked at when 1 to 9 tenths of the time are \
              over. The error is how far they are from where a reference takes them, in the plane's longer side. The \
-             reference ({}) took {} s. One of half its steps and cells is {} from it (root mean square; one photon in a \
-             thousand by {}), so that smaller errors than this tell nothing. Seconds are those of the whole fit of one \
-             segment. The basis is not varied: cubic B-splines are the only one.",
+             reference ({}) took {} s. One of half its steps and cells is {} from it (root mean square), so that by the \
+             orders found below its own error is about {}: smaller ones tell nothing. Seconds are those of the whole fit of \
+             one segment. The basis is not varied: cubic B-splines are the only one.",
             self.probes,
             self.reference.describe(),
             short(self.reference_seconds),
             short(self.doubt.rms),
-            short(self.doubt.high),
+            short(self.reference_error()),
         )
+    }
+
+    /// About how far the reference itself is from right. If errors fall like h^p, that of h is 1/(2^p - 1) of what it lies
+    /// from 2 h; p is the least of the orders found, from 1 to 2.
+    fn reference_error(&self) -> f64 {
+        let orders = [Knob::Steps, Knob::Grid].map(|knob| self.order(knob).unwrap_or(1.0).clamp(1.0, 2.0));
+        self.doubt.rms / (2_f64.powf(orders[0].min(orders[1])) - 1.0)
     }
 
     /// Whether the project's setting is worth its price, and what else is.
@@ -86,7 +93,7 @@ impl Measured {
     }
 
     fn front_plot(&self) -> Plot {
-        let panel = |title: &str, error: fn(&Apart) -> f64| {
+        let panel = |title: &str, of_all: bool, error: fn(&Apart) -> f64| {
             let of = |why: &dyn Fn(Why) -> bool| -> Vec<(f64, f64)> {
                 let runs = self.runs.iter().filter(|run| why(run.why));
                 runs.map(|run| (run.seconds, error(&run.error))).collect()
@@ -95,6 +102,11 @@ impl Measured {
             let offers: Vec<Offer> = self.runs.iter().map(offer).collect();
             let best = front(&offers).into_iter().map(|row| (offers[row].price, offers[row].error));
             let mut lines = vec![Line::new("front", Style::Line(FRONT), best.collect())];
+            if of_all {
+                let ends = [f64::min, f64::max].map(|end| offers.iter().map(|o| o.price).reduce(end));
+                let level = ends.into_iter().flatten().map(|seconds| (seconds, self.reference_error()));
+                lines.push(Line::new("reference", Style::Law, level.collect()));
+            }
             for (colour, knob) in Knob::ALL.into_iter().enumerate() {
                 lines.push(Line::new(knob.name(), Style::Dots(colour), of(&|why| why == Why::Alone(knob))));
             }
@@ -106,8 +118,8 @@ impl Measured {
             name: "flow".to_owned(),
             title: format!("{}: error of the tracks over seconds", self.project.name),
             panels: vec![
-                panel("root mean square", |apart| apart.rms),
-                panel("one photon in a thousand", |apart| apart.high),
+                panel("root mean square", true, |apart| apart.rms),
+                panel("one photon in a thousand", false, |apart| apart.high),
             ],
         }
     }
@@ -141,7 +153,6 @@ impl Measured {
         let list: Vec<_> =
             causes.iter().map(|(knob, rms)| format!("{} {}", knob.name(), short(*rms))).collect();
         let together = causes.iter().map(|(_, rms)| rms * rms).sum::<f64>().sqrt();
-        let steps = self.alone.iter().find(|(knob, _)| *knob == Knob::Steps).map(|(_, rows)| rows.as_slice());
         format!(
             "Here one setting is turned and all others stay the project's; the error is the distance from the same with that \
              setting as the reference has it. At the project's own values: {}; as independent errors {} in all, measured {}. \
@@ -149,18 +160,26 @@ impl Measured {
             list.join(", "),
             short(together),
             short(self.own().error.rms),
-            self.order(steps.unwrap_or_default())
+            self.orders_in_words()
         )
     }
 
-    /// By which power of the step the error falls.
-    fn order(&self, rows: &[(usize, Apart)]) -> String {
+    fn orders_in_words(&self) -> String {
+        let order = |(knob, name)| self.order(knob).map(|order| format!("{order:.1} in {name}"));
+        let orders: Vec<_> = [(Knob::Steps, "steps"), (Knob::Grid, "cells")].into_iter().filter_map(order).collect();
+        match orders.is_empty() {
+            true => String::new(),
+            false => format!("Orders of convergence: {}.", orders.join(", ")),
+        }
+    }
+
+    /// By which power of its value the error of a knob falls.
+    fn order(&self, knob: Knob) -> Option<f64> {
+        let (_, rows) = self.alone.iter().find(|(other, _)| *other == knob)?;
         // The finest is what they are compared with, and the one before is already near it.
         let kept = &rows[..rows.len().saturating_sub(2)];
-        let points = kept.iter().map(|&(row, apart)| (Knob::Steps.of(&self.runs[row].setting), apart.rms));
-        slope(&points.collect::<Vec<_>>()).map_or_else(String::new, |slope| {
-            format!("With more steps the error falls like their power {slope:.1}.")
-        })
+        let points = kept.iter().map(|&(row, apart)| (knob.of(&self.runs[row].setting), apart.rms));
+        slope(&points.collect::<Vec<_>>()).map(|slope| -slope)
     }
 
     fn cheapest_table(&self) -> Table {

@@ -17,11 +17,8 @@ use crate::report::workbench::Workbench;
 use crate::{Progress, Result};
 use ways::{Matched, Way, Ways};
 
-/// Maps that the lower bound is looked for with: each gives one, and the best holds.
-const BOUNDS: [MapSettings; 2] = [
-    MapSettings { cells: None, iterations: 40, tolerance: 0.0 },
-    MapSettings { cells: Some(512), iterations: 40, tolerance: 0.0 },
-];
+/// Iterations of the maps by which a lower bound is looked for.
+const THOROUGH: usize = 40;
 /// Pass of the random numbers that mix the rows: no pass of a render.
 const MIXING: u64 = u64::MAX;
 
@@ -51,10 +48,10 @@ struct Measured {
 
 fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     let photons = bench.first_move(progress)?;
-    let (seed, most) = (bench.project.seed, bench.pick(10_000, 200_000));
+    let (seed, most, finest) = (bench.project.seed, bench.pick(10_000, 200_000), bench.pick(256, 512));
     let points = Points::new(&photons, most, seed);
     let walls = !photons.leading_walls().is_empty();
-    let list = Way::list(Way::of(&bench.project, walls), walls);
+    let list = Way::list(Way::of(&bench.project, walls), walls, finest);
     progress.begin("matching", list.len() as u64 + 2);
     let ways = Ways::new(&points, &photons, seed, progress)?;
     progress.advance(1);
@@ -63,7 +60,7 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
         rows.push(ways.measure(way)?);
         progress.advance(1);
     }
-    let bound = points.bound(&progress.inner())?;
+    let bound = points.bound(finest, &progress.inner())?;
     progress.advance(1);
     let (project, count) = (bench.project.name.clone(), points.source.len());
     Ok(Measured { project, count, rows, bound, walls: ways.walls() }.chapter())
@@ -93,11 +90,12 @@ impl Points {
         Matching { target_of: self.given.clone() }
     }
 
-    /// The best lower bound of the mean squared distance that was found.
-    fn bound(&self, progress: &Progress) -> Result<f64> {
+    /// A lower bound of the mean squared distance: the better of those by the project's lattice and by one of so many cells.
+    fn bound(&self, cells: usize, progress: &Progress) -> Result<f64> {
         let Self { source, target, extent, .. } = self;
-        BOUNDS.iter().try_fold(0.0_f64, |best, settings| {
-            let map = transport_map_with(source, target, *extent, settings, progress)?;
+        [None, Some(cells)].into_iter().try_fold(0.0_f64, |best, cells| {
+            let settings = MapSettings { cells, iterations: THOROUGH, tolerance: 0.0 };
+            let map = transport_map_with(source, target, *extent, &settings, progress)?;
             Ok(best.max(dual_bound(&map, source, target, progress)?))
         })
     }

@@ -77,11 +77,11 @@ impl Way {
         }
     }
 
-    /// All that are measured, the project's `own` first.
-    pub(super) fn list(own: Self, walls: bool) -> Vec<Self> {
+    /// All that are measured, the project's `own` first, with lattices of at most so many cells.
+    pub(super) fn list(own: Self, walls: bool, cells: usize) -> Vec<Self> {
         let walls = walls.then_some(Self::Around);
         let mut list: Vec<Self> = [own, Self::Straight, Self::Stylized].into_iter().chain(walls).collect();
-        list.extend(LATTICES.map(Self::Lattice));
+        list.extend(LATTICES.into_iter().filter(|lattice| *lattice <= cells).map(Self::Lattice));
         list.extend(ITERATIONS.map(Self::Iterations));
         list.extend(SWEPT.map(Self::Sweeps));
         list.extend(SWEPT_HALVES.map(Self::Halves));
