@@ -171,7 +171,8 @@ mod tests {
         let small = FlowSettings { steps: 1, grid: GridSize::Longer(8), guides: 3, ..settings.clone() };
         for (settings, photons) in [(settings, 1_000_000), (small, 2)] {
             let own = Setting::of(&settings, Vec2::new(1.0, 0.8), photons);
-            let reference = own.reference(Finer { steps: 3, cells: 2, guides: 4, most_guides: usize::MAX }, photons);
+            let reference =
+                own.reference(Finer { steps: 3, cells: 2, guides: 4, most_guides: usize::MAX }, photons);
             for knob in Knob::ALL {
                 let sweep = knob.sweep(own, &reference);
                 assert!(sweep.windows(2).all(|pair| knob.is_finer(&pair[1], &pair[0])), "{sweep:?}");

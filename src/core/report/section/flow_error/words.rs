@@ -166,7 +166,8 @@ impl Measured {
 
     fn orders_in_words(&self) -> String {
         let order = |(knob, name)| self.order(knob).map(|order| format!("{order:.1} in {name}"));
-        let orders: Vec<_> = [(Knob::Steps, "steps"), (Knob::Grid, "cells")].into_iter().filter_map(order).collect();
+        let orders: Vec<_> =
+            [(Knob::Steps, "steps"), (Knob::Grid, "cells")].into_iter().filter_map(order).collect();
         match orders.is_empty() {
             true => String::new(),
             false => format!("Orders of convergence: {}.", orders.join(", ")),
