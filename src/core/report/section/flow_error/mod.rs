@@ -3,7 +3,9 @@
 //! Each knob (`knob`) is turned alone through its range, which tells what error it causes; then some settings in which all
 //! knobs cause about the same. Errors are distances between tracks of the same photons (`probes`).
 
+mod drawn;
 mod knob;
+mod listed;
 mod probes;
 mod words;
 

@@ -1,29 +1,9 @@
-//! The chapter: what is said, drawn and listed of the flows that were measured.
+//! The chapter, and what is said in it of the flows that were measured.
 
-use super::{Apart, Knob, Measured, Run, Setting, Why};
-use crate::report::chapter::{Cell, Chapter, Part, Table, Tone, short};
-use crate::report::pareto::{Offer, cheapest, front, is_worth_it};
-use crate::report::plot::{Axis, Line, Panel, Plot, Style};
+use super::{Apart, Knob, Measured};
+use crate::report::chapter::{Chapter, Part, short};
+use crate::report::pareto::{cheapest, is_worth_it};
 use crate::report::slope::slope;
-
-/// Errors that a setting is named for, in the plane's longer side.
-const NAMED: [f64; 3] = [1e-2, 1e-3, 1e-4];
-const COLUMNS: [&str; 9] = [
-    "varied",
-    "steps",
-    "cells",
-    "guides",
-    "tolerance",
-    "seconds",
-    "rms (plane)",
-    "99.9 % (plane)",
-    "largest (plane)",
-];
-/// Colours of the settings in balance and of the front; the knobs have those before.
-const BALANCED: usize = 4;
-const FRONT: usize = 5;
-/// Colour of the ring around the project's own setting.
-const OWN: usize = 1;
 
 impl Measured {
     pub(super) fn chapter(&self) -> Chapter {
@@ -61,7 +41,7 @@ impl Measured {
 
     /// About how far the reference itself is from right. If errors fall like h^p, that of h is 1/(2^p - 1) of what it lies
     /// from 2 h; p is the least of the orders found, from 1 to 2.
-    fn reference_error(&self) -> f64 {
+    pub(super) fn reference_error(&self) -> f64 {
         let orders = [Knob::Steps, Knob::Grid].map(|knob| self.order(knob).unwrap_or(1.0).clamp(1.0, 2.0));
         self.doubt.rms / (2_f64.powf(orders[0].min(orders[1])) - 1.0)
     }
@@ -89,58 +69,6 @@ impl Measured {
             _ => format!(
                 "{begin}. It is on the front: nothing that was measured is both faster and more exact."
             ),
-        }
-    }
-
-    fn front_plot(&self) -> Plot {
-        let panel = |title: &str, of_all: bool, error: fn(&Apart) -> f64| {
-            let of = |why: &dyn Fn(Why) -> bool| -> Vec<(f64, f64)> {
-                let runs = self.runs.iter().filter(|run| why(run.why));
-                runs.map(|run| (run.seconds, error(&run.error))).collect()
-            };
-            let offer = |run: &Run| Offer { price: run.seconds, error: error(&run.error) };
-            let offers: Vec<Offer> = self.runs.iter().map(offer).collect();
-            let best = front(&offers).into_iter().map(|row| (offers[row].price, offers[row].error));
-            let mut lines = vec![Line::new("front", Style::Line(FRONT), best.collect())];
-            if of_all {
-                let ends = [f64::min, f64::max].map(|end| offers.iter().map(|o| o.price).reduce(end));
-                let level = ends.into_iter().flatten().map(|seconds| (seconds, self.reference_error()));
-                lines.push(Line::new("reference", Style::Law, level.collect()));
-            }
-            for (colour, knob) in Knob::ALL.into_iter().enumerate() {
-                lines.push(Line::new(knob.name(), Style::Dots(colour), of(&|why| why == Why::Alone(knob))));
-            }
-            lines.push(Line::new("all in balance", Style::Dots(BALANCED), of(&|why| why == Why::Balanced)));
-            lines.push(Line::new("the project's", Style::Rings(OWN), of(&|why| why == Why::Own)));
-            Panel { title: title.to_owned(), x: Axis::log("seconds"), y: Axis::log("error (plane)"), lines }
-        };
-        Plot {
-            name: "flow".to_owned(),
-            title: format!("{}: error of the tracks over seconds", self.project.name),
-            panels: vec![
-                panel("root mean square", true, |apart| apart.rms),
-                panel("one photon in a thousand", false, |apart| apart.high),
-            ],
-        }
-    }
-
-    fn alone_plot(&self) -> Plot {
-        let panel = |(knob, rows): &(Knob, Vec<(usize, Apart)>)| {
-            let point = |&(row, apart): &(usize, Apart)| (knob.of(&self.runs[row].setting), apart.rms);
-            let points: Vec<_> = rows.iter().map(point).collect();
-            let own = rows.iter().filter(|(row, _)| *row == 0).map(point).collect();
-            let lines = vec![Line::new("", Style::Line(0), points), Line::new("", Style::Rings(OWN), own)];
-            let title = knob.name().to_owned();
-            let label = if *knob == Knob::Grid { "cells along the longer side" } else { knob.name() };
-            Panel { title, x: Axis::log(label), y: Axis::log("error (plane)"), lines }
-        };
-        Plot {
-            name: "flow_alone".to_owned(),
-            title: format!(
-                "{}: error that each setting causes alone (ring: the project's)",
-                self.project.name
-            ),
-            panels: self.alone.iter().map(panel).collect(),
         }
     }
 
@@ -174,74 +102,14 @@ impl Measured {
         }
     }
 
-    /// By which power of its value the error of a knob falls.
+    /// By which power of its value the error of a knob falls, between the two finest values that are coarse beside the
+    /// finest of all, from which the error is measured.
     fn order(&self, knob: Knob) -> Option<f64> {
         let (_, rows) = self.alone.iter().find(|(other, _)| *other == knob)?;
-        // The finest is what they are compared with, and the one before is already near it.
-        let kept = &rows[..rows.len().saturating_sub(2)];
-        let points = kept.iter().map(|&(row, apart)| (knob.of(&self.runs[row].setting), apart.rms));
-        slope(&points.collect::<Vec<_>>()).map(|slope| -slope)
-    }
-
-    fn cheapest_table(&self) -> Table {
-        let caption = "The cheapest setting that was measured for an error (root mean square).";
-        let columns = ["error (plane)", "setting", "seconds", "rms (plane)"];
-        let mut table = Table::new("flow_cheapest", caption, &columns);
-        let (own, offers) = (self.own(), self.offers());
-        let named = NAMED.into_iter().map(|error| (Cell::from(error), error));
-        for (name, error) in named.chain([("that of the project".into(), own.error.rms)]) {
-            let found = cheapest(&offers, error).map(|row| &self.runs[row]);
-            let setting = found.map_or("none measured reaches it".to_owned(), |run| run.setting.describe());
-            let numbers = [found.map(|run| run.seconds).into(), found.map(|run| run.error.rms).into()];
-            table.push(Tone::Plain, [name, setting.into()].into_iter().chain(numbers).collect());
-        }
-        table
-    }
-
-    fn alone_table(&self) -> Table {
-        let caption = "The error that each setting causes alone.";
-        let columns = ["setting", "value", "seconds", "rms (plane)", "99.9 % (plane)"];
-        let mut table = Table::new("flow_alone", caption, &columns);
-        for (knob, rows) in &self.alone {
-            for (row, apart) in rows {
-                let run = &self.runs[*row];
-                let value = match knob {
-                    Knob::Tolerance => format!("{:e}", run.setting.tolerance).into(),
-                    _ => knob.of(&run.setting).into(),
-                };
-                let tone = if *row == 0 { Tone::Marked } else { Tone::Plain };
-                table.push(
-                    tone,
-                    vec![knob.name().into(), value, run.seconds.into(), apart.rms.into(), apart.high.into()],
-                );
-            }
-        }
-        table
-    }
-
-    fn table(&self) -> Table {
-        let caption = "All settings that were measured, the cheapest first.";
-        let columns: Vec<_> = COLUMNS.into_iter().chain(["on the front"]).collect();
-        let mut table = Table::new("flow", caption, &columns);
-        let best = front(&self.offers());
-        let mut rows: Vec<usize> = (0..self.runs.len()).collect();
-        rows.sort_by(|&a, &b| self.runs[a].seconds.total_cmp(&self.runs[b].seconds));
-        for row in rows {
-            let Run { setting, why, seconds, error, .. } = &self.runs[row];
-            let Setting { steps, cells: [x, y], guides, tolerance } = *setting;
-            let (name, tone) = match why {
-                Why::Own => ("the project's", Tone::Marked),
-                Why::Alone(knob) => (knob.name(), Tone::Plain),
-                Why::Balanced => ("all in balance", Tone::Plain),
-            };
-            let [steps, guides] = [steps, guides].map(|count| Cell::from(f64::from(count)));
-            let kept = if best.contains(&row) { "yes" } else { "no" };
-            let mut cells = vec![name.into(), steps, format!("{x} x {y}").into(), guides];
-            cells.push(format!("{tolerance:e}").into());
-            cells.extend([*seconds, error.rms, error.high, error.most].map(Cell::from));
-            cells.push(kept.into());
-            table.push(tone, cells);
-        }
-        table
+        let point = |&(row, apart): &(usize, Apart)| (knob.of(&self.runs[row].setting), apart.rms);
+        let points: Vec<(f64, f64)> = rows.iter().map(point).collect();
+        let (finest, _) = *points.last()?;
+        let coarse = points.iter().filter(|(value, _)| 2.0 * value <= finest).count();
+        slope(&points[coarse.checked_sub(2)?..coarse]).map(|slope| -slope)
     }
 }
