@@ -1,5 +1,6 @@
 //! What is listed of the flows that were measured.
 
+use super::words::SAME;
 use super::{Knob, Measured, Run, Setting, Why};
 use crate::report::chapter::{Cell, Table, Tone};
 use crate::report::pareto::{cheapest, front};
@@ -25,7 +26,8 @@ impl Measured {
         let mut table = Table::new("flow_cheapest", caption, &columns);
         let (own, offers) = (self.own(), self.offers());
         let named = NAMED.into_iter().map(|error| (Cell::from(error), error));
-        for (name, error) in named.chain([("that of the project".into(), own.error.rms)]) {
+        let same = (Cell::from("that of the project, within 5 %"), SAME * own.error.rms);
+        for (name, error) in named.chain([same]) {
             let found = cheapest(&offers, error).map(|row| &self.runs[row]);
             let setting = found.map_or("none measured reaches it".to_owned(), |run| run.setting.describe());
             let numbers = [found.map(|run| run.seconds).into(), found.map(|run| run.error.rms).into()];

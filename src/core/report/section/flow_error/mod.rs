@@ -26,9 +26,11 @@ use probes::{Apart, Probes};
 const AIMS: [f64; 6] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 /// Of four independent errors of this share of the whole, the root of the sum of squares is the whole.
 const SHARE: f64 = 0.5;
+/// A knob that causes less than this share of the project's error is finer than it needs to be.
+const LEAN: f64 = 0.25;
 
 pub(in crate::report) const SECTION: Section =
-    Section { name: "flow", needless, measure, seconds: [12.0, 200.0] };
+    Section { name: "flow", needless, measure, seconds: [13.0, 180.0] };
 
 fn needless(project: &Project) -> Option<&'static str> {
     let other = (!project.fits()).then_some("the method fits no fields, so its tracks are exact");
@@ -122,7 +124,7 @@ impl Trial<'_> {
             }
             alone.push((knob, since_finest(&rows, &runs)));
         }
-        for setting in balanced(own, &alone, &runs) {
+        for setting in balanced(own, &alone, &runs).into_iter().chain([lean(own, &alone, &runs)]) {
             self.row(setting, Why::Balanced, &mut runs, &exact)?;
         }
         let (probes, walls) = (self.probes.count(), !self.photons.walls.is_empty());
@@ -179,6 +181,16 @@ fn balanced(own: Setting, alone: &[(Knob, Vec<(usize, Apart)>)], runs: &[Run]) -
     let mut settings: Vec<Setting> = AIMS.into_iter().filter_map(turned).collect();
     settings.dedup();
     settings
+}
+
+/// The project's setting, with each knob coarser as long as it causes no more than before, or too little to be seen.
+fn lean(own: Setting, alone: &[(Knob, Vec<(usize, Apart)>)], runs: &[Run]) -> Setting {
+    alone.iter().fold(own, |setting, (knob, rows)| {
+        let before = rows.iter().find(|(row, _)| *row == 0).map_or(0.0, |(_, apart)| apart.rms);
+        let limit = before.max(LEAN * runs[0].error.rms);
+        let enough = rows.iter().find(|(_, apart)| apart.rms <= limit);
+        enough.map_or(setting, |(row, _)| setting.with(*knob, &runs[*row].setting))
+    })
 }
 
 impl Measured {

@@ -5,6 +5,9 @@ use crate::report::chapter::{Chapter, Part, short};
 use crate::report::pareto::{cheapest, is_worth_it};
 use crate::report::slope::slope;
 
+/// An error that is larger by no more than this is the same to an eye.
+pub(super) const SAME: f64 = 1.05;
+
 impl Measured {
     pub(super) fn chapter(&self) -> Chapter {
         let mut chapter = Chapter::new("flow", "What exactness of the flow costs");
@@ -24,13 +27,18 @@ impl Measured {
             Some(turbulence) if turbulence.is_on() => "with the turbulence of the project",
             _ => "without turbulence",
         };
+        let (own, wished) = (self.own().setting.guides, self.project.flow.guides);
+        let fewer = match own < wished {
+            true => format!(" Of the {wished} guide photons of the project {own} are taken."),
+            false => String::new(),
+        };
         let walls = if self.walls { ", around its walls" } else { "" };
         format!(
             "{} photons are carried along each flow, {turbulence}{walls}, and looked at when 1 to 9 tenths of the time are \
              over. The error is how far they are from where a reference takes them, in the plane's longer side. The \
              reference ({}) took {} s. One of half its steps and cells is {} from it (root mean square), so that by the \
              orders found below its own error is about {}: smaller ones tell nothing. Seconds are those of the whole fit of \
-             one segment. The basis is not varied: cubic B-splines are the only one.",
+             one segment.{fewer} The basis is not varied: cubic B-splines are the only one.",
             self.probes,
             self.reference.describe(),
             short(self.reference_seconds),
@@ -55,21 +63,20 @@ impl Measured {
             short(own.seconds),
             short(own.error.rms)
         );
-        match cheapest(&offers, own.error.rms) {
-            Some(row) if !is_worth_it(&offers, 0) => {
+        let kept = if is_worth_it(&offers, 0) { "on the front" } else { "not on the front" };
+        let cheaper = match cheapest(&offers, SAME * own.error.rms) {
+            None | Some(0) => "nothing that was measured is as exact for less".to_owned(),
+            Some(row) => {
                 let run = &self.runs[row];
                 format!(
-                    "{begin}. It is not on the front: {} takes {} s for {}, {:.0} % of the time.",
+                    "{} takes {:.0} % of the time for {}",
                     run.setting.describe(),
-                    short(run.seconds),
-                    short(run.error.rms),
-                    100.0 * run.seconds / own.seconds
+                    100.0 * run.seconds / own.seconds,
+                    short(run.error.rms)
                 )
             }
-            _ => format!(
-                "{begin}. It is on the front: nothing that was measured is both faster and more exact."
-            ),
-        }
+        };
+        format!("{begin}. It is {kept}; {cheaper}.")
     }
 
     /// Which knob causes most of the error, and whether that explains the whole.

@@ -23,7 +23,7 @@ const THOROUGH: usize = 40;
 const MIXING: u64 = u64::MAX;
 
 pub(in crate::report) const SECTION: Section =
-    Section { name: "matching", needless: nothing_moves, measure, seconds: [5.0, 45.0] };
+    Section { name: "matching", needless: nothing_moves, measure, seconds: [4.0, 20.0] };
 
 /// Points at two keys, in no common order.
 struct Points {
