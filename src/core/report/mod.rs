@@ -5,6 +5,7 @@
 
 mod chapter;
 mod page;
+mod pareto;
 mod plot;
 mod section;
 mod slope;

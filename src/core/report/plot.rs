@@ -158,6 +158,10 @@ fn bounds(values: impl Iterator<Item = f64>, log: bool, upwards: bool) -> Range<
     // Nothing at all still needs an axis.
     match (log, upwards) {
         _ if low > high => 0.1..1.0,
+        // Only powers of ten are labelled: there shall be two of them.
+        (true, _) if (high.log10().floor() - low.log10().ceil()) < 1.0 => {
+            0.999 * 10_f64.powf((low / 1.1).log10().floor())..1.001 * 10_f64.powf((high * 1.1).log10().ceil())
+        }
         (true, _) => low / 1.3..high * 1.3,
         (false, true) if high > 0.0 => low.min(0.0)..1.08 * high,
         (false, _) if high > low => low..high,
@@ -232,7 +236,7 @@ fn tick(value: f64) -> String {
     power.map_or(digits.to_owned(), |power| format!("{digits}e{power}"))
 }
 
-/// The corner on the right where fewer points are in the way of the legend.
+/// The corner where the fewest points are in the way of the legend; one on the right where that is as good.
 fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
     let along = |value: f64, log: bool| if log { value.ln() } else { value };
     let places: Vec<(f64, f64)> = (lines.iter().flat_map(|line| &line.points))
@@ -244,9 +248,16 @@ fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
         0.5 * (low + high)
     };
     let (x, y) = (middle(|p| p.0), middle(|p| p.1));
-    let right = || places.iter().filter(|p| p.0 > x);
-    let (above, below) = (right().filter(|p| p.1 > y).count(), right().filter(|p| p.1 < y).count());
-    if above > below { SeriesLabelPosition::LowerRight } else { SeriesLabelPosition::UpperRight }
+    let crowd =
+        |right: bool, above: bool| places.iter().filter(|p| (p.0 > x) == right && (p.1 > y) == above).count();
+    let corners = [
+        (crowd(true, true), SeriesLabelPosition::UpperRight),
+        (crowd(true, false), SeriesLabelPosition::LowerRight),
+        (crowd(false, true), SeriesLabelPosition::UpperLeft),
+        (crowd(false, false), SeriesLabelPosition::LowerLeft),
+    ];
+    let emptiest = corners.into_iter().min_by_key(|(points, _)| *points);
+    emptiest.map_or(SeriesLabelPosition::UpperRight, |(_, corner)| corner)
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! The sections of a report: one file measures one thing.
 
+mod flow_error;
 pub(super) mod gamma;
 mod growth;
 mod left_out;
 mod machine;
+mod matching_cost;
 mod time;
 
 use super::chapter::Chapter;
@@ -24,8 +26,15 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 5] =
-    [gamma::SECTION, time::SECTION, growth::SECTION, machine::SECTION, left_out::SECTION];
+pub(super) const SECTIONS: [Section; 7] = [
+    flow_error::SECTION,
+    matching_cost::SECTION,
+    gamma::SECTION,
+    time::SECTION,
+    growth::SECTION,
+    machine::SECTION,
+    left_out::SECTION,
+];
 
 impl Section {
     /// Seconds it is expected to take.
