@@ -126,17 +126,18 @@ impl Room {
             { "frame": 1, "shows": "physical_caustic" },
             { "frame": 3, "shows": { "image": { "file": "white.png", "placement": { "width": 0.3 } } } },
         ]);
-        let mut project = small(keys, self.photons)?;
-        project.scene = Some(self.scene(folder)?);
-        project.check()?;
-        Ok(project)
+        small(keys, Some(self.scene(folder)?), self.photons)
     }
 }
 
 /// A small project of these keys.
-pub(super) fn small(keys: serde_json::Value, photons: usize) -> Result<Project> {
+///
+/// # Errors
+/// A value that the format refuses.
+pub(super) fn small(keys: serde_json::Value, scene: Option<SceneDesc>, photons: usize) -> Result<Project> {
     let project = json!({
         "lightloom": 1,
+        "scene": scene,
         "keys": keys,
         "flow": { "grid": 24, "steps": 6 },
         "render": { "width": 32, "height": 32, "photons": photons, "passes": 2, "background_samples": 1 },

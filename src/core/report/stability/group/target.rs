@@ -65,7 +65,7 @@ fn run(keys: &Value, photons: usize, draw: fn(usize, usize) -> f32, progress: &P
     }
     picture(folder.path(), "a.exr", |x, y| grains[y * SIDE + x])?;
     picture(folder.path(), "b.exr", draw)?;
-    render(&small(keys.clone(), photons)?, folder.path(), progress)
+    render(&small(keys.clone(), None, photons)?, folder.path(), progress)
 }
 
 /// A grey picture in single precision.
