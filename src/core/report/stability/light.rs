@@ -51,7 +51,7 @@ impl Room {
             solids: vec![Solid { shape, ior: 1.5, priority: 0 }],
             light: lamp([0.0, 1.0, 0.0]),
             scale: 1.0,
-            photons: size.pick(3000, 100_000),
+            photons: size.pick(1000, 30_000),
         }
     }
 

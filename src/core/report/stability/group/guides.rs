@@ -4,8 +4,8 @@ use glam::Vec2;
 
 use super::super::Size;
 use super::super::case::Case;
-use super::super::walk::{Walk, cloud, disc, limits};
-use super::{Group, refused, walk, within};
+use super::super::walk::{Walk, cloud, disc};
+use super::{Group, refused, walk};
 
 pub(super) const GROUP: Group = Group { name: "guide photons", cases };
 
@@ -29,9 +29,6 @@ fn cases(size: Size) -> Vec<Case> {
     };
     let point = vec![Vec2::new(0.31, 0.42); crowd];
     let apart = with(point.clone(), disc([0.6, 0.6], 0.2, crowd));
-    let mut torn =
-        limits(&apart.settings, "no field parts what is in one place: the fade does, and they arrive");
-    torn.energy = Some(1.0 + f64::from(apart.settings.tolerance));
     let cell: Vec<Vec2> = cloud(1, crowd).iter().map(|p| Vec2::splat(0.5) + *p / 128.0).collect();
     let clusters = || {
         let halves = [[0.05, 0.05], [0.95, 0.95]].map(|at| disc(at, 0.01, crowd / 2));
@@ -47,7 +44,11 @@ fn cases(size: Size) -> Vec<Case> {
             with(point.clone(), to(&point, Vec2::new(0.3, 0.2))),
             MANY,
         ),
-        within(format!("{crowd} in one point to a disc"), apart, torn),
+        walk(
+            format!("{crowd} in one point to a disc"),
+            apart,
+            "no field parts what is in one place: the fade does, and they arrive",
+        ),
         walk(
             format!("{crowd} in one cell to a disc"),
             with(cell.clone(), disc([0.6, 0.6], 0.2, crowd)),

@@ -1,7 +1,7 @@
 //! One step and a thousand; a fade that never, late, or at once takes over.
 
 use super::super::Size;
-use super::super::case::Case;
+use super::super::case::{Bound, Case};
 use super::super::walk::Walk;
 use super::{Group, refused, walk};
 use crate::flow::Fade;
@@ -43,7 +43,6 @@ fn cases(size: Size) -> Vec<Case> {
 
 /// A walk that the stage itself must refuse.
 fn refused_beneath(name: &str, walk: Walk) -> Case {
-    use super::super::case::Bound;
     let why = "1 / (1 - t) has no limit at 1, and a photon that is lost must be told";
     Case::new(name, Bound::Refused { words: "no longer finite", why }, move |progress| walk.run(progress))
 }
