@@ -9,6 +9,7 @@ mod pareto;
 mod plot;
 mod section;
 mod slope;
+mod stability;
 mod workbench;
 
 use std::io::Write as _;
@@ -20,6 +21,7 @@ use serde::Serialize;
 pub use chapter::{Cell, Chapter, Part, Picture, Pictures, Row, Table, Tone};
 pub use plot::{Axis, Line, Panel, Plot, Style};
 pub use section::gamma::{GammaResponse, Response, gamma_response};
+pub use stability::{Bound, EnergyOf, Limits, Measured, Size, Stability, StabilityRow, stability};
 pub use workbench::Effort;
 
 use crate::files::write_atomic;
