@@ -2,6 +2,7 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 mod scenes;
+mod tracks;
 
 use std::fs;
 use std::ops::Range;
@@ -92,16 +93,11 @@ impl Fit {
         fs::create_dir_all(&out).unwrap();
         let summary =
             pipeline(stage).fit(&parse(project).unwrap(), &out, &Progress::new(), &|_: &Path| {}).unwrap();
-        let read = |name: &str| {
-            let file = npyz::NpyFile::new(fs::File::open(out.join(name)).unwrap()).unwrap();
-            let photons = file.shape()[1] as usize;
-            (photons, file.into_vec::<f32>().unwrap())
-        };
-        let (photons, numbers) = read("tracks.npy");
-        let tracks = numbers.chunks(2 * photons).map(|s| s.chunks(2).map(Vec2::from_slice).collect());
-        let (_, numbers) = read("flux.npy");
-        let flux = numbers.chunks(3 * photons).map(|s| s.chunks(3).map(Vec3::from_slice).collect());
-        Self { summary, tracks: tracks.collect(), flux: flux.collect() }
+        Self {
+            summary,
+            tracks: tracks::read(&out.join("tracks.npy")),
+            flux: tracks::read(&out.join("flux.npy")),
+        }
     }
 
     /// The rows of a caustic.

@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightloom_core::export::FrameFormat;
@@ -54,15 +54,20 @@ pub(crate) struct FitArgs {
 }
 
 #[derive(Args)]
+#[command(mut_arg("path", |path| path.required(false).required_unless_present("stability")))]
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     pub(crate) project: ProjectArgs,
-    /// Folder for report.html, report.json, and the folder report with tables and plots; made if it is not there.
+    /// Folder for report.html, report.json, and the folder report with tables and plots (of --stability: stability.html,
+    /// stability.json, and the folder stability); made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Measure at preview size, within a minute.
     #[arg(long)]
     pub(crate) quick: bool,
+    /// Measure no project but the program: does it hold where inputs are stiff and extreme?
+    #[arg(long, conflicts_with_all = ["path", "only", "frames", "size", "passes", "photons", "quality", "format", "seed"])]
+    pub(crate) stability: bool,
     /// Sections to measure, such as gamma,render; all without it.
     #[arg(long, value_name = "SECTIONS", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
@@ -88,8 +93,8 @@ pub(crate) struct CheckArgs {
 #[derive(Args)]
 pub(crate) struct ProjectArgs {
     /// The project file.
-    #[arg(value_name = "PROJECT")]
-    pub(crate) path: PathBuf,
+    #[arg(value_name = "PROJECT", required = true)]
+    path: Option<PathBuf>,
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) frames: Option<String>,
@@ -136,7 +141,7 @@ impl ProjectArgs {
             QualityName::Final => Quality::Final,
         };
         // What is asked for by name outweighs the quality.
-        let mut project = quality.apply(&Project::load(&self.path)?);
+        let mut project = quality.apply(&Project::load(self.path()?)?);
         if let Some(frames) = &self.frames {
             frames::parse(frames, "--frames")?;
             project.output.frames = Some(frames.clone());
@@ -157,6 +162,14 @@ impl ProjectArgs {
             other => other,
         })?;
         Ok(project)
+    }
+
+    /// The project file.
+    ///
+    /// # Errors
+    /// `Value` where a command that can do without one was given none.
+    pub(crate) fn path(&self) -> Result<&Path> {
+        self.path.as_deref().ok_or_else(|| Error::value("PROJECT", "name a project file"))
     }
 
     /// Sets the number of threads for the whole process; it is set once.

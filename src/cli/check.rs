@@ -10,7 +10,7 @@ use super::progress::Lines;
 pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     args.project.set_threads()?;
     let project = args.project.load()?;
-    let assets = AssetFolder::new(&args.project.path, args.project.allow_external)?;
+    let assets = AssetFolder::new(args.project.path()?, args.project.allow_external)?;
     let report = Pipeline::new(assets).check(&project)?;
     let shown = if args.project.json { report.to_json() } else { report.to_text() };
     Lines::Out.say(shown.trim_end());

@@ -5,7 +5,7 @@ use std::path::Path;
 use lightloom_core::flow::Movement;
 use lightloom_core::pipeline::{Comparison, Pipeline, Summary, prepare_folder, write_report};
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::Report;
+use lightloom_core::report::{Report, Stability};
 use lightloom_core::{Progress, Result};
 
 use super::args::ProjectArgs;
@@ -62,6 +62,16 @@ impl Outcome for Report {
     }
 }
 
+impl Outcome for Stability {
+    const FILE: &'static str = "stability.json";
+    fn to_json(&self) -> String {
+        self.to_json()
+    }
+    fn to_text(&self) -> String {
+        self.to_text()
+    }
+}
+
 /// Loads the project, shows how far `work` is, then writes and prints its summary.
 pub(super) fn run<T: Outcome>(
     args: &ProjectArgs,
@@ -69,18 +79,27 @@ pub(super) fn run<T: Outcome>(
     work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<T>,
 ) -> Result<T> {
     args.set_threads()?;
-    let project = args.load()?;
-    let assets = AssetFolder::new(&args.path, args.allow_external)?;
-    prepare_folder(out, &args.path, &project, "--out")?;
+    let (path, project) = (args.path()?, args.load()?);
+    let assets = AssetFolder::new(path, args.allow_external)?;
+    prepare_folder(out, path, &project, "--out")?;
     for folder in T::folders() {
-        prepare_folder(&out.join(folder), &args.path, &project, "--out")?;
+        prepare_folder(&out.join(folder), path, &project, "--out")?;
     }
+    watch(args, out, |progress, saved| work(&mut Pipeline::new(assets), &project, progress, saved))
+}
+
+/// Shows how far `work` is, then writes and prints its summary.
+pub(super) fn watch<T: Outcome>(
+    args: &ProjectArgs,
+    out: &Path,
+    work: impl FnOnce(&Progress, Saved) -> Result<T>,
+) -> Result<T> {
     let progress = Progress::new();
     stop_on_interrupt(&progress);
 
     let display = Display::start(&progress, Lines::beside(args.json));
     let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
-    let summary = work(&mut Pipeline::new(assets), &project, &progress, &saved)?;
+    let summary = work(&progress, &saved)?;
     drop(display);
     conclude(&summary, out, args.json)?;
     Ok(summary)

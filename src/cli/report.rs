@@ -1,15 +1,18 @@
-//! `lightloom report`: what a project's settings buy and what they cost, on a page.
+//! `lightloom report`: what a project's settings buy and what they cost, on a page; or how the program itself holds.
 
-use lightloom_core::Result;
-use lightloom_core::report::{Effort, report};
+use lightloom_core::report::{Effort, Size, report, stability};
+use lightloom_core::{Error, Result};
 
 use super::args::ReportArgs;
 use super::job;
 
-/// Exit code where a section failed: a numerical failure.
+/// Exit code where a section failed, or a row of the table misses its bound: a numerical failure.
 const FAILED: u8 = 7;
 
 pub(super) fn run(args: &ReportArgs) -> Result<u8> {
+    if args.stability {
+        return hold(args);
+    }
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let report = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
         let report = report(pipeline, project, effort, &args.only, &args.out, progress)?;
@@ -17,4 +20,18 @@ pub(super) fn run(args: &ReportArgs) -> Result<u8> {
         Ok(report)
     })?;
     Ok(if report.has_failed() { FAILED } else { 0 })
+}
+
+/// The stiff and extreme, which need no project.
+fn hold(args: &ReportArgs) -> Result<u8> {
+    let (size, out) = (if args.quick { Size::Reduced } else { Size::Full }, &args.out);
+    args.project.set_threads()?;
+    // Before minutes of work go there.
+    std::fs::create_dir_all(out).map_err(Error::io("create the folder", out))?;
+    let table = job::watch(&args.project, out, |progress, saved| {
+        let table = stability(size, progress)?;
+        table.report(size).write(out, "stability")?.iter().for_each(|path| saved(path));
+        Ok(table)
+    })?;
+    Ok(if table.missed().next().is_some() { FAILED } else { 0 })
 }

@@ -1,6 +1,8 @@
 //! Photons carried one step along the field: classical Runge-Kutta of order 4 in the guidance v (see
 //! [`guidance`](super::guidance)), with a cubic in time kept of each, so that they can be asked for between the steps.
 
+use std::array::from_fn;
+
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -15,6 +17,9 @@ use crate::{Error, Progress, Result};
 
 /// Photons per parallel task: fits the L1 cache beside the coefficients around them.
 pub(super) const CHUNK: usize = 2048;
+
+/// Photons that take their step side by side, so that the processor need not wait for any one of them.
+const ABREAST: usize = 16;
 
 /// What moves the photons from `start` to `start + length`: the field and the fade at the three times that RK4 asks for.
 /// Blended once per step, so that a photon pays for one field where it would for two.
@@ -132,14 +137,21 @@ impl<'a> Swarm<'a> {
             .into_par_iter()
             .map(|(guidance, curve, targets, per_limit)| {
                 progress.check()?;
-                let mut lost = 0;
-                for i in 0..guidance.len() {
-                    let [k0, k1, k2] = curve[i];
-                    guidance[i] += k0 + k1 + k2;
-                    curve[i] = step.curve(targets[i], guidance[i], per_limit[i]);
-                    lost += usize::from(!curve[i].iter().all(|k| k.is_finite()));
+                for (v, [k0, k1, k2]) in guidance.iter_mut().zip(&*curve) {
+                    *v += *k0 + *k1 + *k2;
                 }
-                Ok(lost)
+                let (groups, rest) = curve.as_chunks_mut::<ABREAST>();
+                let of_group =
+                    guidance.as_chunks().0.iter().zip(targets.as_chunks().0).zip(per_limit.as_chunks().0);
+                for (curves, ((&v, &targets), &per_limit)) in groups.iter_mut().zip(of_group) {
+                    *curves = step.curves(targets, v, per_limit);
+                }
+                let first = guidance.len() - rest.len();
+                for (i, curve) in rest.iter_mut().enumerate().map(|(i, curve)| (first + i, curve)) {
+                    *curve = step.curve(targets[i], guidance[i], per_limit[i]);
+                }
+                let finite = |curve: &&[Vec2; 3]| curve.iter().all(|k| k.is_finite());
+                Ok(curve.iter().filter(|curve| !finite(curve)).count())
             })
             .try_reduce(|| 0, |a, b| Ok(a + b))
     }
@@ -206,22 +218,37 @@ impl Step {
         self.start + self.length
     }
 
-    /// The cubic of one photon. Its coefficients are those of RK4's own continuous extension of order 3 (Hairer,
+    /// The cubics of some photons. Their coefficients are those of RK4's own continuous extension of order 3 (Hairer,
     /// Norsett, Wanner, Solving Ordinary Differential Equations I, II.6), which costs no fifth evaluation.
     #[inline(always)]
-    pub(super) fn curve(&self, target: Vec2, v: Vec2, per_limit: f32) -> [Vec2; 3] {
+    pub(super) fn curves<const N: usize>(
+        &self,
+        targets: [Vec2; N],
+        v: [Vec2; N],
+        per_limit: [f32; N],
+    ) -> [[Vec2; 3]; N] {
         let Some([begin, middle, end]) = &self.stages else {
-            return [Vec2::ZERO; 3];
+            return [[Vec2::ZERO; 3]; N];
         };
         let (t, h) = (self.start as f32, self.length as f32);
-        let slope = |stage: &Stage, v: Vec2, t: f32| {
-            let u = stage.velocity(position(target, v, t));
-            (v - u) * (h * stage.rate * ease(v.length() * per_limit))
+        let slopes = |stage: &Stage, v: [Vec2; N], t: f32| -> [Vec2; N] {
+            let u: [Vec2; N] = stage.velocities(from_fn(|i| position(targets[i], v[i], t)));
+            from_fn(|i| (v[i] - u[i]) * (h * stage.rate * ease(v[i].length() * per_limit[i])))
         };
-        let k1 = slope(begin, v, t);
-        let k2 = slope(middle, v + 0.5 * k1, t + 0.5 * h);
-        let k3 = slope(middle, v + 0.5 * k2, t + 0.5 * h);
-        let k4 = slope(end, v + k3, t + h);
-        [k1, k2 + k3 - 1.5 * k1 - 0.5 * k4, (2.0 / 3.0) * (k1 - k2 - k3 + k4)]
+        let k1 = slopes(begin, v, t);
+        let k2 = slopes(middle, from_fn(|i| v[i] + 0.5 * k1[i]), t + 0.5 * h);
+        let k3 = slopes(middle, from_fn(|i| v[i] + 0.5 * k2[i]), t + 0.5 * h);
+        let k4 = slopes(end, from_fn(|i| v[i] + k3[i]), t + h);
+        from_fn(|i| {
+            let (k1, k2, k3, k4) = (k1[i], k2[i], k3[i], k4[i]);
+            [k1, k2 + k3 - 1.5 * k1 - 0.5 * k4, (2.0 / 3.0) * (k1 - k2 - k3 + k4)]
+        })
+    }
+
+    /// The cubic of one photon.
+    #[inline(always)]
+    pub(super) fn curve(&self, target: Vec2, v: Vec2, per_limit: f32) -> [Vec2; 3] {
+        let [curve] = self.curves([target], [v], [per_limit]);
+        curve
     }
 }

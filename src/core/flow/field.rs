@@ -3,7 +3,10 @@
 //! Both potentials are smooth functions, not samples: without phi the divergence of u is zero at every point, and
 //! without psi the curl is.
 
+use std::array::from_fn;
+
 use glam::{Mat2, Vec2};
+use wide::f32x8;
 
 use crate::math::bspline::{self, EXTRA};
 
@@ -87,36 +90,45 @@ impl Field {
     /// The velocity at `p` in plane units per unit of t. Beyond the rectangle the velocity of the nearest border point.
     #[inline]
     pub fn velocity(&self, p: Vec2) -> Vec2 {
-        let (column, fx) = locate(p.x * self.per_plane.x, self.grid.cells[0]);
-        let (row, fy) = locate(p.y * self.per_plane.y, self.grid.cells[1]);
-        let (by, dy) = (values(fy), slopes(fy));
-        let mut along = [0.0f32; 8];
-        let mut across = [0.0f32; 8];
+        let [velocity] = self.velocities([p]);
+        velocity
+    }
+
+    /// As [`Self::velocity`] at some points, none of which waits for another.
+    #[inline(always)]
+    pub fn velocities<const N: usize>(&self, p: [Vec2; N]) -> [Vec2; N] {
+        let (columns, fx) = locate(p.map(|p| p.x * self.per_plane.x), self.grid.cells[0]);
+        let (rows, fy) = locate(p.map(|p| p.y * self.per_plane.y), self.grid.cells[1]);
+        let (by, dy) = (fy.map(values), fy.map(slopes));
+        from_fn(|j| self.weigh([columns[j], rows[j]], fx[j], by[j], dy[j]))
+    }
+
+    /// The velocity in a cell, from the place in it along x and the splines and their slopes along y.
+    #[inline(always)]
+    fn weigh(&self, [column, row]: [u32; 2], fx: f32, by: [f32; 4], dy: [f32; 4]) -> Vec2 {
+        // Eight lanes: psi and phi of four nodes of a row.
+        let (mut along, mut across) = (f32x8::ZERO, f32x8::ZERO);
         for k in 0..4 {
-            let c = self.nodes_at(column, row + k);
-            for i in 0..8 {
-                along[i] = by[k].mul_add(c[i], along[i]);
-                across[i] = dy[k].mul_add(c[i], across[i]);
-            }
+            let nodes = self.nodes_at(column as usize, row as usize + k);
+            let Some(&nodes) = nodes.first_chunk() else { return Vec2::ZERO };
+            let nodes = f32x8::new(nodes);
+            along = nodes.mul_add(f32x8::splat(by[k]), along);
+            across = nodes.mul_add(f32x8::splat(dy[k]), across);
         }
-        let (bx, dx) = (values(fx), slopes(fx));
-        // psi is even, phi is odd: [d psi/dx, d phi/dx, d psi/dy, d phi/dy].
-        let mut g = [0.0f32; 4];
-        for i in 0..4 {
-            g[0] = dx[i].mul_add(along[2 * i], g[0]);
-            g[1] = dx[i].mul_add(along[2 * i + 1], g[1]);
-            g[2] = bx[i].mul_add(across[2 * i], g[2]);
-            g[3] = bx[i].mul_add(across[2 * i + 1], g[3]);
-        }
+        let fx = f32x8::splat(fx);
+        // [d psi/dx, d phi/dx] and [d psi/dy, d phi/dy].
+        let [psi_x, phi_x] = pairs(SLOPES.at(fx) * along);
+        let [psi_y, phi_y] = pairs(VALUES.at(fx) * across);
         let s = self.per_plane;
-        Vec2::new(g[1] * s.x - g[2] * s.y, g[0] * s.x + g[3] * s.y)
+        Vec2::new(phi_x * s.x - psi_y * s.y, psi_x * s.x + phi_y * s.y)
     }
 
     /// The Jacobian of the velocity at `p`, columns du/dx and du/dy: divergence x_axis.x + y_axis.y, curl
     /// x_axis.y - y_axis.x. Beyond the rectangle nothing changes along the outward direction.
     pub fn gradient(&self, p: Vec2) -> Mat2 {
-        let (column, fx) = locate(p.x * self.per_plane.x, self.grid.cells[0]);
-        let (row, fy) = locate(p.y * self.per_plane.y, self.grid.cells[1]);
+        let ([column], [fx]) = locate([p.x * self.per_plane.x], self.grid.cells[0]);
+        let ([row], [fy]) = locate([p.y * self.per_plane.y], self.grid.cells[1]);
+        let (column, row) = (column as usize, row as usize);
         let (x, y) = ([values(fx), slopes(fx), curvatures(fx)], [values(fy), slopes(fy), curvatures(fy)]);
         // Second derivatives xx, xy, yy of psi and phi.
         let mut d = [[0.0f32; 2]; 3];
@@ -169,24 +181,24 @@ impl Field {
     }
 }
 
-/// The cell of a grid coordinate and the place 0..=1 in it; what lies outside is moved to the border.
+/// The cells of some grid coordinates and the places 0..=1 in them; what lies outside is moved to the border.
 #[inline(always)]
-fn locate(x: f32, cells: usize) -> (usize, f32) {
-    let x = x.clamp(0.0, cells as f32);
-    let cell = (x as i32 as usize).min(cells - 1);
-    (cell, x - cell as f32)
+fn locate<const N: usize>(x: [f32; N], cells: usize) -> ([u32; N], [f32; N]) {
+    let x = x.map(|x| x.max(0.0).min(cells as f32));
+    // Whole numbers below 2^24, so that the place in the last cell is exact, too.
+    let cell = x.map(|x| (x as i32).min(cells as i32 - 1));
+    (cell.map(|cell| cell as u32), from_fn(|i| x[i] - cell[i] as f32))
 }
 
 #[inline(always)]
 fn values(f: f32) -> [f32; 4] {
     let g = 1.0 - f;
     let f2 = f * f;
-    let sixth = 1.0 / 6.0;
     [
-        g * g * g * sixth,
-        (0.5 * f - 1.0).mul_add(f2, 4.0 * sixth),
-        (0.5 * g - 1.0).mul_add(g * g, 4.0 * sixth),
-        f2 * f * sixth,
+        g * g * g * SIXTH,
+        (0.5 * f - 1.0).mul_add(f2, 4.0 * SIXTH),
+        (0.5 * g - 1.0).mul_add(g * g, 4.0 * SIXTH),
+        f2 * f * SIXTH,
     ]
 }
 
@@ -194,6 +206,39 @@ fn values(f: f32) -> [f32; 4] {
 fn slopes(f: f32) -> [f32; 4] {
     let g = 1.0 - f;
     [-0.5 * g * g, f * 1.5f32.mul_add(f, -2.0), -g * 1.5f32.mul_add(g, -2.0), 0.5 * f * f]
+}
+
+/// The four functions as polynomials in the place within the cell, each in two lanes.
+struct Lanes<const N: usize>([[f32; 8]; N]);
+
+/// [`values`], from the highest power down.
+const VALUES: Lanes<4> = Lanes([
+    [-SIXTH, -SIXTH, 0.5, 0.5, -0.5, -0.5, SIXTH, SIXTH],
+    [0.5, 0.5, -1.0, -1.0, 0.5, 0.5, 0.0, 0.0],
+    [-0.5, -0.5, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0],
+    [SIXTH, SIXTH, 4.0 * SIXTH, 4.0 * SIXTH, SIXTH, SIXTH, 0.0, 0.0],
+]);
+/// [`slopes`], from the highest power down.
+const SLOPES: Lanes<3> = Lanes([
+    [-0.5, -0.5, 1.5, 1.5, -1.5, -1.5, 0.5, 0.5],
+    [1.0, 1.0, -2.0, -2.0, 1.0, 1.0, 0.0, 0.0],
+    [-0.5, -0.5, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0],
+]);
+const SIXTH: f32 = 1.0 / 6.0;
+
+impl<const N: usize> Lanes<N> {
+    #[inline(always)]
+    fn at(&self, f: f32x8) -> f32x8 {
+        let highest = f32x8::new(self.0[0]);
+        self.0[1..].iter().fold(highest, |sum, &lower| sum.mul_add(f, f32x8::new(lower)))
+    }
+}
+
+/// Sums of the even and of the odd lanes.
+#[inline(always)]
+fn pairs(lanes: f32x8) -> [f32; 2] {
+    let [a, b, c, d, e, f, g, h] = lanes.to_array();
+    [(a + e) + (c + g), (b + f) + (d + h)]
 }
 
 #[inline(always)]

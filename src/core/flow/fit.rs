@@ -53,6 +53,8 @@ pub struct FitReport {
     pub residual: f64,
     /// Unknowns solved for.
     pub unknowns: usize,
+    /// Condition number of the preconditioned matrix as far as the iterations saw it, from below; 0 where there was none.
+    pub condition: f64,
 }
 
 /// A solver for many steps: keeps its storage, and starts from its last solution.
@@ -205,7 +207,7 @@ impl Fitter {
         unknowns: impl Fn(&mut System) -> &mut GridVector<f64>,
         progress: &Progress,
     ) -> Result<FitReport> {
-        let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0 };
+        let mut report = FitReport { iterations: 0, residual: 0.0, unknowns: 0, condition: 0.0 };
         for (i, system) in self.systems.iter_mut().enumerate() {
             progress.check()?;
             // Where psi and phi are fitted apart, both have the same matrix but for walls.
@@ -229,8 +231,9 @@ impl Fitter {
             let solved = finished?;
             let [nx, ny] = self.settings.grid.nodes();
             let unknowns = report.unknowns + system.solution.components * nx * ny;
-            let this = FitReport { iterations: solved.iterations, residual: solved.residual, unknowns };
-            report = report.worst(this);
+            let condition = self.solver.condition().unwrap_or_default();
+            let Solved { iterations, residual } = solved;
+            report = report.worst(FitReport { iterations, residual, unknowns, condition });
         }
         Ok(report)
     }
@@ -346,6 +349,7 @@ impl FitReport {
             iterations: self.iterations.max(other.iterations),
             residual: self.residual.max(other.residual),
             unknowns: self.unknowns.max(other.unknowns),
+            condition: self.condition.max(other.condition),
         }
     }
 }

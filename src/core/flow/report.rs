@@ -26,6 +26,8 @@ pub struct FlowReport {
     pub solver_iterations_mean: f64,
     /// Relative residual of the solver, the worst.
     pub solver_residual: f64,
+    /// Condition number of the preconditioned matrix, the largest that the solver saw; a bound from below.
+    pub solver_condition: f64,
     /// |u(c) - v| / |v| in root mean square, averaged over the fits.
     pub fit_residual: f64,
     /// Divergence of the fields and the turbulence where the photons are, root mean square, per unit of t.
@@ -69,6 +71,7 @@ impl FlowReport {
             solver_iterations: a.solver_iterations.max(b.solver_iterations),
             solver_iterations_mean: a.solver_iterations_mean.max(b.solver_iterations_mean),
             solver_residual: a.solver_residual.max(b.solver_residual),
+            solver_condition: a.solver_condition.max(b.solver_condition),
             fit_residual: a.fit_residual.max(b.fit_residual),
             divergence_rms: a.divergence_rms.max(b.divergence_rms),
             curl_rms: a.curl_rms.max(b.curl_rms),
@@ -157,6 +160,7 @@ impl<'a> Observer<'a> {
         report.solver_iterations = report.solver_iterations.max(fit.iterations);
         report.solver_iterations_mean += fit.iterations as f64;
         report.solver_residual = report.solver_residual.max(fit.residual);
+        report.solver_condition = report.solver_condition.max(fit.condition);
         report.fit_residual += metric::fit_residual(field, positions, guidance);
         let all: Vec<&Field> = [field].into_iter().chain(turbulence).collect();
         let some: Vec<Vec2> = positions.iter().step_by(DERIVATIVE_STRIDE).copied().collect();

@@ -18,10 +18,18 @@ impl Stage {
     /// The velocity u at `p`, in plane units per unit of t.
     #[inline(always)]
     pub(super) fn velocity(&self, p: Vec2) -> Vec2 {
-        let mut velocity = self.field.velocity(p);
-        for noise in &self.noise {
-            velocity += noise.velocity(p);
-        }
+        let [velocity] = self.velocities([p]);
         velocity
+    }
+
+    /// As [`Self::velocity`] at some points.
+    #[inline(always)]
+    pub(super) fn velocities<const N: usize>(&self, p: [Vec2; N]) -> [Vec2; N] {
+        let mut velocities = self.field.velocities(p);
+        for noise in &self.noise {
+            let swirls = noise.velocities(p);
+            (0..N).for_each(|i| velocities[i] += swirls[i]);
+        }
+        velocities
     }
 }

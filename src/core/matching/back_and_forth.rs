@@ -8,15 +8,11 @@ use super::lattice::Lattice;
 use super::legendre::c_transform;
 use super::poisson::Poisson;
 use super::push_forward::push_forward;
+use super::settings::MapSettings;
 use crate::{Progress, Result};
 
-/// Iterations at most, on the finest lattice and on the coarser ones.
-const FINEST_ITERATIONS: usize = 20;
-const COARSE_ITERATIONS: usize = 40;
 /// The coarsest lattice still has this many cells along its shorter side.
 const COARSEST: usize = 8;
-/// Converged when an iteration raises the dual value by less than this share.
-const TOLERANCE: f64 = 1e-5;
 
 /// A dual pair: phi(y) + psi(x) <= |x - y|^2 / 2, cell units.
 pub(super) struct Potentials {
@@ -27,14 +23,20 @@ pub(super) struct Potentials {
 }
 
 /// The potentials between the densities `mu` of the source and `nu` of the target, both positive and of mean 1.
-pub(super) fn solve(lattice: &Lattice, mu: &[f64], nu: &[f64], progress: &Progress) -> Result<Potentials> {
+pub(super) fn solve(
+    lattice: &Lattice,
+    mu: &[f64],
+    nu: &[f64],
+    settings: &MapSettings,
+    progress: &Progress,
+) -> Result<Potentials> {
     let (start, iterations) = if let Some(coarser) = coarser(lattice) {
-        let coarse = solve(&coarser, &lattice.restrict(mu), &lattice.restrict(nu), progress)?;
-        (lattice.prolong(&coarse.phi), FINEST_ITERATIONS)
+        let coarse = solve(&coarser, &lattice.restrict(mu), &lattice.restrict(nu), settings, progress)?;
+        (lattice.prolong(&coarse.phi), settings.iterations)
     } else {
-        (vec![0.0; lattice.len()], COARSE_ITERATIONS)
+        (vec![0.0; lattice.len()], 2 * settings.iterations)
     };
-    let potentials = Ascent::new(lattice, mu, nu, start).run(iterations, progress)?;
+    let potentials = Ascent::new(lattice, mu, nu, start).run(iterations, settings.tolerance, progress)?;
     progress.advance(lattice.len() as u64);
     Ok(potentials)
 }
@@ -70,7 +72,7 @@ impl<'a> Ascent<'a> {
         Self { lattice, mu, nu, poisson: Poisson::new(lattice), potentials, sigma: 4.0 / densest, value }
     }
 
-    fn run(mut self, iterations: usize, progress: &Progress) -> Result<Potentials> {
+    fn run(mut self, iterations: usize, tolerance: f64, progress: &Progress) -> Result<Potentials> {
         for _ in 0..iterations {
             progress.check()?;
             let before = self.value;
@@ -95,7 +97,7 @@ impl<'a> Ascent<'a> {
             );
             self.potentials = Potentials { psi, phi };
             self.value = value;
-            if (self.value - before).abs() <= TOLERANCE * self.value.abs() {
+            if (self.value - before).abs() <= tolerance * self.value.abs() {
                 break;
             }
         }

@@ -11,8 +11,10 @@ use crate::constraint::Detour;
 use crate::math::rng::{Purpose, Stream};
 use crate::{Error, Progress, Result};
 
-/// Times at which pairs are compared with their neighbours, one sweep each.
-const SWEEPS: [f32; 6] = [1.0, 0.0, 0.5, 0.25, 0.75, 0.5];
+/// Times at which pairs are compared with their neighbours, one sweep each, over and over.
+const TIMES: [f32; 6] = [1.0, 0.0, 0.5, 0.25, 0.75, 0.5];
+/// Sweeps in which pairs may exchange their targets, as projects are matched.
+pub const SWEEPS: usize = 6;
 /// Followers each pair is compared with in a sweep.
 const WINDOW: usize = 16;
 
@@ -38,7 +40,23 @@ impl Matching {
         pass: u64,
         progress: &Progress,
     ) -> Result<Self> {
-        Self::near(source, target, |point| map.apply(point), None, (seed, pass), progress)
+        Self::swept(source, target, Some(map), SWEEPS, (seed, pass), progress)
+    }
+
+    /// As [`Self::new`], by so many sweeps over all pairs, and by halves alone where there is no map.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn swept(
+        source: &[Vec2],
+        target: &[Vec2],
+        map: Option<&TransportMap>,
+        sweeps: usize,
+        random: (u64, u64),
+        progress: &Progress,
+    ) -> Result<Self> {
+        let apply = |point| map.map_or(point, |map| map.apply(point));
+        Self::near(source, target, apply, None, sweeps, random, progress)
     }
 
     /// The same around walls: near `map`, and with little total squared length of the ways.
@@ -54,7 +72,7 @@ impl Matching {
         progress: &Progress,
     ) -> Result<Self> {
         let apply = |point| map.apply(point, detour);
-        Self::near(source, target, apply, Some(detour), (seed, pass), progress)
+        Self::near(source, target, apply, Some(detour), SWEEPS, (seed, pass), progress)
     }
 
     fn near(
@@ -62,18 +80,19 @@ impl Matching {
         target: &[Vec2],
         map: impl Fn(Vec2) -> Vec2 + Sync,
         walls: Option<&Detour>,
+        sweeps: usize,
         (seed, pass): (u64, u64),
         progress: &Progress,
     ) -> Result<Self> {
         require_points("source", source)?;
         require_points("target", target)?;
         require_equal_counts(source.len(), target.len())?;
-        progress.begin("match", 1 + SWEEPS.len() as u64);
+        progress.begin("match", 1 + sweeps as u64);
         let mut pairs = halved(source, target, map, walls, (seed, pass), progress);
         progress.check()?;
         progress.advance(1);
         let mut stream = Stream::new(seed, Purpose::Match, pass, 0);
-        for t in SWEEPS {
+        for &t in TIMES.iter().cycle().take(sweeps) {
             let shift = Vec2::new(stream.f32(), stream.f32());
             sweep(&mut pairs, t, shift, WINDOW, walls, progress)?;
             progress.advance(1);

@@ -25,9 +25,9 @@ mod swap;
 mod transport_map;
 
 pub use around::{ANCHORS, AroundMap};
-pub use bijection::{Matching, mean_square_distance};
+pub use bijection::{Matching, SWEEPS, mean_square_distance};
 pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;
-pub use settings::Method;
+pub use settings::{MapSettings, Method};
 pub use stylized::StylizedMap;
-pub use transport_map::{TransportMap, transport_map};
+pub use transport_map::{TransportMap, transport_map, transport_map_with};

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::back_and_forth;
 use super::lattice::Lattice;
 use super::push_forward::corner_map;
+use super::settings::MapSettings;
 use crate::{Error, Progress, Result};
 
 /// Cells along the longer side at most, and at least.
@@ -39,15 +40,34 @@ pub fn transport_map(
     extent: Vec2,
     progress: &Progress,
 ) -> Result<TransportMap> {
+    transport_map_with(source, target, extent, &MapSettings::default(), progress)
+}
+
+/// As [`transport_map`], as exactly as `settings` say.
+///
+/// # Errors
+/// As [`transport_map`].
+pub fn transport_map_with(
+    source: &[Vec2],
+    target: &[Vec2],
+    extent: Vec2,
+    settings: &MapSettings,
+    progress: &Progress,
+) -> Result<TransportMap> {
     require_points("source", source)?;
     require_points("target", target)?;
-    let points = source.len().min(target.len()) as f64;
-    let finest = ((points / POINTS_PER_CELL).sqrt() as usize).next_multiple_of(16).clamp(COARSEST, FINEST);
+    let finest = match settings.cells {
+        Some(cells) => cells.max(1).next_multiple_of(16),
+        None => {
+            let points = source.len().min(target.len()) as f64;
+            ((points / POINTS_PER_CELL).sqrt() as usize).next_multiple_of(16).clamp(COARSEST, FINEST)
+        }
+    };
     let lattice = Lattice::covering(source, target, extent, finest);
     progress.begin("transport map", back_and_forth::work(&lattice));
     let mu = lattice.density(source, FLOOR, progress)?;
     let nu = lattice.density(target, FLOOR, progress)?;
-    let potentials = back_and_forth::solve(&lattice, &mu, &nu, progress)?;
+    let potentials = back_and_forth::solve(&lattice, &mu, &nu, settings, progress)?;
     Ok(TransportMap { lattice, corners: corner_map(&lattice, &potentials.psi), phi: potentials.phi })
 }
 
@@ -63,6 +83,11 @@ impl TransportMap {
         let below = self.corners[corner].lerp(self.corners[corner + 1], u);
         let above = self.corners[corner + width + 1].lerp(self.corners[corner + width + 2], u);
         (lattice.origin + below.lerp(above, v) * lattice.cell).as_vec2()
+    }
+
+    /// Cells of its lattice along x and y.
+    pub fn cells(&self) -> [usize; 2] {
+        self.lattice.size
     }
 
     /// [`Self::apply`] for a whole column.

@@ -1,5 +1,6 @@
 //! Preconditioned conjugate gradients.
 
+use super::lanczos::{Coefficients, condition};
 use super::multigrid::Multigrid;
 use super::operator::Operator;
 use super::vector::GridVector;
@@ -35,6 +36,8 @@ pub struct ConjugateGradients {
     image: GridVector<f64>,
     preconditioned: GridVector<f64>,
     single: [GridVector<f32>; 2],
+    /// Of the iterations of the last solve.
+    coefficients: Vec<Coefficients>,
 }
 
 impl ConjugateGradients {
@@ -49,7 +52,13 @@ impl ConjugateGradients {
             image: zero(),
             preconditioned: zero(),
             single: [single(), single()],
+            coefficients: Vec::new(),
         }
+    }
+
+    /// The condition number of the preconditioned matrix as the last solve saw it, from below; nothing if it had nothing to do.
+    pub fn condition(&self) -> Option<f64> {
+        condition(&self.coefficients)
     }
 
     /// Improves `x` until |b - A x| <= `tolerance` |b| or `max_iterations` are made. The preconditioner works in single
@@ -65,6 +74,7 @@ impl ConjugateGradients {
         progress: &Progress,
     ) -> Result<Solved> {
         let LinearSystem { operator, preconditioner, null, right } = system;
+        self.coefficients.clear();
         let scale = right.dot(right).sqrt();
         if scale == 0.0 {
             x.clear();
@@ -95,6 +105,7 @@ impl ConjugateGradients {
             if !(step.is_finite() && rho_new > 0.0) {
                 break;
             }
+            self.coefficients.push(Coefficients { step, beta });
             x.combine(1.0, step, &self.direction);
             self.previous.convert(1.0, &self.residual);
             self.residual.combine(1.0, step, &self.image);

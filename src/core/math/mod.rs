@@ -8,6 +8,7 @@ pub mod dense;
 pub mod distribution;
 pub mod hilbert;
 pub mod kronecker;
+pub mod lanczos;
 pub mod mixed_gram;
 pub mod multigrid;
 pub mod null_space;

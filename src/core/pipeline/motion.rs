@@ -210,6 +210,11 @@ impl FirstMove {
         let Self { source, target, extent, lines, walls, number, .. } = self;
         Course { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
+
+    /// Walls that have a say in who goes where; others are only gone around.
+    pub fn leading_walls(&self) -> Vec<&ActiveWall> {
+        self.walls.iter().filter(|wall| mover::leads(wall)).collect()
+    }
 }
 
 /// Goes from key to key until photons move.

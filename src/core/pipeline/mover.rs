@@ -15,6 +15,11 @@ use crate::{Progress, Result};
 /// Share of a segment that a wall stands to have a say in who goes where; others are only gone around.
 const LASTING: f64 = 0.5;
 
+/// Whether a wall has a say in who goes where.
+pub(super) fn leads(wall: &ActiveWall) -> bool {
+    wall.window.duration() >= LASTING
+}
+
 /// By what the points of a segment are paired.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -37,7 +42,7 @@ impl Kind {
             (Method::Transport, Movement::Stylized) => Self::Stylized,
             (Method::Transport, Movement::Flow) => {
                 let Acting { mut walls, .. } = acting(project, segment, extent);
-                walls.retain(|wall| wall.window.duration() >= LASTING);
+                walls.retain(leads);
                 if walls.is_empty() { Self::Straight } else { Self::Around(walls) }
             }
         }

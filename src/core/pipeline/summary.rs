@@ -139,6 +139,16 @@ pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
     })
 }
 
+/// A solver that gave up before it was as near as the project asks.
+fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
+    (flow.solver_residual > tolerance).then(|| {
+        format!(
+            "the fit stopped after {} iterations at a residual of {:.1e} where {tolerance:.0e} is asked for: take a larger alpha, or a lower beta and weight of lines",
+            flow.solver_iterations, flow.solver_residual
+        )
+    })
+}
+
 /// What a run did, for its summary.
 pub(super) struct Done<'a> {
     pub(super) command: &'static str,
@@ -162,6 +172,8 @@ impl Summary {
         let mut notes = prepared.notes;
         notes.extend(notes_on_dark(&done.motion.caustics));
         notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
+        let tolerance = project.flow.tolerance.into();
+        notes.extend(flow.iter().filter_map(|numbers| note_on_solver(&numbers.flow, tolerance)));
         Self {
             command: done.command,
             project: project.name.clone(),
@@ -240,5 +252,17 @@ impl Summary {
             let _ = writeln!(text, "  note: {note}");
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_solver_that_gave_up_is_noted_and_one_that_arrived_is_not() {
+        let flow = |solver_residual| FlowReport { solver_residual, ..FlowReport::default() };
+        assert!(note_on_solver(&flow(1.5), 1e-4).is_some_and(|note| note.contains("1.5e0")));
+        assert_eq!(note_on_solver(&flow(1e-4), 1e-4), None);
     }
 }

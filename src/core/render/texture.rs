@@ -101,6 +101,15 @@ impl ReceiverTexture {
         &mut self.texels
     }
 
+    /// Changes all texels for as many others.
+    ///
+    /// # Panics
+    /// When there are not as many.
+    pub(super) fn swap_texels(&mut self, other: &mut Vec<Vec4>) {
+        assert_eq!(other.len(), self.texels.len(), "one texture for another");
+        std::mem::swap(&mut self.texels, other);
+    }
+
     /// The flux of all texels, watts, summed in f64; the same for any number of threads.
     pub fn total(&self) -> DVec3 {
         ordered_sum(&self.texels, |t| t.xyz().as_dvec3())

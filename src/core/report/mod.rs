@@ -6,10 +6,12 @@
 mod chapter;
 mod crop;
 mod page;
+mod pareto;
 mod plot;
 mod section;
 mod slope;
 mod ssim;
+mod stability;
 mod workbench;
 
 use std::io::Write as _;
@@ -21,6 +23,7 @@ use serde::Serialize;
 pub use chapter::{Cell, Chapter, Part, Picture, Pictures, Row, Table, Tone};
 pub use plot::{Axis, Line, Panel, Plot, Style};
 pub use section::gamma::{GammaResponse, Response, gamma_response};
+pub use stability::{Bound, EnergyOf, Limits, Measured, Size, Stability, StabilityRow, stability};
 pub use workbench::Effort;
 
 use crate::files::write_atomic;

@@ -99,3 +99,13 @@ pub(super) fn timed<T>(work: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
     let start = Instant::now();
     Ok((work()?, start.elapsed().as_secs_f64()))
 }
+
+/// As [`timed`], by the faster of two runs where one takes less than `again` seconds.
+pub(super) fn timed_twice<T>(again: f64, mut work: impl FnMut() -> Result<T>) -> Result<(T, f64)> {
+    let (made, seconds) = timed(&mut work)?;
+    if seconds >= again {
+        return Ok((made, seconds));
+    }
+    let (made, second) = timed(work)?;
+    Ok((made, seconds.min(second)))
+}

@@ -1,5 +1,8 @@
 //! A short kernel as one weighted sum along each axis, done only where there is light.
+//!
+//! Both axes are done band by band of rows, from one texture into another: what lies between stays in the cache.
 
+use glam::Vec4;
 use rayon::prelude::*;
 
 use super::LANES;
@@ -8,19 +11,15 @@ use crate::render::texture::ReceiverTexture;
 /// Texels that are dark or lit together. A kernel reaches no farther than to the next block.
 const BLOCK: usize = 32;
 /// Rows per task.
-const BAND: usize = 16;
+const BAND: usize = 32;
 /// Numbers summed at once: four vector registers of eight.
 const VECTOR: usize = 32;
 
-/// The filter with its buffers, kept from call to call.
+/// The filter with its buffer, kept from call to call.
 #[derive(Debug, Default)]
 pub(super) struct Taps {
-    /// The texture, filtered along its columns.
-    upright: Vec<f32>,
-    /// Whether a block of a row of the texture holds light, row by row.
-    lit: Vec<bool>,
-    /// The same of the texture filtered along its columns.
-    lit_upright: Vec<bool>,
+    /// The texels of the result, then of the texture before.
+    other: Vec<Vec4>,
 }
 
 impl Taps {
@@ -28,65 +27,77 @@ impl Taps {
     /// border the kernel is reflected.
     pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, weights: &[f32]) {
         let (columns, rows) = (texture.layout().columns, texture.layout().rows);
-        let (width, blocks) = (LANES * columns, columns.div_ceil(BLOCK));
-        let texels: &mut [f32] = bytemuck::cast_slice_mut(texture.texels_mut());
-        self.lit.resize(rows * blocks, false);
-        self.lit_upright.resize(rows * blocks, false);
-        self.upright.resize(rows * width, 0.0);
-        let marked = self.lit.par_chunks_mut(BAND * blocks).zip(texels.par_chunks(BAND * width));
-        marked.for_each(|(lit, texels)| mark(lit, texels, width));
-        let (source, lit) = (&*texels, &self.lit);
-        let bands =
-            self.upright.par_chunks_mut(BAND * width).zip(self.lit_upright.par_chunks_mut(BAND * blocks));
-        bands.enumerate().for_each(|(band, (out, lit_out))| {
-            let lines = out.chunks_exact_mut(width).zip(lit_out.chunks_exact_mut(blocks));
-            for (i, (out, lit_out)) in lines.enumerate() {
-                let near = around(band * BAND + i, weights.len() - 1, rows);
-                upright_row(&near, (source, lit), weights, (out, lit_out));
-            }
+        self.other.resize(columns * rows, Vec4::ZERO);
+        let source = Source { texels: bytemuck::cast_slice(texture.texels()), columns, rows };
+        let bands = self.other.par_chunks_mut(BAND * columns).enumerate();
+        bands.for_each_init(Band::default, |work, (band, out)| {
+            work.filter(&source, weights, band * BAND, bytemuck::cast_slice_mut(out));
         });
-        let (upright, lit) = (&self.upright, &self.lit_upright);
-        texels.par_chunks_mut(BAND * width).enumerate().for_each_init(Vec::new, |padded, (band, out)| {
-            for (i, out) in out.chunks_exact_mut(width).enumerate() {
-                let row = band * BAND + i;
-                let lit = &lit[row * blocks..][..blocks];
-                pad(&upright[row * width..][..width], weights.len() - 1, padded);
-                level_row(padded, lit, weights, out);
-            }
-        });
+        texture.swap_texels(&mut self.other);
     }
 }
 
-/// Which blocks of some rows hold light.
-fn mark(lit: &mut [bool], texels: &[f32], width: usize) {
-    let blocks = texels.chunks_exact(width).flat_map(|row| row.chunks(LANES * BLOCK));
-    lit.iter_mut().zip(blocks).for_each(|(lit, block)| *lit = block.iter().any(|&value| value != 0.0));
+/// The texels of a texture, number by number.
+struct Source<'a> {
+    texels: &'a [f32],
+    columns: usize,
+    rows: usize,
 }
 
-/// The rows as far as `reach` from `row`, from below upwards, reflected at the border as often as it takes.
-fn around(row: usize, reach: usize, rows: usize) -> Vec<usize> {
-    let mirror = |i: isize| {
-        let i = i.rem_euclid(2 * rows as isize) as usize;
-        i.min(2 * rows - 1 - i)
-    };
-    (0..=2 * reach).map(|i| mirror(row as isize + i as isize - reach as isize)).collect()
+impl Source<'_> {
+    fn row(&self, row: usize) -> &[f32] {
+        &self.texels[LANES * self.columns * row..][..LANES * self.columns]
+    }
 }
 
-/// One row filtered along the columns, and which of its blocks hold light.
-fn upright_row(
-    near: &[usize],
-    (source, lit): (&[f32], &[bool]),
-    weights: &[f32],
-    (out, lit_out): (&mut [f32], &mut [bool]),
-) {
-    let (width, blocks) = (out.len(), lit_out.len());
+/// What the work on one band needs.
+#[derive(Default)]
+struct Band {
+    /// Whether a block of a source row holds light, row by row, from `reach` rows below the band to as many above.
+    lit: Vec<bool>,
+    /// A row filtered along its columns, with `reach` texels more on either side.
+    padded: Vec<f32>,
+}
+
+impl Band {
+    /// Filters the rows from `first` on into `out`.
+    fn filter(&mut self, source: &Source, weights: &[f32], first: usize, out: &mut [f32]) {
+        let (reach, width) = (weights.len() - 1, LANES * source.columns);
+        let (low, high) = (first as isize - reach as isize, first + out.len() / width + reach);
+        let window: Vec<usize> = (low..high as isize).map(|row| reflected(row, source.rows)).collect();
+        let blocks = source.columns.div_ceil(BLOCK);
+        self.lit.clear();
+        for &row in &window {
+            let blocks = source.row(row).chunks(LANES * BLOCK);
+            self.lit.extend(blocks.map(|block| block.iter().any(|&value| value != 0.0)));
+        }
+        self.padded.resize(width + 2 * LANES * reach, 0.0);
+        for (i, out) in out.chunks_exact_mut(width).enumerate() {
+            let near = i..=i + 2 * reach;
+            let lit = &self.lit[i * blocks..(i + 2 * reach + 1) * blocks];
+            let lit: Vec<bool> =
+                (0..blocks).map(|b| lit[b..].iter().step_by(blocks).any(|&lit| lit)).collect();
+            let upright = &mut self.padded[LANES * reach..][..width];
+            upright_row(source, &window[near], &lit, weights, upright);
+            reflect(&mut self.padded, reach, source.columns);
+            level_row(&self.padded, &lit, weights, out);
+        }
+    }
+}
+
+/// A place that may lie beyond 0..`all`, reflected as often as it takes.
+fn reflected(place: isize, all: usize) -> usize {
+    let place = place.rem_euclid(2 * all as isize) as usize;
+    place.min(2 * all - 1 - place)
+}
+
+/// One row filtered along the columns, from the rows `near` it.
+fn upright_row(source: &Source, near: &[usize], lit: &[bool], weights: &[f32], out: &mut [f32]) {
     let mut lines: Vec<&[f32]> = Vec::with_capacity(near.len());
-    for (block, (out, lit_out)) in out.chunks_mut(LANES * BLOCK).zip(lit_out).enumerate() {
-        *lit_out = near.iter().any(|row| lit[row * blocks + block]);
-        if *lit_out {
-            let start = block * LANES * BLOCK;
+    for (block, out) in out.chunks_mut(LANES * BLOCK).enumerate() {
+        if lit[block] {
             lines.clear();
-            lines.extend(near.iter().map(|row| &source[row * width + start..][..out.len()]));
+            lines.extend(near.iter().map(|&row| &source.row(row)[block * LANES * BLOCK..][..out.len()]));
             weigh(&lines, weights, out);
         } else {
             out.fill(0.0);
@@ -94,15 +105,12 @@ fn upright_row(
     }
 }
 
-/// A row with `reach` texels more on either side, reflected.
-fn pad(row: &[f32], reach: usize, padded: &mut Vec<f32>) {
-    let columns = row.len() / LANES;
-    padded.clear();
-    let texel = |i: &usize| row[i * LANES..].iter().take(LANES);
-    let [before, after] = [0, columns - 1].map(|column| around(column, reach, columns));
-    padded.extend(before[..reach].iter().flat_map(texel));
-    padded.extend_from_slice(row);
-    padded.extend(after[reach + 1..].iter().flat_map(texel));
+/// Fills the `reach` texels on either side of a padded row.
+fn reflect(padded: &mut [f32], reach: usize, columns: usize) {
+    for at in (0..reach).chain(reach + columns..columns + 2 * reach) {
+        let from = LANES * (reach + reflected(at as isize - reach as isize, columns));
+        padded.copy_within(from..from + LANES, LANES * at);
+    }
 }
 
 /// One row filtered along itself.
@@ -146,7 +154,7 @@ fn weigh(lines: &[&[f32]], weights: &[f32], out: &mut [f32]) {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec4, vec2};
+    use glam::{Vec2, vec2};
 
     use super::super::boxes::{Box1, Running};
     use super::*;

@@ -1,9 +1,11 @@
 //! The sections of a report: one file measures one thing.
 
+mod flow_error;
 pub(super) mod gamma;
 mod growth;
 mod left_out;
 mod machine;
+mod matching_cost;
 mod render_error;
 mod study;
 mod time;
@@ -26,8 +28,10 @@ pub(super) struct Section {
 }
 
 /// All sections, in the order of the report.
-pub(super) const SECTIONS: [Section; 7] = [
+pub(super) const SECTIONS: [Section; 9] = [
     render_error::SECTION,
+    flow_error::SECTION,
+    matching_cost::SECTION,
     study::SECTION,
     gamma::SECTION,
     time::SECTION,
