@@ -62,8 +62,8 @@ fn flow() -> impl Strategy<Value = Value> {
     let gamma = prop_oneof![Just(0.0f32), 0.0f32..1.0, Just(1.0)];
     let fade = prop_oneof![
         (0.0f32..0.9, 0.02f32..0.1, 1.0f32..10.0)
-            .prop_map(|(start, long, limit)| json!({ "smooth": { "start": start, "end": start + long, "limit": limit } })),
-        (0.0f32..0.99).prop_map(|tau| json!({ "paper": { "tau": tau } })),
+            .prop_map(|(start, long, limit)| json!({ "type": "smooth", "start": start, "end": start + long, "limit": limit })),
+        (0.0f32..0.99).prop_map(|tau| json!({ "type": "paper", "tau": tau })),
     ];
     let turbulence = prop_oneof![
         Just(Value::Null),
@@ -272,7 +272,7 @@ fn each_target_has_one_photon(drawn: &Drawn, run: &Run) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(32) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, max_shrink_iters: 20, ..ProptestConfig::with_cases(32) })]
 
     #[test]
     fn random_projects_keep_their_light_arrive_and_do_not_depend_on_threads(drawn in drawn()) {

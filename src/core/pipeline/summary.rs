@@ -34,7 +34,12 @@ impl FlowNumbers {
     /// Of each layer of one segment.
     pub(super) fn of_segment(reports: Vec<FlowReport>, cost: &Cost) -> impl Iterator<Item = Self> {
         let (transport_cost, transport_cost_ratio) = (cost.mean(), cost.ratio(cost.bound));
-        let of = move |flow| Self { flow, transport_cost, transport_cost_ratio, flux_ratio: 1.0 };
+        // Each layer has photons of its own, so those that walls shut off add up.
+        let unreachable = reports.iter().map(|report| report.unreachable).sum();
+        let of = move |flow| {
+            let flow = FlowReport { unreachable, ..flow };
+            Self { flow, transport_cost, transport_cost_ratio, flux_ratio: 1.0 }
+        };
         reports.into_iter().map(of)
     }
 
@@ -258,6 +263,13 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn photons_shut_off_add_up_over_the_layers_of_a_segment() {
+        let reports = [2, 3].map(|unreachable| FlowReport { unreachable, ..FlowReport::default() }).to_vec();
+        let numbers = FlowNumbers::of_segment(reports, &Cost::default()).reduce(FlowNumbers::worst);
+        assert_eq!(numbers.map(|numbers| numbers.flow.unreachable), Some(5));
+    }
 
     #[test]
     fn a_solver_that_gave_up_is_noted_and_one_that_arrived_is_not() {
