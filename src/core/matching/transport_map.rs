@@ -85,11 +85,6 @@ impl TransportMap {
         (lattice.origin + below.lerp(above, v) * lattice.cell).as_vec2()
     }
 
-    /// Cells of its lattice along x and y.
-    pub fn cells(&self) -> [usize; 2] {
-        self.lattice.size
-    }
-
     /// [`Self::apply`] for a whole column.
     pub fn apply_all(&self, points: &[Vec2]) -> Vec<Vec2> {
         points.par_iter().with_min_len(4096).map(|point| self.apply(*point)).collect()
