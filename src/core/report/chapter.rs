@@ -224,6 +224,7 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]

@@ -66,10 +66,11 @@ mod tests {
                 prop_assert_eq!(kept, !beaten);
                 prop_assert_eq!(is_worth_it(&offers, row), !beaten);
             }
-            prop_assert!(front.windows(2).all(|pair| {
+            let falls = front.windows(2).all(|pair| {
                 let [a, b] = [offers[pair[0]], offers[pair[1]]];
                 a.price < b.price && a.error > b.error
-            }));
+            });
+            prop_assert!(falls);
         }
 
         #[test]
