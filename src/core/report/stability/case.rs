@@ -161,10 +161,9 @@ impl Limits {
         if !measured.is_finite() {
             missed.push("not all is finite".to_owned());
         }
-        // Written so that what is not a number is missed, too.
         let mut most = |name: &str, value: Option<f64>, limit: Option<f64>| {
             if let (Some(value), Some(limit)) = (value, limit)
-                && !(value <= limit)
+                && (value > limit || value.is_nan())
             {
                 missed.push(format!("{name} {value:.3e} > {limit:e}"));
             }
