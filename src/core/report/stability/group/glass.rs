@@ -23,9 +23,9 @@ fn cases(size: Size) -> Vec<Case> {
     let room = || Room::new(size);
     let of = |solids: Vec<Solid>| Room { solids, ..room() };
     let lit = |light: LightDesc, solids: Vec<Solid>| Room { light, ..of(solids) };
-    let plate = |height: f32| {
+    let plate = |height: f32, thickness: f32| {
         let lower = Vec3::new(-0.4, height, -0.4);
-        let shape = Shape::Slab { lower, upper: Vec3::new(0.4, height + 0.05, 0.4) };
+        let shape = Shape::Slab { lower, upper: Vec3::new(0.4, height + thickness, 0.4) };
         Solid { shape, ior: 1.5, priority: 0 }
     };
     let slanting = |degrees: f32| {
@@ -51,14 +51,18 @@ fn cases(size: Size) -> Vec<Case> {
     vec![
         holds("a light inside a ball", lit(lamp([0.02, 0.2, 0.01]), vec![ball(0.12, 1.5, 0)])),
         holds("a light on the surface of a ball", lit(lamp([0.0, 0.32, 0.0]), vec![ball(0.12, 1.5, 0)])),
-        // What leaves the plate goes 570 times as far aside as down.
-        holds("grazing a plate on the receiver at 89.9 degrees", lit(slanting(89.9), vec![plate(2e-4)])),
+        // What leaves the plate goes 570 times as far aside as down; a thin one, so that its sides take little of the light.
+        holds(
+            "grazing a plate on the receiver at 89.9 degrees",
+            lit(slanting(89.9), vec![plate(2e-4, 1e-3)]),
+        ),
+        holds("grazing a plate at 85 degrees", lit(slanting(85.0), vec![plate(0.01, 0.01)])),
         past_the_receiver(
             "grazing a plate above the receiver at 89.9 degrees",
-            lit(slanting(89.9), vec![plate(0.1)]),
+            lit(slanting(89.9), vec![plate(0.1, 0.05)]),
         ),
         holds("along the receiver onto a ball", lit(slanting(90.0), vec![ball(0.12, 1.5, 0)])),
-        holds("straight onto a plate", lit(slanting(0.0), vec![plate(0.1)])),
+        holds("straight onto a plate", lit(slanting(0.0), vec![plate(0.1, 0.05)])),
         holds("four solids in each other", of(onion)),
         holds("two balls in the same place", of(vec![ball(0.12, 1.5, 0), ball(0.12, 1.5, 0)])),
         holds("a bubble", of(vec![ball(0.12, 1.5, 0), ball(0.1199, 1.0, 1)])),
