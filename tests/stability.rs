@@ -13,8 +13,8 @@ const CONJUGATES: &str = "harmonic conjugates, seen by the bending alone";
 /// The photons count for a millionth beside the line, and the bending for a billionth: the same conjugates.
 const DROWNED: &str = "the lines drown photons and bending, and so leave harmonic conjugates to nobody";
 
-/// Of the ball around the plate, at which the light is first aimed, the plate covers 0.2 % edge-on, and 99 % of what meets it
-/// is reflected: none of the first 100 000 photons comes through.
+/// Edge-on the plate is a sliver of the ball at which the light is first aimed, and it reflects 99 % of what meets it: no photon
+/// of the pilot runs comes through.
 const SLIVER: &str = "a plate seen edge-on is a sliver that the first photons miss; refused with a message";
 
 /// Rows that are known to miss, with the reason. The list is exact: a row that is mended must leave it.
