@@ -119,7 +119,7 @@ fn saving_over_a_file_asks_before() {
 fn questions_are_answered_by_buttons_enter_and_escape() {
     let questions = [
         Question::Unsaved { title: "a".into() },
-        Question::Recover { title: "a".into(), when: "10:30".into() },
+        Question::Recover { title: "a".into(), when: "10:30".into(), file_changed: true },
         Question::Changed { title: "a".into(), unsaved: true },
         Question::Message { title: "a".into(), text: "b".into() },
     ];

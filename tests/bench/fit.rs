@@ -100,7 +100,7 @@ fn velocity(bencher: Bencher, n: usize) {
 }
 
 /// Numeric factorisation and one solve with faer, symbolic part and assembly not counted.
-#[divan::bench(args = [64, 128], sample_count = 5)]
+#[divan::bench(args = SIZES, sample_count = 5)]
 fn reference_cholesky(bencher: Bencher, n: usize) {
     let (positions, velocities) = photons(0.0);
     let mut assembly = Assembly::new(grid(n), true);

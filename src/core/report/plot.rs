@@ -138,11 +138,12 @@ fn draw_panel<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
     let shown: Vec<Line> = panel.lines.iter().map(|line| visible(line, panel)).collect();
     let x = bounds(shown.iter().flat_map(|line| &line.points).map(|p| p.0), panel.x.log, false);
     let y = bounds(shown.iter().flat_map(|line| &line.points).map(|p| p.1), panel.y.log, true);
+    let shown = (shown.as_slice(), emptier_corner(panel, &shown, &x, &y));
     match (panel.x.log, panel.y.log) {
-        (false, false) => draw_lines(area, panel, &shown, x, y),
-        (false, true) => draw_lines(area, panel, &shown, x, y.log_scale()),
-        (true, false) => draw_lines(area, panel, &shown, x.log_scale(), y),
-        (true, true) => draw_lines(area, panel, &shown, x.log_scale(), y.log_scale()),
+        (false, false) => draw_lines(area, panel, shown, x, y),
+        (false, true) => draw_lines(area, panel, shown, x, y.log_scale()),
+        (true, false) => draw_lines(area, panel, shown, x.log_scale(), y),
+        (true, true) => draw_lines(area, panel, shown, x.log_scale(), y.log_scale()),
     }
 }
 
@@ -169,7 +170,13 @@ fn bounds(values: impl Iterator<Item = f64>, log: bool, upwards: bool) -> Range<
     }
 }
 
-fn draw_lines<'a, X, Y>(area: &Area<'a>, panel: &Panel, lines: &[Line], x: X, y: Y) -> Result<(), Failure<'a>>
+fn draw_lines<'a, X, Y>(
+    area: &Area<'a>,
+    panel: &Panel,
+    (lines, corner): (&[Line], SeriesLabelPosition),
+    x: X,
+    y: Y,
+) -> Result<(), Failure<'a>>
 where
     X: AsRangedCoord<Value = f64>,
     Y: AsRangedCoord<Value = f64>,
@@ -220,7 +227,7 @@ where
     }
     chart
         .configure_series_labels()
-        .position(emptier_corner(panel, lines))
+        .position(corner)
         .background_style(WHITE.mix(0.8))
         .border_style(TRANSPARENT)
         .draw()
@@ -236,20 +243,15 @@ fn tick(value: f64) -> String {
     power.map_or(digits.to_owned(), |power| format!("{digits}e{power}"))
 }
 
-/// The corner where the fewest points are in the way of the legend; one on the right where that is as good.
-fn emptier_corner(panel: &Panel, lines: &[Line]) -> SeriesLabelPosition {
-    let along = |value: f64, log: bool| if log { value.ln() } else { value };
-    let places: Vec<(f64, f64)> = (lines.iter().flat_map(|line| &line.points))
-        .map(|&(x, y)| (along(x, panel.x.log), along(y, panel.y.log)))
-        .collect();
-    let middle = |pick: fn(&(f64, f64)) -> f64| {
-        let (low, high) = (places.iter().map(pick))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-        0.5 * (low + high)
+/// The corner of the axes where the fewest points are in the way of the legend; one on the right where that is as good.
+fn emptier_corner(panel: &Panel, lines: &[Line], x: &Range<f64>, y: &Range<f64>) -> SeriesLabelPosition {
+    let middle = |range: &Range<f64>, log: bool| {
+        if log { (range.start * range.end).sqrt() } else { 0.5 * (range.start + range.end) }
     };
-    let (x, y) = (middle(|p| p.0), middle(|p| p.1));
+    let (x, y) = (middle(x, panel.x.log), middle(y, panel.y.log));
+    let places = || lines.iter().flat_map(|line| &line.points);
     let crowd =
-        |right: bool, above: bool| places.iter().filter(|p| (p.0 > x) == right && (p.1 > y) == above).count();
+        |right: bool, above: bool| places().filter(|p| (p.0 > x) == right && (p.1 > y) == above).count();
     let corners = [
         (crowd(true, true), SeriesLabelPosition::UpperRight),
         (crowd(true, false), SeriesLabelPosition::LowerRight),

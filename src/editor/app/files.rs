@@ -185,7 +185,8 @@ impl App {
             1..120 => format!("{minutes} minutes ago"),
             _ => format!("{} hours ago", minutes / 60),
         };
-        let question = Question::Recover { title: recovery.title.clone(), when };
+        let (title, file_changed) = (recovery.title.clone(), recovery.file_changed);
+        let question = Question::Recover { title, when, file_changed };
         self.files.asked = Some((question, Asked::Recover(Box::new(recovery))));
     }
 

@@ -17,6 +17,8 @@ pub enum Question {
         title: String,
         /// When its last change was made, in words.
         when: String,
+        /// Whether the file has changed since.
+        file_changed: bool,
     },
     /// The file was changed by another program since it was read.
     Changed {
@@ -60,10 +62,15 @@ impl Question {
                 text: "They are lost otherwise.".into(),
                 labels: ["Save", "Discard", "Cancel"],
             },
-            Self::Recover { title, when } => Words {
+            Self::Recover { title, when, file_changed } => Words {
                 title: format!("Recover '{title}'?"),
                 text: format!(
-                    "The program ended before the changes of {when} were saved. They can be taken up again; the file itself is as it was last saved."
+                    "The program ended before the changes of {when} were saved. They can be taken up again; {}",
+                    if *file_changed {
+                        "but another program has changed the file since, and saving them would replace that."
+                    } else {
+                        "the file itself is as it was last saved."
+                    }
                 ),
                 labels: ["Recover", "Delete them", "Ask again later"],
             },

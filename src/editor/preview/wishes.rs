@@ -1,5 +1,6 @@
 //! What is wanted of the painters, asked once for each change.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightloom_core::pipeline::{Shot, Sketch};
@@ -69,6 +70,8 @@ struct Staging {
     aspect: f32,
     size: [u32; 2],
     seed: u64,
+    /// Where its files are found, and whether from anywhere.
+    files: (PathBuf, bool),
 }
 
 impl Preview {
@@ -124,7 +127,8 @@ impl Preview {
     fn wish_stage(&mut self, subject: &Subject, wanted: &Wanted) {
         let Some(size) = wanted.shot else { return };
         let Project { scene, plane, seed, .. } = &*subject.project;
-        let asked = Staging { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed };
+        let files = (subject.base.clone(), subject.external);
+        let asked = Staging { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed, files };
         if self.wishes.staged.as_ref() != Some(&asked) {
             self.stager.ask(subject.clone(), size);
             self.wishes.staged = Some(asked);
@@ -142,10 +146,5 @@ impl Preview {
     /// How light on the plane becomes visible.
     pub fn paper(&self) -> Paper {
         self.subject.as_ref().map_or(Paper::WHITE, |subject| paper(&subject.project))
-    }
-
-    /// The newest shot, where it is of this size.
-    pub fn shot_of(&self, size: [u32; 2]) -> Option<Arc<Shot>> {
-        self.shot().filter(|shot| [shot.background.width as u32, shot.background.height as u32] == size)
     }
 }

@@ -218,9 +218,13 @@ impl Desk<'_> {
         Ok(seconds)
     }
 
-    /// Passes of one size, looked at after 1, 2, 4, ... of them and after the last.
+    /// Passes of one size, looked at after 1, 2, 4, ... of them and after the last. They end where their kernel gets finer than
+    /// that of the reference: what is sharper than it would count as wrong.
     fn split(&self, reference: &Reference, size: Size) -> Result<Split> {
         let Size { photons, passes, radius } = size;
+        // Rounding must not part a kernel from its equal.
+        let is_told = |passes: &usize| radius_of_pass(radius, passes - 1) > 0.999 * reference.radius;
+        let passes = (1..=passes).take_while(is_told).last().unwrap_or(1);
         let take = Take { radius, shrinks: true, ..self.take(photons, passes) };
         let pace = self.pace(size)?;
         let (mut rows, mut pictures) = (Vec::new(), Vec::new());
