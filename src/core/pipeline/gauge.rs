@@ -18,39 +18,45 @@ const RAYS: u64 = 400_000;
 
 /// Photons traced and rays followed on all threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TraceGauge {
+pub struct Traced {
     /// Photons that landed.
     pub photons: usize,
     /// Rays followed for them.
     pub rays: u64,
     /// Wall-clock seconds they took.
     pub seconds: f64,
+}
+
+/// How fast light is traced in a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TraceGauge {
+    /// For each number of photons that was asked for.
+    pub traced: Vec<Traced>,
     /// Rays between random places around the glass that the hierarchy answers in a second, nothing else done.
     pub bare_rays_per_second: f64,
 }
 
 impl Pipeline {
-    /// Traces `photons` of pass 0 and times bare rays; nothing where the project traces none.
+    /// Traces so many photons of pass 0, number by number, and times bare rays; nothing where the project traces none.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.
     pub fn gauge_tracing(
         &mut self,
         project: &Project,
-        photons: usize,
+        counts: &[usize],
         progress: &Progress,
     ) -> Result<Option<TraceGauge>> {
         let mut meter = Meter::quick();
         let prepared = self.prepare(project, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
         let Some((tracer, scene)) = tracer.as_ref().zip(prepared.scene.as_deref()) else { return Ok(None) };
-        let (_, report) = tracer.trace(0, photons, progress)?;
-        Ok(Some(TraceGauge {
-            photons,
-            rays: report.ledger.rays,
-            seconds: report.seconds,
-            bare_rays_per_second: bare_rays_per_second(scene),
-        }))
+        let trace = |&photons: &usize| {
+            let (_, report) = tracer.trace(0, photons, progress)?;
+            Ok(Traced { photons, rays: report.ledger.rays, seconds: report.seconds })
+        };
+        let traced = counts.iter().map(trace).collect::<Result<_>>()?;
+        Ok(Some(TraceGauge { traced, bare_rays_per_second: bare_rays_per_second(scene) }))
     }
 }
 

@@ -37,7 +37,7 @@ use std::sync::Arc;
 
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
-pub use gauge::TraceGauge;
+pub use gauge::{TraceGauge, Traced};
 pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;

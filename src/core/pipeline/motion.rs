@@ -211,6 +211,11 @@ impl FirstMove {
         Course { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
 
+    /// Seconds of the matching, over all segments up to this one.
+    pub fn match_seconds(&self) -> Option<f64> {
+        self.costs.iter().find(|cost| cost.stage == "match").map(|cost| cost.seconds)
+    }
+
     /// Walls that have a say in who goes where; others are only gone around.
     pub fn leading_walls(&self) -> Vec<&ActiveWall> {
         self.walls.iter().filter(|wall| mover::leads(wall)).collect()

@@ -80,32 +80,25 @@ impl<'a> Workbench<'a> {
     }
 }
 
-/// Seconds of the fastest of some runs: others on the machine only ever make it slower. Ends early once a second is spent.
-pub(super) fn fastest(runs: usize, mut work: impl FnMut() -> Result<()>) -> Result<f64> {
-    let (mut best, mut spent) = (f64::INFINITY, 0.0);
-    for _ in 0..runs.max(1) {
-        let ((), seconds) = timed(&mut work)?;
-        best = best.min(seconds);
-        spent += seconds;
-        if spent > 1.0 {
+/// What `work` returns, and the seconds of the fastest of some runs: others on the machine only ever make it slower. Ends early
+/// once `enough` seconds are spent.
+pub(super) fn fastest<T>(runs: usize, enough: f64, mut work: impl FnMut() -> Result<T>) -> Result<(T, f64)> {
+    let (mut made, mut best) = timed(&mut work)?;
+    let mut spent = best;
+    for _ in 1..runs {
+        if spent >= enough {
             break;
         }
+        let seconds;
+        (made, seconds) = timed(&mut work)?;
+        best = best.min(seconds);
+        spent += seconds;
     }
-    Ok(best)
+    Ok((made, best))
 }
 
 /// What `work` returns, and the seconds it took.
 pub(super) fn timed<T>(work: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
     let start = Instant::now();
     Ok((work()?, start.elapsed().as_secs_f64()))
-}
-
-/// As [`timed`], by the faster of two runs where one takes less than `again` seconds.
-pub(super) fn timed_twice<T>(again: f64, mut work: impl FnMut() -> Result<T>) -> Result<(T, f64)> {
-    let (made, seconds) = timed(&mut work)?;
-    if seconds >= again {
-        return Ok((made, seconds));
-    }
-    let (made, second) = timed(work)?;
-    Ok((made, seconds.min(second)))
 }

@@ -3,10 +3,11 @@
 use glam::Vec2;
 
 use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
-use super::super::workbench::{Workbench, fastest};
+use super::super::workbench::Workbench;
+use super::stage::fit_seconds;
 use super::{Section, nothing_moves};
 use crate::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
-use crate::flow::{Course, FitKind, FlowSettings, TurbulenceSettings, fit_segment};
+use crate::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
 use crate::pipeline::FirstMove;
 use crate::{Progress, Result};
 
@@ -74,9 +75,7 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     progress.begin("left_out", 1 + PARTS.len() as u64);
     let photons = bench.first_move(progress)?;
     let settings = &bench.project.flow;
-    let seconds = |course: &Course| {
-        fastest(bench.pick(2, 3), || fit_segment(course, &progress.inner(), None).map(drop))
-    };
+    let seconds = |course: &Course| fit_seconds(bench.pick(2, 3), course, progress);
     let plain = seconds(&photons.course(settings))?;
     progress.advance(1);
     let caption = format!(

@@ -7,19 +7,18 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 use wide::f32x8;
 
 use super::super::chapter::{Chapter, Part, Table, Tone};
 use super::super::workbench::{Workbench, fastest};
+use super::stage::{ENOUGH, carry_seconds, coupled, splat_seconds, ways, without_walls};
 use super::{Section, nothing_moves};
-use crate::flow::field::Grid;
-use crate::flow::fit::{Blend, FitSettings, Fitter};
-use crate::flow::{Carrier, Course, FlowSettings, fit_segment};
-use crate::pipeline::FirstMove;
-use crate::render::splat::Splatter;
-use crate::render::{ProgressiveRender, ReceiverTexture, TextureLayout, Workspace};
+use crate::flow::fit::Fitter;
+use crate::flow::{Course, FlowSettings, fit_segment};
+use crate::pipeline::{FirstMove, Traced};
+use crate::render::{ProgressiveRender, TextureLayout, Workspace};
 use crate::{Progress, Result};
 
 pub(in crate::report) const SECTION: Section =
@@ -135,13 +134,14 @@ fn operations_per_second() -> f64 {
 
 fn tracing(bench: &mut Workbench, _: &Machine, _: &FirstMove, progress: &Progress) -> Result<Option<Gauged>> {
     let count = bench.pick(200_000, 1_000_000);
-    let gauge = bench.pipeline.gauge_tracing(&bench.project, count, &progress.inner())?;
-    Ok(gauge.map(|gauge| Gauged {
+    let gauge = bench.pipeline.gauge_tracing(&bench.project, &[count], &progress.inner())?;
+    let traced = gauge.and_then(|gauge| Some((*gauge.traced.first()?, gauge.bare_rays_per_second)));
+    Ok(traced.map(|(Traced { photons, rays, seconds }, bare)| Gauged {
         stage: "tracing",
-        items: gauge.photons as f64,
+        items: photons as f64,
         item: "photons landed",
-        seconds: gauge.seconds,
-        limit: gauge.rays as f64 / gauge.bare_rays_per_second,
+        seconds,
+        limit: rays as f64 / bare,
         by: "bare rays",
         counted: "all rays followed, at the rate of random rays through the bare hierarchy",
     }))
@@ -149,20 +149,18 @@ fn tracing(bench: &mut Workbench, _: &Machine, _: &FirstMove, progress: &Progres
 
 /// Halving both sets down to single points: a reading and a writing of each level.
 fn matching(
-    bench: &mut Workbench,
+    _: &mut Workbench,
     machine: &Machine,
     photons: &FirstMove,
-    progress: &Progress,
+    _: &Progress,
 ) -> Result<Option<Gauged>> {
-    let again = bench.pipeline.first_move(&bench.project, &progress.inner())?;
     let count = photons.source.len() as f64;
     let (limit, by) = machine.seconds(count * count.log2() * 2.0 * 2.0 * 8.0, 0.0);
-    let cost = again.costs.iter().find(|cost| cost.stage == "match");
-    Ok(cost.map(|cost| Gauged {
+    Ok(photons.match_seconds().map(|seconds| Gauged {
         stage: "matching",
         items: count,
         item: "photons",
-        seconds: cost.seconds,
+        seconds,
         limit,
         by,
         counted: "both columns of points read and written once per halving; not the map between the densities",
@@ -181,23 +179,12 @@ fn solver(
     // Half of the 49 neighbours of a cubic spline for each of psi, phi and their coupling.
     const ENTRIES: f64 = 3.0 * 25.0;
     let cells = bench.pick(64, 256);
-    let settings = FitSettings {
-        grid: Grid { cells: [cells; 2], extent: photons.extent },
-        gamma: 0.5,
-        alpha: bench.project.flow.alpha.into(),
-        blend: Blend::Joint,
-        tolerance: 1e-8,
-        max_iterations: 500,
-    };
-    let few = photons.source.len().min(2000);
-    let (source, target) = (&photons.source[..few], &photons.target[..few]);
-    let ways: Vec<Vec2> = source.iter().zip(target).map(|(from, to)| *to - *from).collect();
+    let settings = coupled(cells, photons, bench.project.flow.alpha, 1e-8);
+    let (source, ways) = ways(photons, 2000);
     let mut fitter = Fitter::new(settings)?;
-    let mut iterations = 0;
-    let seconds = fastest(3, || {
+    let (iterations, seconds) = fastest(3, ENOUGH, || {
         fitter.reset();
-        iterations = fitter.fit(source, &ways, progress)?.1.iterations;
-        Ok(())
+        Ok(fitter.fit(source, &ways, progress)?.1.iterations)
     })?;
     let nodes = settings.grid.nodes().iter().product::<usize>() as f64;
     let bytes = nodes * ENTRIES * (8.0 + 4.0 * SINGLE_PRODUCTS);
@@ -226,11 +213,9 @@ fn advection(
     const OPERATIONS: f64 = 4.0 * (16.0 * 2.0 * 2.0 * 2.0 + 40.0);
     const BYTES: f64 = 2.0 * 36.0;
     let settings = FlowSettings { steps: STEPS as u32, turbulence: None, ..bench.project.flow.clone() };
-    let course = Course { walls: &[], lines: &[], ..photons.course(&settings) };
+    let course = Course { lines: &[], ..without_walls(photons, &settings) };
     let (fields, _) = fit_segment(&course, &progress.inner(), None)?;
-    let seconds = fastest(3, || {
-        Carrier::new(&fields, &photons.source, &photons.target).advance_to(STEPS - 1, progress)
-    })?;
+    let seconds = carry_seconds(&fields, photons, progress)?;
     let steps = (STEPS * photons.source.len()) as f64;
     let (limit, by) = machine.seconds(steps * BYTES, steps * OPERATIONS);
     Ok(Some(Gauged {
@@ -251,13 +236,7 @@ fn splatting(
     progress: &Progress,
 ) -> Result<Option<Gauged>> {
     let layout = TextureLayout::new(photons.extent, bench.pick(512, 1024), 0.0);
-    let flux = vec![Vec3::ONE; photons.source.len()];
-    let (mut texture, mut splatter) = (ReceiverTexture::new(layout), Splatter::default());
-    let seconds = fastest(5, || {
-        progress.check()?;
-        splatter.splat(&photons.source, &flux, &mut texture);
-        Ok(())
-    })?;
+    let seconds = splat_seconds(layout, photons, progress)?;
     let count = photons.source.len() as f64;
     let bytes = count * 20.0 + layout.len() as f64 * 16.0;
     let (limit, by) = machine.seconds(bytes, count * 4.0 * 3.0 * 2.0);
@@ -284,10 +263,10 @@ fn storing(
     let render = ProgressiveRender::new(layout, 0.006, 1, bench.scratch)?;
     let mut work = Workspace::new(layout);
     let mut pass = 0;
-    let seconds = fastest(6, || {
+    let (_, seconds) = fastest(6, ENOUGH, || {
         progress.check()?;
         pass += 1;
-        render.add(0, pass, &photons.source, &flux, &mut work).map(drop)
+        render.add(0, pass, &photons.source, &flux, &mut work)
     })?;
     let texels = layout.len() as f64;
     let bytes = photons.source.len() as f64 * 20.0 + texels * (16.0 + 2.0 * 32.0 + 16.0 + 24.0);

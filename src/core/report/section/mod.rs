@@ -7,6 +7,7 @@ mod left_out;
 mod machine;
 mod matching_cost;
 mod render_error;
+mod stage;
 mod study;
 mod time;
 

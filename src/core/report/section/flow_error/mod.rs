@@ -17,7 +17,7 @@ use crate::pipeline::FirstMove;
 use crate::project::Project;
 use crate::report::chapter::Chapter;
 use crate::report::pareto::Offer;
-use crate::report::workbench::{Workbench, timed_twice};
+use crate::report::workbench::{Workbench, fastest};
 use crate::{Progress, Result};
 use knob::{Finer, Knob, Setting};
 use probes::{Apart, Probes};
@@ -151,7 +151,7 @@ impl Trial<'_> {
     fn fit(&self, setting: Setting) -> Result<(Vec<Vec2>, f64)> {
         let (flow, progress) = (setting.apply(self.flow), self.progress.inner());
         let fit = || fit_segment(&self.photons.course(&flow), &progress, None);
-        let ((fields, _), seconds) = timed_twice(self.again, fit)?;
+        let ((fields, _), seconds) = fastest(2, self.again, fit)?;
         let tracks = self.probes.tracks(&fields, &progress)?;
         self.progress.advance(setting.work());
         Ok((tracks, seconds))

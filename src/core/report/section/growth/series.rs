@@ -1,17 +1,15 @@
 //! What is measured at rising size: one series, one line of the list.
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
+use super::super::stage::{ENOUGH, carry_seconds, coupled, fit_seconds, splat_seconds, ways, without_walls};
 use super::Point;
 use crate::constraint::{ActiveWall, Wall, Window};
-use crate::flow::field::Grid;
-use crate::flow::fit::{Blend, FitSettings, Fitter};
-use crate::flow::{Carrier, Course, FlowSettings, fit_segment};
+use crate::flow::fit::Fitter;
+use crate::flow::{Course, FlowSettings, fit_segment};
 use crate::math::rng::{Purpose, Stream};
-use crate::pipeline::FirstMove;
-use crate::project::Project;
-use crate::render::splat::Splatter;
-use crate::render::{ReceiverTexture, TextureLayout};
+use crate::pipeline::{FirstMove, Traced};
+use crate::render::TextureLayout;
 use crate::report::workbench::{Workbench, fastest};
 use crate::{Error, Progress, Result};
 
@@ -51,9 +49,9 @@ fn counts(bench: &Workbench) -> Vec<usize> {
 
 fn tracing(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let mut points = Vec::new();
-    for count in counts(bench) {
-        let gauge = bench.pipeline.gauge_tracing(&bench.project, count, &progress.inner())?;
-        points.extend(gauge.map(|gauge| timed(count as f64, gauge.seconds)));
+    let gauge = bench.pipeline.gauge_tracing(&bench.project, &counts(bench), &progress.inner())?;
+    for Traced { photons, seconds, .. } in gauge.into_iter().flat_map(|gauge| gauge.traced) {
+        points.push(timed(photons as f64, seconds));
     }
     Ok(points)
 }
@@ -70,8 +68,7 @@ fn matching(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let mut points = Vec::new();
     for count in counts(bench) {
         let photons = first_move(bench, count, progress)?;
-        let cost = photons.costs.iter().find(|cost| cost.stage == "match").map(|cost| cost.seconds);
-        points.extend(cost.map(|seconds| timed(photons.source.len() as f64, seconds)));
+        points.extend(photons.match_seconds().map(|seconds| timed(photons.source.len() as f64, seconds)));
     }
     Ok(points)
 }
@@ -80,25 +77,16 @@ fn matching(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
 fn fit(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let photons = bench.first_move(progress)?;
     let settings = &bench.project.flow;
-    let guides = photons.source.len().min(settings.guides as usize);
-    let (source, target) = (&photons.source[..guides], &photons.target[..guides]);
-    let ways: Vec<Vec2> = source.iter().zip(target).map(|(from, to)| *to - *from).collect();
+    let (source, ways) = ways(&photons, settings.guides as usize);
     let moved: Vec<Vec2> = source.iter().zip(&ways).map(|(from, way)| *from + 0.01 * *way).collect();
     let mut points = Vec::new();
     for cells in [32, 64, 128, 256, 512].into_iter().take(bench.pick(3, 5)) {
-        let mut fitter = Fitter::new(FitSettings {
-            grid: Grid { cells: [cells; 2], extent: photons.extent },
-            gamma: 0.5,
-            alpha: settings.alpha.into(),
-            blend: Blend::Joint,
-            tolerance: settings.tolerance.into(),
-            max_iterations: 500,
-        })?;
+        let mut fitter = Fitter::new(coupled(cells, &photons, settings.alpha, settings.tolerance.into()))?;
         let (_, report) = fitter.fit(source, &ways, progress)?;
         let mut at_start = false;
-        let seconds = fastest(6, || {
+        let (_, seconds) = fastest(6, ENOUGH, || {
             at_start = !at_start;
-            fitter.fit(if at_start { &moved } else { source }, &ways, progress).map(drop)
+            fitter.fit(if at_start { &moved } else { source }, &ways, progress)
         })?;
         points.push(timed(report.unknowns as f64, seconds));
     }
@@ -112,16 +100,9 @@ fn advection(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let mut points = Vec::new();
     for count in counts(bench) {
         let photons = first_move(bench, count, progress)?;
-        let seconds =
-            fastest(3, || Carrier::new(&fields, &photons.source, &photons.target).advance_to(9, progress))?;
-        points.push(timed(photons.source.len() as f64, seconds));
+        points.push(timed(photons.source.len() as f64, carry_seconds(&fields, &photons, progress)?));
     }
     Ok(points)
-}
-
-/// Walls have a series of their own.
-fn without_walls<'a>(photons: &'a FirstMove, settings: &'a FlowSettings) -> Course<'a> {
-    Course { walls: &[], ..photons.course(settings) }
 }
 
 /// On 1024 texels along the longer side.
@@ -129,15 +110,8 @@ fn splatting(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let mut points = Vec::new();
     for count in counts(bench) {
         let photons = first_move(bench, count, progress)?;
-        let flux = vec![Vec3::ONE; photons.source.len()];
-        let mut texture = ReceiverTexture::new(TextureLayout::new(photons.extent, 1024, 0.0));
-        let mut splatter = Splatter::default();
-        let seconds = fastest(5, || {
-            progress.check()?;
-            splatter.splat(&photons.source, &flux, &mut texture);
-            Ok(())
-        })?;
-        points.push(timed(photons.source.len() as f64, seconds));
+        let layout = TextureLayout::new(photons.extent, 1024, 0.0);
+        points.push(timed(photons.source.len() as f64, splat_seconds(layout, &photons, progress)?));
     }
     Ok(points)
 }
@@ -147,7 +121,7 @@ fn passes(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let (first, last) = (bench.project.keys[0].frame, bench.project.keys[bench.project.keys.len() - 1].frame);
     let mut points = Vec::new();
     for passes in [1, 2, 4, 8] {
-        let mut project = Project { ..bench.project.clone() };
+        let mut project = bench.project.clone();
         project.output.frames = Some(format!("{first},{},{last}", first.midpoint(last)));
         project.render.passes = passes;
         project.render.background_samples = 1;
@@ -171,8 +145,7 @@ fn walls(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let mut points = Vec::new();
     for count in [0, 1, 2, 5, 10, 20] {
         let course = Course { walls: &all[..count.min(all.len())], ..photons.course(&settings) };
-        let seconds = fastest(1, || fit_segment(&course, &progress.inner(), None).map(drop))?;
-        points.push(timed(count as f64, seconds));
+        points.push(timed(count as f64, fit_seconds(1, &course, progress)?));
     }
     Ok(points)
 }
@@ -201,9 +174,7 @@ fn threads(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
         let pool = pool.map_err(|error| Error::Numeric { stage: "report", what: error.to_string() })?;
         let course = without_walls(&photons, &settings);
-        let seconds =
-            pool.install(|| fastest(2, || fit_segment(&course, &progress.inner(), None).map(drop)))?;
-        points.push(timed(count as f64, seconds));
+        points.push(timed(count as f64, pool.install(|| fit_seconds(2, &course, progress))?));
     }
     Ok(points)
 }

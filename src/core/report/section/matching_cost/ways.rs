@@ -13,7 +13,7 @@ use crate::matching::{
 };
 use crate::pipeline::FirstMove;
 use crate::project::Project;
-use crate::report::workbench::timed_twice;
+use crate::report::workbench::fastest;
 use crate::{Progress, Result};
 
 /// What takes fewer seconds is timed twice.
@@ -122,10 +122,10 @@ impl<'a> Ways<'a> {
         progress: &Progress,
     ) -> Result<Self> {
         let (progress, Points { source, target, extent, .. }) = (progress.inner(), points);
-        let straight = timed_twice(AGAIN, || transport_map(source, target, *extent, &progress))?;
+        let straight = fastest(2, AGAIN, || transport_map(source, target, *extent, &progress))?;
         let walls = photons.leading_walls();
         let around = || {
-            timed_twice(AGAIN, || {
+            fastest(2, AGAIN, || {
                 let detour = Arc::new(Detour::new(&walls, *extent, &progress)?);
                 let map = AroundMap::new(source, target, &detour, &progress)?;
                 Ok(ContinuousMap::Around(map, detour))
@@ -143,7 +143,7 @@ impl<'a> Ways<'a> {
         let (straight, known) = &self.straight;
         let map_with = |settings: MapSettings| {
             let Points { source, target, extent, .. } = self.points;
-            timed_twice(AGAIN, || transport_map_with(source, target, *extent, &settings, &self.progress))
+            fastest(2, AGAIN, || transport_map_with(source, target, *extent, &settings, &self.progress))
         };
         let ((matching, pair_seconds), map_seconds) = match way {
             Way::Given => ((self.points.given(), 0.0), 0.0),
@@ -161,7 +161,7 @@ impl<'a> Ways<'a> {
             }
             Way::Stylized => {
                 let Points { source, target, .. } = self.points;
-                let (map, seconds) = timed_twice(AGAIN, || StylizedMap::new(source, target, &self.progress))?;
+                let (map, seconds) = fastest(2, AGAIN, || StylizedMap::new(source, target, &self.progress))?;
                 (self.pair_by(&ContinuousMap::Stylized(map))?, seconds)
             }
             Way::Around => match &self.around {
@@ -174,12 +174,12 @@ impl<'a> Ways<'a> {
 
     fn pair(&self, map: Option<&TransportMap>, sweeps: usize) -> Result<(Matching, f64)> {
         let Points { source, target, .. } = self.points;
-        timed_twice(AGAIN, || Matching::swept(source, target, map, sweeps, (self.seed, 0), &self.progress))
+        fastest(2, AGAIN, || Matching::swept(source, target, map, sweeps, (self.seed, 0), &self.progress))
     }
 
     fn pair_by(&self, map: &ContinuousMap) -> Result<(Matching, f64)> {
         let Points { source, target, .. } = self.points;
-        timed_twice(AGAIN, || Ok(map.pair(source, target, self.seed, 0, &self.progress)?.matching))
+        fastest(2, AGAIN, || Ok(map.pair(source, target, self.seed, 0, &self.progress)?.matching))
     }
 
     /// Mean squared length of the ways, around walls where there are any.

@@ -74,9 +74,9 @@ impl Runs {
         format!(
             "The light on the plane at frame {}, seen straight on where it falls, so that no noise of the background \
              counts. The reference is the same flow lit by {} photons of other random numbers, spread by one kernel of \
-             radius {} of the plane: finer blur is not seen as an error, and runs end where their kernel is finer. Rms error: root mean square difference of the \
-             irradiance over its mean; the noise of the reference is taken out by comparing with two independent \
-             halves of it. Perceptual error: 1 - SSIM (Wang et al. 2004) of the pictures through the view transform. \
+             radius {} of the plane: finer blur is not seen as an error, and runs end where their kernel is finer. Rms \
+             error: root mean square difference of the irradiance over its mean; the noise of the reference is taken out \
+             by comparing with two independent halves of it. Perceptual error: 1 - SSIM (Wang et al. 2004) of the pictures through the view transform. \
              Frame-to-frame noise: rms change to the next frame, less that of the reference, over the light where the \
              reference changes by less than 2 % ({} % of the lit part). Seconds are those of the passes of all {} frames, \
              by one that was timed.",
