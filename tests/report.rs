@@ -9,8 +9,8 @@ use std::process::Command;
 use lightloom_core::flow::FitKind;
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{GammaResponse, Response, gamma_response};
 use serde_json::Value;
 
 use letters::project;

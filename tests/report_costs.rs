@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Effort, Part, Picture, Report, Row, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Effort, Part, Picture, Report, Row, report};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -90,7 +90,7 @@ fn the_error_falls_with_the_passes_and_the_reference_has_the_least() {
     let noise = number(reference, RMS).unwrap();
     assert!(runs.iter().all(|row| number(row, RMS).unwrap() > noise), "the reference has {noise}");
     // One setting is the project's own.
-    let marked = runs.iter().filter(|row| row.tone == lightloom_core::report::Tone::Marked);
+    let marked = runs.iter().filter(|row| row.tone == lightloom_report::Tone::Marked);
     assert_eq!(marked.map(|row| number(row, PASSES)).collect::<Vec<_>>(), [Some(8.0)]);
 }
 

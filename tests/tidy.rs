@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 15] = [
     "error",
     "progress",
     "files",
@@ -20,7 +20,6 @@ const ORDER: [&str; 16] = [
     "export",
     "project",
     "pipeline",
-    "report",
     "lib",
 ];
 

@@ -1,7 +1,7 @@
 //! `lightloom report`: what a project's settings buy and what they cost, on a page; or how the program itself holds.
 
-use lightloom_core::report::{Effort, Size, report, stability};
 use lightloom_core::{Error, Result};
+use lightloom_report::{Effort, Size, report, stability};
 
 use super::args::ReportArgs;
 use super::job;

@@ -45,10 +45,10 @@ pub use onlooker::Onlooker;
 pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use quality::Quality;
-pub(crate) use rehearsal::{Passed, Rehearsal, Take};
-pub(crate) use sketch::covered;
+pub use rehearsal::{Passed, Rehearsal, Take};
+pub use sketch::covered;
 pub use sketch::{Detail, Exposure, FieldAt, Look, Shot, Sketch, Sketcher};
-pub(crate) use stills::{Still, Stills};
+pub use stills::{Still, Stills};
 pub use summary::{BadValues, Energy, FlowNumbers, Summary};
 
 use crate::photon::Tracer;

@@ -18,43 +18,43 @@ use crate::render::{Paper, ProgressiveRender, ReceiverTexture, TextureLayout, la
 use crate::{Progress, Result};
 
 /// A project whose flow is fitted, ready for passes of any size.
-pub(crate) struct Rehearsal {
+pub struct Rehearsal {
     project: Project,
     prepared: Prepared,
     motion: Arc<Motion>,
 }
 
 /// Some passes, and what they show.
-pub(crate) struct Take {
+pub struct Take {
     /// Photons of each pass.
-    pub(crate) photons: usize,
+    pub photons: usize,
     /// How many passes.
-    pub(crate) passes: usize,
+    pub passes: usize,
     /// Of the random numbers; the flow stays as it was fitted.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// The kernel's radius in the first pass, plane units.
-    pub(crate) radius: f32,
+    pub radius: f32,
     /// Whether the kernel shrinks from pass to pass, as in a render.
-    pub(crate) shrinks: bool,
+    pub shrinks: bool,
     /// The texture that gathers the light.
-    pub(crate) layout: TextureLayout,
+    pub layout: TextureLayout,
     /// Which frames; the photons go no further than to the last of them.
-    pub(crate) frames: Vec<i32>,
+    pub frames: Vec<i32>,
 }
 
 /// A take after some of its passes.
-pub(crate) struct Passed<'a> {
+pub struct Passed<'a> {
     /// How many.
-    pub(crate) passes: usize,
+    pub passes: usize,
     /// Seconds of all passes so far.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
     render: &'a ProgressiveRender,
     slots: &'a Slots,
 }
 
 impl Passed<'_> {
     /// The light of frame number `index` of the take, the mean of the passes so far, watts per texel.
-    pub(crate) fn light(&self, index: usize) -> Result<ReceiverTexture> {
+    pub fn light(&self, index: usize) -> Result<ReceiverTexture> {
         let (_, slot) = self.slots.frames[index];
         self.render.mean(slot).map(|(texture, _)| texture)
     }
@@ -65,7 +65,7 @@ impl Pipeline {
     ///
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.
-    pub(crate) fn rehearse(&mut self, project: &Project, progress: &Progress) -> Result<Rehearsal> {
+    pub fn rehearse(&mut self, project: &Project, progress: &Progress) -> Result<Rehearsal> {
         let mut meter = Meter::quick();
         let prepared = self.prepare(project, &mut meter, progress)?;
         prepared.plan.require_memory()?;
@@ -78,23 +78,23 @@ impl Pipeline {
 
 impl Rehearsal {
     /// Size of the plane; its longer side is 1.
-    pub(crate) fn extent(&self) -> Vec2 {
+    pub fn extent(&self) -> Vec2 {
         self.prepared.extent
     }
 
     /// Photons of one pass and passes, as the project has them.
-    pub(crate) fn planned(&self) -> (usize, usize) {
+    pub fn planned(&self) -> (usize, usize) {
         (self.prepared.plan.photons, self.prepared.plan.passes)
     }
 
     /// The frames of a render of the project.
-    pub(crate) fn frames(&self) -> impl Iterator<Item = i32> {
+    pub fn frames(&self) -> impl Iterator<Item = i32> {
         self.prepared.slots.frames.iter().map(|(frame, _)| *frame)
     }
 
     /// The frame at this share of the way between the first two keys between which light moves; the only one where none
     /// does.
-    pub(crate) fn frame_at(&self, share: f64) -> i32 {
+    pub fn frame_at(&self, share: f64) -> i32 {
         let moves = |segment: &Segment| !segment.layers.is_empty();
         let first = self.motion.segments.iter().position(moves).unwrap_or(0);
         let keys = &self.project.keys;
@@ -103,12 +103,12 @@ impl Rehearsal {
     }
 
     /// What light on the plane looks like.
-    pub(crate) fn paper(&self) -> Paper {
+    pub fn paper(&self) -> Paper {
         self.prepared.scene.as_ref().map_or(Paper::WHITE, |scene| Paper::of(scene.receiver()))
     }
 
     /// The texture of a render whose kernel has the first of these radii at first and the second in the end, plane units.
-    pub(crate) fn layout(&self, radii: (f32, f32)) -> TextureLayout {
+    pub fn layout(&self, radii: (f32, f32)) -> TextureLayout {
         layout_for(self.prepared.scene.as_deref(), self.extent(), &self.project.render, radii)
     }
 
@@ -116,7 +116,7 @@ impl Rehearsal {
     ///
     /// # Errors
     /// Photons that are not finite; input and output; cancelled.
-    pub(crate) fn run(
+    pub fn run(
         &self,
         take: &Take,
         scratch: &Path,

@@ -16,7 +16,7 @@ use crate::render::Paper;
 use crate::{Error, Progress, Result};
 
 /// The photons of the first two keys between which light moves, matched.
-pub(crate) struct Stills {
+pub struct Stills {
     project: Project,
     extent: Vec2,
     paper: Paper,
@@ -30,13 +30,13 @@ pub(crate) struct Stills {
 }
 
 /// The photons of one flow halfway.
-pub(crate) struct Still {
+pub struct Still {
     /// Plane coordinates, row by row of [`Stills::flux`].
-    pub(crate) positions: Vec<Vec2>,
+    pub positions: Vec<Vec2>,
     /// How the caustics that share a field flow.
-    pub(crate) report: FlowReport,
+    pub report: FlowReport,
     /// Seconds of the fit.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
 }
 
 impl Pipeline {
@@ -44,12 +44,7 @@ impl Pipeline {
     ///
     /// # Errors
     /// Anything wrong with the project or its files; nothing that moves; cancelled.
-    pub(crate) fn stills(
-        &mut self,
-        project: &Project,
-        photons: usize,
-        progress: &Progress,
-    ) -> Result<Stills> {
+    pub fn stills(&mut self, project: &Project, photons: usize, progress: &Progress) -> Result<Stills> {
         let project = Project { method: Movement::Flow, ..project.clone() };
         let mut meter = Meter::quick();
         let prepared = self.prepare(&project, &mut meter, progress)?;
@@ -77,17 +72,17 @@ impl Pipeline {
 
 impl Stills {
     /// Size of the plane; its longer side is 1.
-    pub(crate) fn extent(&self) -> Vec2 {
+    pub fn extent(&self) -> Vec2 {
         self.extent
     }
 
     /// What light on the plane looks like.
-    pub(crate) fn paper(&self) -> Paper {
+    pub fn paper(&self) -> Paper {
         self.paper
     }
 
     /// RGB flux of all photons halfway, watts.
-    pub(crate) fn flux(&self) -> Vec<Vec3> {
+    pub fn flux(&self) -> Vec<Vec3> {
         let column = |at: &[KeyPhotons]| at.iter().flat_map(|group| &group.flux).copied().collect::<Vec<_>>();
         let (from, to) = (column(&self.at), column(&self.next));
         let mut halfway = vec![Vec3::ZERO; from.len()];
@@ -99,7 +94,7 @@ impl Stills {
     ///
     /// # Errors
     /// A fit that fails; cancelled.
-    pub(crate) fn halfway(&self, flow: &FlowSettings, progress: &Progress) -> Result<Still> {
+    pub fn halfway(&self, flow: &FlowSettings, progress: &Progress) -> Result<Still> {
         let Self { at, next, acting, number, extent, .. } = self;
         let count = at.iter().map(|group| group.positions.len()).sum::<usize>();
         let flow = FlowSettings { guides: u32::try_from(count).unwrap_or(u32::MAX), ..flow.clone() };

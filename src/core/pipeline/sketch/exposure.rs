@@ -81,7 +81,7 @@ const CELLS: usize = 64;
 
 /// The area that photons cover on a plane of `extent`: that of a region on which so many, evenly spread, would have as many
 /// neighbours as these have in the mean. Plane units squared.
-pub(crate) fn covered(photons: &[Vec2], extent: Vec2) -> f32 {
+pub fn covered(photons: &[Vec2], extent: Vec2) -> f32 {
     let [columns, rows] = (extent * CELLS as f32).to_array().map(|side| side.ceil().max(1.0) as usize);
     let mut counts = vec![0_u32; columns * rows];
     for p in photons.iter().map(|p| *p * CELLS as f32).filter(|p| p.cmpge(Vec2::ZERO).all()) {

@@ -32,7 +32,7 @@ use shot::Views;
 
 pub use detail::Detail;
 pub use exposure::Exposure;
-pub(crate) use exposure::covered;
+pub use exposure::covered;
 pub use field::FieldAt;
 pub use outcome::Sketch;
 pub use shot::{Look, Shot};
