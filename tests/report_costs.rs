@@ -9,7 +9,7 @@ use std::time::Duration;
 use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress};
-use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
+use lightloom_report::{Cell, Effort, Part, Report, Section, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
@@ -29,8 +29,8 @@ fn changed(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Report {
     report
 }
 
-fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Chapter {
-    changed(section, change).chapters.into_iter().next().unwrap()
+fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Section {
+    changed(section, change).sections.into_iter().next().unwrap()
 }
 
 /// A flow that a fine grid resolves well: smooth, and without swirls.
@@ -74,7 +74,7 @@ fn column(table: &Table, name: &str, column: &str) -> Vec<f64> {
         .collect()
 }
 
-fn words(chapter: &Chapter) -> String {
+fn words(chapter: &Section) -> String {
     let texts = chapter.parts.iter().filter_map(|part| match part {
         Part::Text(text) => Some(text.as_str()),
         _ => None,
@@ -206,8 +206,8 @@ fn rows_as_given_are_measured_as_they_are() {
 fn a_method_without_fields_has_no_flow_to_measure() {
     let linear = |project: &mut Value, _: &Path| project["method"] = json!("linear");
     let report = changed("flow", linear);
-    assert!(report.chapters.is_empty() && report.absent[0].why.contains("fits no fields"));
-    assert_eq!(changed("matching", linear).chapters.len(), 1);
+    assert!(report.sections.is_empty() && report.absent[0].why.contains("fits no fields"));
+    assert_eq!(changed("matching", linear).sections.len(), 1);
 }
 
 #[test]

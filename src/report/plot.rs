@@ -7,7 +7,7 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use serde::Serialize;
 
-use super::chapter::short;
+use crate::content::short;
 use lightloom_core::{Error, Result};
 
 /// Some panels under a title.

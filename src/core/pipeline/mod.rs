@@ -37,7 +37,7 @@ use std::sync::Arc;
 
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
-pub use gauge::{TraceGauge, Traced};
+pub use gauge::Traced;
 pub use grouping::CausticLight;
 pub use meter::StageCost;
 pub use motion::FirstMove;
@@ -56,6 +56,7 @@ use crate::project::{AssetFolder, Project};
 use crate::render::density::radius_of_pass;
 use crate::render::{Image, PlaneView, ProgressiveRender, Visible, background, first_radius, layout_for};
 use crate::{Error, Progress, Result};
+use batch::Batch;
 use finish::{Finisher, Thumbnails};
 use loader::{Loader, Prepared};
 use meter::Meter;
@@ -216,10 +217,14 @@ impl Pipeline {
         let mut meter = Meter::default();
         let prepared = self.prepare(project, &mut meter, progress)?;
         let tracer = learn(&prepared, project, &mut meter, progress)?;
-        // Only these two are told of; learning where to aim is done once, whatever the number of photons.
-        let mut meter = Meter::quick();
-        let batch = meter.measure("trace", || prepared.start(project, tracer.as_ref(), 0, progress))?;
-        motion::first_move(batch, project, prepared.extent, meter, progress)
+        let photons = prepared.plan.photons;
+        let traced = tracer.map(|tracer| tracer.trace(0, photons, &progress.inner())).transpose()?;
+        let (landed, report) = traced.unzip();
+        let light = prepared.supplies.light_of(landed, photons);
+        let batch = Batch::start(&prepared.supplies, light, 0, project, prepared.extent);
+        let traced =
+            report.map(|report| Traced { photons, rays: report.ledger.rays, seconds: report.seconds });
+        motion::first_move(batch, project, prepared.extent, traced, progress)
     }
 
     /// What would be done and what it would cost. Opens every file the project names, and traces a few photons to see which

@@ -3,14 +3,16 @@
 
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::time::Instant;
 
 use glam::Vec2;
 
 use super::acting::{Acting, all_acting};
 use super::batch::Batch;
+use super::gauge::Traced;
 use super::grouping::{CausticLight, Grouping};
 use super::light::{KeyPhotons, Partners};
-use super::meter::{Meter, StageCost};
+use super::meter::Meter;
 use super::mover;
 use super::summary::FlowNumbers;
 use crate::constraint::{ActiveLine, ActiveWall};
@@ -200,8 +202,10 @@ pub struct FirstMove {
     pub walls: Vec<ActiveWall>,
     /// Number of the segment, from 0.
     pub number: usize,
-    /// Seconds of "trace" (or of drawing the first key's points) and "match".
-    pub costs: Vec<StageCost>,
+    /// The tracing of the photons; none where they are not traced.
+    pub traced: Option<Traced>,
+    /// Seconds of the matching, over all segments up to this one.
+    pub match_seconds: f64,
 }
 
 impl FirstMove {
@@ -209,11 +213,6 @@ impl FirstMove {
     pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
         let Self { source, target, extent, lines, walls, number, .. } = self;
         Course { source, target, extent: *extent, settings, lines, walls, number: *number }
-    }
-
-    /// Seconds of the matching, over all segments up to this one.
-    pub fn match_seconds(&self) -> Option<f64> {
-        self.costs.iter().find(|cost| cost.stage == "match").map(|cost| cost.seconds)
     }
 
     /// Walls that have a say in who goes where; others are only gone around.
@@ -227,19 +226,20 @@ pub(super) fn first_move(
     mut batch: Batch,
     project: &Project,
     extent: Vec2,
-    mut meter: Meter,
+    traced: Option<Traced>,
     progress: &Progress,
 ) -> Result<FirstMove> {
+    let start = Instant::now();
     for (number, Acting { lines, walls }) in all_acting(project, extent).into_iter().enumerate() {
         progress.begin("match", 1);
-        let next = meter.measure("match", || match_next(&batch, false, progress))?.next;
+        let next = match_next(&batch, false, progress)?.next;
+        let match_seconds = start.elapsed().as_secs_f64();
         for groups in layers(&batch) {
             let [source, target] =
                 [&batch.at, &next].map(|photons| column(photons, &groups, |at| &at.positions));
             if mean_straight(&source, &target) > 0.0 {
                 let (source, target) = (source.into_owned(), target.into_owned());
-                let costs = meter.costs().to_vec();
-                return Ok(FirstMove { source, target, extent, lines, walls, number, costs });
+                return Ok(FirstMove { source, target, extent, lines, walls, number, traced, match_seconds });
             }
         }
         batch.arrive(next);

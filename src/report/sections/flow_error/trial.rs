@@ -1,0 +1,166 @@
+//! The runs: each parameter turned alone through its range, which tells the error that it causes; then settings in which all
+//! parameters cause about the same error.
+
+use glam::Vec2;
+
+use super::probes::{Probes, TrackError};
+use super::setting::{Parameter, Refinement, Setting};
+use crate::clock::fastest;
+use crate::pareto::Candidate;
+use lightloom_core::flow::{FlowSettings, fit_segment};
+use lightloom_core::pipeline::FirstMove;
+use lightloom_core::project::Project;
+use lightloom_core::{Progress, Result};
+
+/// Errors for which all knobs are balanced.
+const AIMS: [f64; 6] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
+/// Of four independent errors of this share of the whole, the root of the sum of squares is the whole.
+const SHARE: f64 = 0.5;
+/// A parameter that causes less than this share of the project's error is finer than it needs to be.
+const LEAN: f64 = 0.25;
+
+/// One setting, measured.
+pub(super) struct Run {
+    pub(super) setting: Setting,
+    pub(super) why: Variation,
+    /// Seconds of the fit.
+    pub(super) seconds: f64,
+    pub(super) tracks: Vec<Vec2>,
+    /// From the reference.
+    pub(super) error: TrackError,
+}
+
+/// The reason why a setting is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variation {
+    /// It is the project's.
+    Own,
+    /// The project's with one parameter turned.
+    Alone(Parameter),
+    /// All knobs cause about the same error.
+    Balanced,
+}
+
+/// All that was measured.
+pub(super) struct Measured {
+    pub(super) project: Project,
+    pub(super) runs: Vec<Run>,
+    /// Of each parameter, from coarse to fine: the run, and how far it is from that with the parameter at its finest.
+    pub(super) alone: Vec<(Parameter, Vec<(usize, TrackError)>)>,
+    pub(super) reference: Setting,
+    pub(super) reference_seconds: f64,
+    /// How far a reference of half the steps and cells is from it.
+    pub(super) doubt: TrackError,
+    pub(super) probes: usize,
+    pub(super) walls: bool,
+}
+
+/// Photons on which settings are tried.
+pub(super) struct Trial<'a> {
+    pub(super) photons: &'a FirstMove,
+    pub(super) flow: &'a FlowSettings,
+    pub(super) probes: Probes,
+    pub(super) finer: Refinement,
+    /// What took fewer seconds is timed twice.
+    pub(super) again: f64,
+    pub(super) progress: &'a Progress,
+}
+
+impl Trial<'_> {
+    pub(super) fn measure(&self, project: &Project) -> Result<Measured> {
+        let photons = self.photons.source.len();
+        let own = Setting::of(self.flow, self.photons.extent, photons.min(self.finer.most_guides));
+        let reference = own.reference(self.finer, photons);
+        let sweeps = Parameter::ALL.map(|parameter| (parameter, parameter.sweep(own, &reference)));
+        let settings = sweeps.iter().flat_map(|(_, sweep)| sweep).chain([&reference]);
+        self.progress.begin("flow", settings.map(Setting::work).sum());
+        let (exact, reference_seconds) = self.fit(reference)?;
+        let doubt = TrackError::between(&self.fit(reference.half())?.0, &exact);
+        let mut runs = vec![self.run(own, Variation::Own, &exact)?];
+        let mut alone = Vec::new();
+        for (parameter, sweep) in sweeps {
+            let mut rows = Vec::new();
+            for setting in sweep {
+                rows.push(self.row(setting, Variation::Alone(parameter), &mut runs, &exact)?);
+            }
+            alone.push((parameter, since_finest(&rows, &runs)));
+        }
+        for setting in balanced(own, &alone, &runs).into_iter().chain([lean(own, &alone, &runs)]) {
+            self.row(setting, Variation::Balanced, &mut runs, &exact)?;
+        }
+        let (probes, walls) = (self.probes.count(), !self.photons.walls.is_empty());
+        let project = project.clone();
+        Ok(Measured { project, runs, alone, reference, reference_seconds, doubt, probes, walls })
+    }
+
+    /// The row of a setting in `runs`; measures it if it is not there.
+    fn row(&self, setting: Setting, why: Variation, runs: &mut Vec<Run>, exact: &[Vec2]) -> Result<usize> {
+        if let Some(known) = runs.iter().position(|run| run.setting == setting) {
+            return Ok(known);
+        }
+        runs.push(self.run(setting, why, exact)?);
+        Ok(runs.len() - 1)
+    }
+
+    fn run(&self, setting: Setting, why: Variation, exact: &[Vec2]) -> Result<Run> {
+        let (tracks, seconds) = self.fit(setting)?;
+        let error = TrackError::between(&tracks, exact);
+        Ok(Run { setting, why, seconds, tracks, error })
+    }
+
+    /// Tracks of the probes, and the seconds of the fit.
+    fn fit(&self, setting: Setting) -> Result<(Vec<Vec2>, f64)> {
+        let (flow, progress) = (setting.apply(self.flow), self.progress.inner());
+        let fit = || fit_segment(&self.photons.course(&flow), &progress, None);
+        let ((fields, _), seconds) = fastest(2, self.again, fit)?;
+        let tracks = self.probes.tracks(&fields, &progress)?;
+        self.progress.advance(setting.work());
+        Ok((tracks, seconds))
+    }
+}
+
+/// How far each of these runs is from the last.
+fn since_finest(rows: &[usize], runs: &[Run]) -> Vec<(usize, TrackError)> {
+    let Some(&finest) = rows.last() else { return Vec::new() };
+    let apart = |row: usize| TrackError::between(&runs[row].tracks, &runs[finest].tracks);
+    rows.iter().map(|&row| (row, apart(row))).collect()
+}
+
+/// For each aim, every parameter at the coarsest that alone causes no more than its share of it. Aims that need more than one
+/// parameter at its finest are beyond what is measured.
+fn balanced(own: Setting, alone: &[(Parameter, Vec<(usize, TrackError)>)], runs: &[Run]) -> Vec<Setting> {
+    let turned = |aim: f64| {
+        let (mut setting, mut finest) = (own, 0);
+        for (parameter, rows) in alone {
+            let enough = rows.iter().position(|(_, apart)| apart.rms <= SHARE * aim)?;
+            // Row 0 is the project's own.
+            finest += usize::from(enough + 1 == rows.len() && rows[enough].0 > 0);
+            setting = setting.with(*parameter, &runs[rows[enough].0].setting);
+        }
+        (finest <= 1).then_some(setting)
+    };
+    let mut settings: Vec<Setting> = AIMS.into_iter().filter_map(turned).collect();
+    settings.dedup();
+    settings
+}
+
+/// The project's setting, with each parameter coarser as long as it causes no more than before, or too little to be seen.
+fn lean(own: Setting, alone: &[(Parameter, Vec<(usize, TrackError)>)], runs: &[Run]) -> Setting {
+    alone.iter().fold(own, |setting, (parameter, rows)| {
+        let before = rows.iter().find(|(row, _)| *row == 0).map_or(0.0, |(_, apart)| apart.rms);
+        let limit = before.max(LEAN * runs[0].error.rms);
+        let enough = rows.iter().find(|(_, apart)| apart.rms <= limit);
+        enough.map_or(setting, |(row, _)| setting.with(*parameter, &runs[*row].setting))
+    })
+}
+
+impl Measured {
+    pub(super) fn own(&self) -> &Run {
+        // It is measured first.
+        &self.runs[0]
+    }
+
+    pub(super) fn candidates(&self) -> Vec<Candidate> {
+        self.runs.iter().map(|run| Candidate { price: run.seconds, error: run.error.rms }).collect()
+    }
+}
