@@ -44,7 +44,7 @@ fn wall(project: &mut Value) {
         json!([{ "type": "wall", "points": [[0.3, 0.5], [0.7, 0.5]], "thickness": 0.04 }]);
 }
 
-fn table<'a>(chapter: &'a Chapter, name: &str) -> &'a Table {
+fn table<'a>(chapter: &'a Section, name: &str) -> &'a Table {
     chapter.tables().find(|table| table.name == name).unwrap()
 }
 

@@ -1,40 +1,41 @@
-//! What a section of the report has to say: words, tables, plots and pictures, before they take a form.
+//! The content of a report, independent of its layout: text, tables, plots and pictures.
 
 use serde::Serialize;
 
+use crate::number::short;
 use crate::plot::Plot;
 
-/// One section of a report, done.
+/// A section of a report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Section {
     /// Short name, the stem of its files: letters, digits and `_`.
     pub name: &'static str,
-    /// Its headline.
+    /// Headline.
     pub title: String,
-    /// What it says, in order.
+    /// Its parts, in order.
     pub parts: Vec<Part>,
 }
 
-/// A piece of a section.
+/// A part of a section.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
     /// A paragraph, plain text.
     Text(String),
-    /// Numbers in rows.
+    /// A table.
     Table(Table),
-    /// Lines and points over an axis.
+    /// A plot.
     Plot(Plot),
     /// Pictures in a grid.
     Pictures(Pictures),
 }
 
-/// Numbers in rows under their names. Every row has one cell for each column.
+/// A table. Every row has one cell for each column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
     /// Stem of its CSV file.
     pub name: String,
-    /// What it shows, a sentence.
+    /// Caption, a sentence.
     pub caption: String,
     /// Names of the columns, with the unit where there is one: `seconds`, `error (plane)`.
     pub columns: Vec<&'static str>,
@@ -45,52 +46,52 @@ pub struct Table {
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// One for each column.
+    /// One cell for each column.
     pub cells: Vec<Cell>,
-    /// How it stands out.
+    /// Its emphasis.
     pub tone: Tone,
 }
 
-/// What a row is to the reader.
+/// The emphasis of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tone {
-    /// One among others.
+    /// None.
     #[default]
     Plain,
-    /// The project's own setting, or the one to choose.
+    /// The project's own setting, or a recommended one.
     Marked,
-    /// Misses its bound.
+    /// A missed bound.
     Bad,
 }
 
-/// One place of a table.
+/// A cell of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Cell {
-    /// Words.
+    /// Text.
     Text(String),
-    /// A number; not finite is written as nothing.
+    /// A number; empty in files where it is not finite.
     Number(f64),
-    /// Nothing is known, or asked.
+    /// An empty cell.
     Nothing,
 }
 
 /// Pictures in a grid, row by row.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pictures {
-    /// What they show, a sentence.
+    /// Caption, a sentence.
     pub caption: String,
-    /// Pictures side by side.
+    /// Number of pictures side by side.
     pub columns: usize,
     /// The pictures.
     pub pictures: Vec<Picture>,
 }
 
-/// One picture with its name.
+/// A picture with its label.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Picture {
-    /// What it is, some words.
+    /// Label, a few words.
     pub label: String,
     /// A PNG file.
     #[serde(skip)]
@@ -149,16 +150,16 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// When it has not one cell for each column.
+    /// When the number of cells is not that of the columns.
     pub fn push(&mut self, tone: Tone, cells: Vec<Cell>) {
         assert_eq!(cells.len(), self.columns.len(), "one cell for each column of {}", self.name);
         self.rows.push(Row { cells, tone });
     }
 
-    /// Comma separated, under the names of the columns; quoted where it must be.
+    /// The table as CSV with a header, quoted where necessary.
     ///
     /// # Errors
-    /// None that writing to memory could have.
+    /// None in practice: the table is written to memory.
     pub fn to_csv(&self) -> csv::Result<Vec<u8>> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.columns)?;
@@ -170,7 +171,7 @@ impl Table {
 }
 
 impl Cell {
-    /// All digits of a number, for programs.
+    /// The cell with all digits of its number.
     fn exact(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -179,31 +180,13 @@ impl Cell {
         }
     }
 
-    /// As a reader wants it: three digits that count.
-    pub(super) fn short(&self) -> String {
+    /// The cell with three significant digits.
+    pub(crate) fn short(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
             Self::Number(value) => short(*value),
             Self::Nothing => "–".to_owned(),
         }
-    }
-}
-
-/// A number with three digits that count, as `1234`, `0.0123` or `1.23e-7`.
-pub(super) fn short(value: f64) -> String {
-    let size = value.abs();
-    match size {
-        _ if !value.is_finite() => "not finite".to_owned(),
-        0.0 => "0".to_owned(),
-        1e6.. => format!("{value:.2e}"),
-        100.0.. => format!("{value:.0}"),
-        1e-3.. => {
-            let digits = (2.0 - size.log10().floor()).max(0.0) as usize;
-            let text = format!("{value:.digits$}");
-            // Whole numbers stay whole.
-            if value.fract() == 0.0 { format!("{value}") } else { text }
-        }
-        _ => format!("{value:.2e}"),
     }
 }
 
@@ -241,23 +224,6 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-
-    #[test]
-    fn numbers_keep_three_digits_that_count() {
-        let cases = [
-            (0.0, "0"),
-            (1234.4, "1234"),
-            (12.345, "12.3"),
-            (3.0, "3"),
-            (0.012345, "0.0123"),
-            (1.2345e-7, "1.23e-7"),
-            (-2.5e7, "-2.50e7"),
-            (f64::NAN, "not finite"),
-        ];
-        for (value, text) in cases {
-            assert_eq!(short(value), text);
-        }
-    }
 
     #[test]
     fn a_table_is_read_back_by_another_reader() {

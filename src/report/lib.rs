@@ -1,15 +1,8 @@
 //! Reports: what the settings of a project buy and what they cost, measured, on a page with tables, plots and pictures;
 //! and the stability table of stiff and extreme inputs.
 //!
-//! ```text
-//! effort, content, plot, ...  ◄── report, page, write
-//!         ▲                                    ▲
-//! clock ◄── context ◄── stages ◄── sections ◄──┤
-//!                                  stability ◄─┴── lib
-//! ```
-//!
-//! A report is a list of sections (`sections`); each file there measures one thing and returns a [`Section`]. All that is
-//! timed by itself stands in one list (`stages`); `page` lays sections out.
+//! A report is a list of sections (`sections`); each file there measures one thing and returns a [`Section`], which `page`
+//! lays out. The stages that are timed by themselves are one list (`stages`).
 
 mod clock;
 mod content;
@@ -17,6 +10,7 @@ mod context;
 mod crop;
 mod effort;
 mod machine;
+mod number;
 mod page;
 mod pareto;
 mod plot;

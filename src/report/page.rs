@@ -14,7 +14,7 @@ const STYLE: &str = include_str!("page.css");
 ///
 /// # Errors
 /// `Numeric` when a plot holds a number that is not finite.
-pub(super) fn html(report: &Report) -> Result<String> {
+pub(crate) fn html(report: &Report) -> Result<String> {
     let sections = report.sections.iter().map(section).collect::<Result<Vec<_>>>()?;
     let page = markup! {
         (DOCTYPE)

@@ -1,23 +1,23 @@
-//! What is worth its price: points of which none is both cheaper and better.
+//! Pareto fronts: candidates of which none is both cheaper and more accurate.
 
-/// Something measured: its price, and how far it is from right. Both the less the better.
+/// A measured candidate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Candidate {
+pub(crate) struct Candidate {
     /// Seconds.
-    pub(super) price: f64,
+    pub(crate) price: f64,
     /// Error, in any unit.
-    pub(super) error: f64,
+    pub(crate) error: f64,
 }
 
 impl Candidate {
-    /// Whether it is no worse in both and better in one.
-    fn beats(self, other: Self) -> bool {
+    /// Whether it dominates another candidate: no worse in both and better in one.
+    fn dominates(self, other: Self) -> bool {
         self.price <= other.price && self.error <= other.error && self != other
     }
 }
 
-/// Rows of the candidates that no other beats, the cheapest first; of equal ones the first.
-pub(super) fn front(candidates: &[Candidate]) -> Vec<usize> {
+/// The Pareto front: rows of the candidates that no other dominates, the cheapest first; of equal ones the first.
+pub(crate) fn front(candidates: &[Candidate]) -> Vec<usize> {
     let mut rows: Vec<usize> = (0..candidates.len()).collect();
     let order = |&row: &usize| (candidates[row].price, candidates[row].error);
     rows.sort_by(|a, b| {
@@ -34,14 +34,14 @@ pub(super) fn front(candidates: &[Candidate]) -> Vec<usize> {
 }
 
 /// The row of the cheapest candidate whose error is at most `error`; none where no candidate reaches it.
-pub(super) fn cheapest(candidates: &[Candidate], error: f64) -> Option<usize> {
+pub(crate) fn cheapest(candidates: &[Candidate], error: f64) -> Option<usize> {
     let reaching = (0..candidates.len()).filter(|&row| candidates[row].error <= error);
     reaching.min_by(|&a, &b| candidates[a].price.total_cmp(&candidates[b].price))
 }
 
-/// Whether the front keeps the candidate of this row.
-pub(super) fn is_worth_it(candidates: &[Candidate], row: usize) -> bool {
-    !candidates.iter().any(|other| other.beats(candidates[row]))
+/// Whether no candidate dominates that of this row.
+pub(crate) fn is_on_front(candidates: &[Candidate], row: usize) -> bool {
+    !candidates.iter().any(|other| other.dominates(candidates[row]))
 }
 
 #[cfg(test)]
@@ -60,11 +60,11 @@ mod tests {
             let candidates = candidates(&points);
             let front = front(&candidates);
             for row in 0..candidates.len() {
-                let beaten = candidates.iter().any(|other| other.beats(candidates[row]));
+                let dominated = candidates.iter().any(|other| other.dominates(candidates[row]));
                 // Of equal candidates only one is kept.
                 let kept = front.iter().any(|&kept| candidates[kept] == candidates[row]);
-                prop_assert_eq!(kept, !beaten);
-                prop_assert_eq!(is_worth_it(&candidates, row), !beaten);
+                prop_assert_eq!(kept, !dominated);
+                prop_assert_eq!(is_on_front(&candidates, row), !dominated);
             }
             let falls = front.windows(2).all(|pair| {
                 let [a, b] = [candidates[pair[0]], candidates[pair[1]]];

@@ -1,4 +1,4 @@
-//! What gamma does, for the joint fit and for the separate blend: does the slider act over its whole travel?
+//! The response of the flow to gamma, for the joint and the separate fit: does the slider act over its whole range?
 
 use serde::Serialize;
 
@@ -11,11 +11,11 @@ use lightloom_core::pipeline::{FirstMove, Pipeline, Quality};
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
-/// The gammas looked at: close together near 0, where the joint fit changes fastest.
+/// The measured gammas: dense near 0, where the joint fit changes fastest.
 const GAMMAS: [f32; 13] = [0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 const KINDS: [FitKind; 2] = [FitKind::Joint, FitKind::Separate];
 
-/// How the flow turns out at one gamma. Divergence and curl are root mean squares where the photons are, per unit of t.
+/// The flow at one gamma. Divergence and curl are root mean squares at the photons, per unit of t.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Response {
     /// How psi and phi are fitted.
@@ -30,13 +30,13 @@ pub struct Response {
     pub divergence_rms: f64,
     /// Curl over the whole run.
     pub curl_rms: f64,
-    /// |u(c) - v| / |v|, what the field leaves undone.
+    /// |u(c) - v| / |v|, the residual of the fit.
     pub fit_residual: f64,
-    /// Share of the velocity variance that the place does not explain, at half the time.
+    /// Share of the velocity variance that the position does not explain, at half the time.
     pub crossing_index: f64,
     /// Neighbour-velocity variance over the mean square velocity.
     pub dispersion: f64,
-    /// Distance from the straight ways over their length, where it is largest.
+    /// Largest distance from the straight paths over their length.
     pub wander: f64,
     /// 99.9 % fastest photon over the mean straight speed.
     pub peak_speed_ratio: f64,
@@ -155,7 +155,7 @@ impl GammaResponse {
     }
 }
 
-/// What is written of each row, with its name.
+/// A column of the table: its name and its value.
 type Column = (&'static str, fn(&Response) -> f64);
 const COLUMNS: [Column; 10] = [
     ("gamma", |row| row.gamma.into()),

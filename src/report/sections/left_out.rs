@@ -1,4 +1,4 @@
-//! What the project did not need, and what it would have cost.
+//! The parts of a flow that the project leaves out, and what they would cost.
 
 use glam::Vec2;
 
@@ -8,23 +8,24 @@ use crate::context::Context;
 use crate::stages::flow_seconds;
 use lightloom_core::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
 use lightloom_core::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
-use lightloom_core::pipeline::FirstMove;
 use lightloom_core::{Progress, Result};
 
 pub(super) const SECTION: SectionDef =
     SectionDef { name: "left_out", skip: nothing_moves, measure, seconds: [8.0, 30.0] };
 
-/// A part of the flow that can be absent.
+/// An optional part of a flow.
 struct Optional {
     what: &'static str,
-    /// Whether the project does without it.
-    absent: fn(&FirstMove, &FlowSettings) -> bool,
-    /// The same flow with it.
-    with: fn(&FirstMove, FlowSettings) -> Changed,
+    /// Whether a flow lacks it.
+    is_absent: fn(&Flow) -> bool,
+    /// Adds it.
+    add: fn(&mut Flow),
 }
 
-/// A flow with one part more.
-struct Changed {
+/// The settings and constraints of a flow.
+#[derive(Clone)]
+struct Flow {
+    extent: Vec2,
     settings: FlowSettings,
     lines: Vec<ActiveLine>,
     walls: Vec<ActiveWall>,
@@ -33,40 +34,33 @@ struct Changed {
 const PARTS: [Optional; 4] = [
     Optional {
         what: "a directed line across the plane",
-        absent: |photons, _| photons.lines.is_empty(),
-        with: |photons, settings| {
-            let line = DirectedLine::new(across(photons.extent)).active(Window::ALWAYS, photons.extent);
-            Changed { settings, lines: line.into_iter().collect(), walls: photons.walls.clone() }
+        is_absent: |flow| flow.lines.is_empty(),
+        add: |flow| {
+            let line = DirectedLine::new(across(flow.extent)).active(Window::ALWAYS, flow.extent);
+            flow.lines = line.into_iter().collect();
         },
     },
     Optional {
         what: "a wall across half of the plane",
-        absent: |photons, _| photons.walls.is_empty(),
-        with: |photons, settings| {
-            let wall = Wall::new(across(0.5 * photons.extent)).active(Window::ALWAYS);
-            Changed { settings, lines: photons.lines.clone(), walls: wall.into_iter().collect() }
+        is_absent: |flow| flow.walls.is_empty(),
+        add: |flow| {
+            let wall = Wall::new(across(0.5 * flow.extent)).active(Window::ALWAYS);
+            flow.walls = wall.into_iter().collect();
         },
     },
     Optional {
         what: "turbulence of strength 20",
-        absent: |_, settings| settings.turbulence.is_none(),
-        with: |photons, settings| {
-            let turbulence = Some(TurbulenceSettings::default());
-            let (lines, walls) = (photons.lines.clone(), photons.walls.clone());
-            Changed { settings: FlowSettings { turbulence, ..settings }, lines, walls }
-        },
+        is_absent: |flow| flow.settings.turbulence.is_none(),
+        add: |flow| flow.settings.turbulence = Some(TurbulenceSettings::default()),
     },
     Optional {
         what: "both potentials at once (gamma 0.5, joint)",
-        absent: |_, settings| settings.fit == FitKind::Separate || [0.0, 1.0].contains(&settings.gamma),
-        with: |photons, settings| {
-            let (lines, walls) = (photons.lines.clone(), photons.walls.clone());
-            Changed { settings: FlowSettings { gamma: 0.5, fit: FitKind::Joint, ..settings }, lines, walls }
-        },
+        is_absent: |flow| flow.settings.fit == FitKind::Separate || [0.0, 1.0].contains(&flow.settings.gamma),
+        add: |flow| (flow.settings.gamma, flow.settings.fit) = (0.5, FitKind::Joint),
     },
 ];
 
-/// Two points on the level of 2/5 of the plane, where seldom a photon sits exactly.
+/// A horizontal line at 2/5 of the height, where hardly a photon lies exactly.
 fn across(extent: Vec2) -> Vec<[f32; 2]> {
     vec![[0.1 * extent.x, 0.4 * extent.y], [0.9 * extent.x, 0.4 * extent.y]]
 }
@@ -74,32 +68,37 @@ fn across(extent: Vec2) -> Vec<[f32; 2]> {
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
     progress.begin("left_out", 1 + PARTS.len() as u64);
     let photons = context.first_move(progress)?;
-    let settings = &context.project.flow;
-    let seconds = |course: &Course| flow_seconds(context.effort.pick(2, 3), course, progress);
-    let plain = seconds(&photons.course(settings))?;
+    let seconds = |Flow { settings, lines, walls, .. }: &Flow| {
+        let course = Course { lines, walls, ..photons.course(settings) };
+        flow_seconds(context.effort.pick(2, 3), &course, progress)
+    };
+    let own = Flow {
+        extent: photons.extent,
+        settings: context.project.flow.clone(),
+        lines: photons.lines.clone(),
+        walls: photons.walls.clone(),
+    };
+    let without = seconds(&own)?;
     progress.advance(1);
     let caption = format!(
         "Seconds of the flow from the first key ({} photons at most guide it): as the project has it, and with one part \
          more. What is absent costs nothing.",
-        settings.guides
+        own.settings.guides
     );
-    let mut table =
-        Table::new("left_out", caption, &["part", "seconds without", "seconds with", "ratio", "why absent"]);
-    for part in &PARTS {
-        if (part.absent)(&photons, settings) {
-            let Changed { settings, lines, walls } = (part.with)(&photons, settings.clone());
-            let with = seconds(&Course { lines: &lines, walls: &walls, ..photons.course(&settings) })?;
-            let ratio = with / plain;
-            table.push(
-                Tone::Plain,
-                vec![part.what.into(), plain.into(), with.into(), ratio.into(), "not in the project".into()],
-            );
-        }
+    let columns = ["part", "seconds without", "seconds with", "ratio", "why absent"];
+    let mut table = Table::new("left_out", caption, &columns);
+    for part in PARTS.iter().filter(|part| (part.is_absent)(&own)) {
+        let mut flow = own.clone();
+        (part.add)(&mut flow);
+        let with = seconds(&flow)?;
+        let numbers = [without, with, with / without].map(Cell::from);
+        let cells = [part.what.into()].into_iter().chain(numbers).chain(["not in the project".into()]);
+        table.push(Tone::Plain, cells.collect());
         progress.advance(1);
     }
     for left in context.pipeline.check(&context.project)?.plan.left_out {
-        let nothing = || Cell::Nothing;
-        table.push(Tone::Plain, vec![left.what.into(), nothing(), nothing(), nothing(), left.why.into()]);
+        let cells = [left.what.into(), Cell::Nothing, Cell::Nothing, Cell::Nothing, left.why.into()];
+        table.push(Tone::Plain, cells.to_vec());
     }
     let mut section = Section::new("left_out", "What was left out");
     section.table(table);

@@ -1,4 +1,4 @@
-//! Grid resolution and gamma, side by side: one moment of the animation for each pair.
+//! Pictures of one moment of the animation for pairs of grid resolution and gamma.
 
 use super::section_def::{SectionDef, nothing_moves};
 use crate::content::{Picture, Pictures, Section, Table, Tone};
@@ -16,15 +16,15 @@ use lightloom_core::{Progress, Result};
 pub(super) const SECTION: SectionDef =
     SectionDef { name: "study", skip: nothing_moves, measure, seconds: [5.0, 50.0] };
 
-/// Pixels side by side of a picture, at most.
+/// Largest width of a picture in pixels.
 const WIDTH: usize = 320;
 
-/// How much is drawn.
+/// The amount of work.
 struct Sheet {
     grids: &'static [u32],
     gammas: &'static [f32],
     photons: usize,
-    /// Steps of the fit at most.
+    /// Most steps of the fit.
     steps: u32,
     /// Texels along the longer side of the plane.
     texels: usize,
@@ -40,11 +40,11 @@ const FULL: Sheet = Sheet {
     texels: 768,
 };
 
-/// One flow of the sheet.
+/// A flow of the sheet.
 struct Place {
     grid: u32,
     gamma: f32,
-    /// Whether the project has it so.
+    /// Whether it is the project's own.
     own: bool,
     still: Still,
 }
@@ -84,7 +84,7 @@ impl Sheet {
         Ok(places)
     }
 
-    /// The light of all flows by one kernel, cut to where light is in any of them.
+    /// The light of all flows by one kernel, cropped to the part that is lit in any of them.
     fn pictures(&self, places: &[Place], stills: &Stills, project: &Project) -> Result<Pictures> {
         let (extent, flux) = (stills.extent(), stills.flux());
         let covered: f32 = places.iter().map(|place| covered(&place.still.positions, extent)).sum();

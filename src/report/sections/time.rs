@@ -1,4 +1,4 @@
-//! Where the time goes: one render of the project, stage by stage.
+//! The seconds of each stage in a render of the project.
 
 use super::section_def::SectionDef;
 use crate::content::{Cell, Section, Table, Tone};

@@ -175,45 +175,48 @@ impl Bound {
 }
 
 impl Limits {
+    /// The upper limits with their names, each beside the number that it bounds.
+    fn upper(&self, measured: &Measured) -> [(&'static str, Option<f64>, Option<f64>); 5] {
+        let count = |count: Option<usize>| count.map(|n| n as f64);
+        [
+            ("endpoint error", self.endpoint_error, measured.endpoint_error),
+            ("residual", self.solver_residual, measured.solver_residual),
+            ("iterations", count(self.iterations), count(measured.iterations)),
+            ("energy", self.energy, measured.energy),
+            ("crossings", count(self.crossings), count(measured.crossings)),
+        ]
+    }
+
     fn missed(&self, measured: &Measured) -> Vec<String> {
         let mut missed = Vec::new();
         if !measured.is_finite() {
             missed.push("not all is finite".to_owned());
         }
-        let mut most = |name: &str, value: Option<f64>, limit: Option<f64>| {
+        for (name, limit, value) in self.upper(measured) {
             if let (Some(value), Some(limit)) = (value, limit)
                 && (value > limit || value.is_nan())
             {
                 missed.push(format!("{name} {value:.3e} > {limit:e}"));
             }
-        };
-        let count = |count: Option<usize>| count.map(|n| n as f64);
-        most("endpoint error", measured.endpoint_error, self.endpoint_error);
-        most("residual", measured.solver_residual, self.solver_residual);
-        most("iterations", count(measured.iterations), count(self.iterations));
-        most("energy", measured.energy, self.energy);
-        most("crossings", count(measured.crossings), count(self.crossings));
-        if let (Some(shut_off), Some([least, most])) = (measured.unreachable, self.unreachable)
-            && !(least..=most).contains(&shut_off)
+        }
+        if let (Some(count), Some([least, most])) = (measured.unreachable, self.unreachable)
+            && !(least..=most).contains(&count)
         {
-            missed.push(format!("{shut_off} photons without a way, not {least} to {most}"));
+            missed.push(format!("{count} photons unreachable, not {least} to {most}"));
         }
         missed
     }
 
     fn to_text(&self) -> String {
-        let number = |name: &str, limit: Option<f64>| limit.map(|limit| format!("{name} <= {limit:e}"));
-        let whole = |name: &str, limit: Option<usize>| limit.map(|limit| format!("{name} <= {limit}"));
-        let limits = [
-            Some("finite".to_owned()),
-            number("endpoint error", self.endpoint_error),
-            number("residual", self.solver_residual),
-            whole("iterations", self.iterations),
-            number("energy", self.energy),
-            whole("crossings", self.crossings),
-            self.unreachable.map(|[least, most]| format!("without a way {least} to {most}")),
-        ];
-        let limits = limits.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let mut limits = vec!["finite".to_owned()];
+        for (name, limit, _) in self.upper(&Measured::default()) {
+            limits.extend(limit.map(|limit| match name {
+                "iterations" | "crossings" => format!("{name} <= {limit}"),
+                _ => format!("{name} <= {limit:e}"),
+            }));
+        }
+        limits.extend(self.unreachable.map(|[least, most]| format!("unreachable {least} to {most}")));
+        let limits = limits.join(", ");
         if self.why.is_empty() { limits } else { format!("{limits}: {}", self.why) }
     }
 }

@@ -69,10 +69,31 @@ fn message_of(cause: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use std::collections::HashSet;
+
     use super::*;
 
     fn row(run: impl Fn(&Progress) -> Result<Measured> + 'static) -> Result<StabilityRow> {
         super::run("group", Case::new("case", Bound::Holds(Limits::FINITE), run), &Progress::new())
+    }
+
+    #[test]
+    fn the_table_has_118_rows_of_different_names_and_plain_text() {
+        for effort in [Effort::Quick, Effort::Full] {
+            let rows = GROUPS.iter().flat_map(|group| {
+                (group.rows)(effort)
+                    .into_iter()
+                    .map(|row| (group.name, row.build(effort)))
+                    .collect::<Vec<_>>()
+            });
+            let mut names = HashSet::new();
+            for (group, Case { name, bound, .. }) in rows {
+                let text = format!("{name}: {}", bound.to_text());
+                assert!(!text.contains(['\\', '\n']) && !text.contains("  "), "{text:?}");
+                assert!(names.insert((group, name)), "{text}");
+            }
+            assert_eq!(names.len(), 118);
+        }
     }
 
     #[test]

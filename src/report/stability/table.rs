@@ -49,7 +49,7 @@ const COLUMNS: [&str; 15] = [
     "energy",
     "energy of",
     "crossings",
-    "without a way",
+    "unreachable",
     "seconds",
     "verdict",
     "note",

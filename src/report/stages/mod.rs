@@ -23,7 +23,7 @@ pub(crate) struct Stage {
     /// The sizes at which it is run. The size of a sample is in the stage's unit, such as the unknowns of a grid.
     pub(crate) sizes: fn(Effort) -> Vec<usize>,
     /// Runs it; none where the project does not have the stage.
-    run: fn(&mut Context, usize, &Progress) -> Result<Option<Sample>>,
+    run: Run,
     /// The limit of the machine, where one is counted.
     pub(crate) bounded: Option<Bounded>,
 }
@@ -59,123 +59,71 @@ fn thread_counts(_: Effort) -> Vec<usize> {
 
 /// All stages, in the order of the tables.
 pub(crate) const STAGES: [Stage; 10] = [
-    Stage {
-        name: "tracing",
-        unit: "photons",
-        exponent: Some(1.05),
-        is_power_law: true,
-        sizes: photon_counts,
-        run: photons::tracing,
-        bounded: Some(Bounded {
-            item: "photons landed",
-            counted: "all rays followed, at the rate of random rays through the bare hierarchy",
-            size: COMPARED,
-        }),
-    },
-    Stage {
-        name: "matching",
-        unit: "photons",
-        exponent: Some(1.15),
-        is_power_law: true,
-        sizes: photon_counts,
-        run: photons::matching,
-        bounded: Some(Bounded {
-            item: "photons",
-            counted: "both columns of points read and written once per halving; not the map between the densities",
-            size: COMPARED,
-        }),
-    },
-    Stage {
-        name: "fit, one warm step",
-        unit: "unknowns",
-        exponent: Some(1.1),
-        is_power_law: true,
-        sizes: grids,
-        run: fits::warm_step,
-        bounded: None,
-    },
-    Stage {
-        name: "fit, solver (few photons)",
-        unit: "unknowns",
-        exponent: None,
-        is_power_law: true,
-        sizes: grids,
-        run: fits::solver,
-        bounded: Some(Bounded {
-            item: "iterations",
-            counted: "entries of the matrix in seven products on grids that add up to 4/3; setting it up is not in it",
-            size: [64, 256],
-        }),
-    },
-    Stage {
-        name: "advection, ten steps",
-        unit: "photons",
-        exponent: Some(1.05),
-        is_power_law: true,
-        sizes: photon_counts,
-        run: photons::advection,
-        bounded: Some(Bounded {
-            item: "photon-steps",
-            counted: "RK4: four sums over 4 x 4 splines of psi and phi, and the photon read and written",
-            size: COMPARED,
-        }),
-    },
-    Stage {
-        name: "splatting",
-        unit: "photons",
-        exponent: Some(1.05),
-        is_power_law: true,
-        sizes: photon_counts,
-        run: photons::splatting,
-        bounded: Some(Bounded {
-            item: "photons",
-            counted: "position and flux read once, the texture written once",
-            size: COMPARED,
-        }),
-    },
-    Stage {
-        name: "frame and pass",
-        unit: "texels",
-        exponent: None,
-        is_power_law: true,
-        sizes: |_| vec![256, 512, 1024],
-        run: photons::frame_and_pass,
-        bounded: Some(Bounded {
-            item: "texels",
-            counted: "splatting; rows and columns filtered, each read and written once; the sum read and written",
-            size: [512, 1024],
-        }),
-    },
-    Stage {
-        name: "render",
-        unit: "passes",
-        exponent: Some(1.05),
-        is_power_law: true,
-        sizes: |_| vec![1, 2, 4, 8],
-        run: photons::passes,
-        bounded: None,
-    },
-    Stage {
-        name: "fit of 20 steps",
-        unit: "walls",
-        exponent: None,
-        is_power_law: false,
-        sizes: |_| vec![0, 1, 2, 5, 10, 20],
-        run: fits::with_walls,
-        bounded: None,
-    },
-    Stage {
-        name: "fit of 10 steps",
-        unit: "threads",
-        exponent: None,
-        is_power_law: false,
-        sizes: thread_counts,
-        run: fits::on_threads,
-        bounded: None,
-    },
+    Stage::law("tracing", "photons", Some(1.05), photon_counts, photons::tracing).bounded(
+        "photons landed",
+        "all rays followed, at the rate of random rays through the bare hierarchy",
+        COMPARED,
+    ),
+    Stage::law("matching", "photons", Some(1.15), photon_counts, photons::matching).bounded(
+        "photons",
+        "both columns of points read and written once per halving; not the map between the densities",
+        COMPARED,
+    ),
+    Stage::law("fit, one warm step", "unknowns", Some(1.1), grids, fits::warm_step),
+    Stage::law("fit, solver (few photons)", "unknowns", None, grids, fits::solver).bounded(
+        "iterations",
+        "entries of the matrix in seven products on grids that add up to 4/3; setting it up is not in it",
+        [64, 256],
+    ),
+    Stage::law("advection, ten steps", "photons", Some(1.05), photon_counts, photons::advection).bounded(
+        "photon-steps",
+        "RK4: four sums over 4 x 4 splines of psi and phi, and the photon read and written",
+        COMPARED,
+    ),
+    Stage::law("splatting", "photons", Some(1.05), photon_counts, photons::splatting).bounded(
+        "photons",
+        "position and flux read once, the texture written once",
+        COMPARED,
+    ),
+    Stage::law("frame and pass", "texels", None, |_| vec![256, 512, 1024], photons::frame_and_pass).bounded(
+        "texels",
+        "splatting; rows and columns filtered, each read and written once; the sum read and written",
+        [512, 1024],
+    ),
+    Stage::law("render", "passes", Some(1.05), |_| vec![1, 2, 4, 8], photons::passes),
+    Stage::linear("fit of 20 steps", "walls", |_| vec![0, 1, 2, 5, 10, 20], fits::with_walls),
+    Stage::linear("fit of 10 steps", "threads", thread_counts, fits::on_threads),
 ];
 
+type Run = fn(&mut Context, usize, &Progress) -> Result<Option<Sample>>;
+
 impl Stage {
+    /// A stage whose seconds follow a power law of its size, with the largest exponent that it may have.
+    const fn law(
+        name: &'static str,
+        unit: &'static str,
+        exponent: Option<f64>,
+        sizes: fn(Effort) -> Vec<usize>,
+        run: Run,
+    ) -> Self {
+        Self { name, unit, exponent, is_power_law: true, sizes, run, bounded: None }
+    }
+
+    /// A stage whose seconds follow no power law.
+    const fn linear(
+        name: &'static str,
+        unit: &'static str,
+        sizes: fn(Effort) -> Vec<usize>,
+        run: Run,
+    ) -> Self {
+        Self { name, unit, exponent: None, is_power_law: false, sizes, run, bounded: None }
+    }
+
+    /// The stage with a limit of the machine.
+    const fn bounded(self, item: &'static str, counted: &'static str, size: [usize; 2]) -> Self {
+        Self { bounded: Some(Bounded { item, counted, size }), ..self }
+    }
+
     /// The stage at a size; run once.
     ///
     /// # Errors

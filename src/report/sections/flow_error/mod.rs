@@ -32,7 +32,7 @@ fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
     Ok(trial.measure(&project)?.section())
 }
 
-/// What a reference may cost: around walls photons cost most, and a fit about three times as much.
+/// The refinement of the reference. Around walls photons cost most, and a fit about three times as much.
 fn finer(context: &Context, walls: bool) -> Refinement {
     let free = Refinement { steps: 3, cells: 3, guides: 4, most_guides: usize::MAX };
     match walls {

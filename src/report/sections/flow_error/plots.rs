@@ -1,4 +1,4 @@
-//! What is drawn of the flows that were measured.
+//! The plots of the section.
 
 use super::probes::TrackError;
 use super::setting::Parameter;
@@ -6,7 +6,7 @@ use super::trial::{Measured, Run, Variation};
 use crate::pareto::{Candidate, front};
 use crate::plot::{Axis, Line, Panel, Plot, Style};
 
-/// Colours of the settings in balance and of the front; the knobs have those before.
+/// Colours of the balanced settings and of the front; the parameters have the colours before.
 const BALANCED: usize = 4;
 const FRONT: usize = 5;
 /// Colour of the ring around the project's own setting.
@@ -49,8 +49,8 @@ impl Measured {
             name: "flow".to_owned(),
             title: format!("{}: error of the tracks over seconds", self.project.name),
             panels: vec![
-                self.front_panel("root mean square", true, |apart| apart.rms),
-                self.front_panel("one photon in a thousand", false, |apart| apart.high),
+                self.front_panel("root mean square", true, |error| error.rms),
+                self.front_panel("one photon in a thousand", false, |error| error.high),
             ],
         }
     }
@@ -59,7 +59,7 @@ impl Measured {
     pub(super) fn alone_plot(&self) -> Plot {
         let panel = |(parameter, rows): &(Parameter, Vec<(usize, TrackError)>)| {
             let point =
-                |&(row, apart): &(usize, TrackError)| (parameter.of(&self.runs[row].setting), apart.rms);
+                |&(row, error): &(usize, TrackError)| (parameter.of(&self.runs[row].setting), error.rms);
             let points: Vec<_> = rows.iter().map(point).collect();
             let own = rows.iter().filter(|(row, _)| *row == 0).map(point).collect();
             let lines = vec![Line::new("", Style::Line(0), points), Line::new("", Style::Rings(OWN), own)];

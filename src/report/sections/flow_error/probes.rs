@@ -1,4 +1,4 @@
-//! Photons by which flows are compared.
+//! The photons whose tracks are compared.
 
 use glam::Vec2;
 
@@ -6,30 +6,30 @@ use lightloom_core::flow::{Carrier, Fields};
 use lightloom_core::pipeline::FirstMove;
 use lightloom_core::{Progress, Result};
 
-/// Photons looked at, at most.
+/// Largest number of probes.
 const PROBES: usize = 4000;
-/// They are looked at when so many tenths of the time are over.
+/// The times at which they are compared, in tenths of the segment.
 const TENTHS: std::ops::RangeInclusive<u8> = 1..=9;
 
-/// Some photons of a move, the same whatever flow carries them.
+/// Photons of a segment, the same for all flows.
 pub(super) struct Probes {
     source: Vec<Vec2>,
     targets: Vec<Vec2>,
 }
 
-/// How far apart two flows take the same photons, in the plane's longer side, over all photons and times.
+/// Distance between the tracks of the same photons in two flows, over all photons and times; plane units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrackError {
     /// Root mean square.
     pub(super) rms: f64,
-    /// What one in a thousand exceeds.
+    /// The 99.9th percentile.
     pub(super) high: f64,
     /// The largest.
     pub(super) most: f64,
 }
 
 impl Probes {
-    /// Rows at even distances, half-way between those that guides are taken from.
+    /// Rows at even distances, half-way between those of the guide photons.
     pub(super) fn new(photons: &FirstMove) -> Self {
         let all = photons.source.len();
         let count = PROBES.min(all);
@@ -42,7 +42,7 @@ impl Probes {
         self.source.len()
     }
 
-    /// Where the fields take them: all at the first time, then all at the next.
+    /// Positions along the fields: all photons at the first time, then all at the next.
     ///
     /// # Errors
     /// `Numeric` when photons are no longer finite, `Cancelled`.
@@ -59,7 +59,7 @@ impl Probes {
 }
 
 impl TrackError {
-    /// Of tracks of the same photons at the same times.
+    /// The distance between two sets of tracks.
     pub(super) fn between(a: &[Vec2], b: &[Vec2]) -> Self {
         let mut distances: Vec<f64> =
             (a.iter().zip(b)).map(|(a, b)| a.as_dvec2().distance(b.as_dvec2())).collect();
@@ -85,10 +85,10 @@ mod tests {
         let here = vec![Vec2::ZERO; 4000];
         let mut there = vec![vec2(0.25, 0.0); 4000];
         (there[..4]).fill(vec2(0.0, 0.5));
-        let apart = TrackError::between(&here, &there);
+        let error = TrackError::between(&here, &there);
         // Four of four thousand are one in a thousand.
-        assert_eq!((apart.high, apart.most), (0.5, 0.5));
-        assert!((apart.rms.powi(2) - (0.0625 + 0.001 * 0.1875)).abs() < 1e-12);
+        assert_eq!((error.high, error.most), (0.5, 0.5));
+        assert!((error.rms.powi(2) - (0.0625 + 0.001 * 0.1875)).abs() < 1e-12);
         let equal = TrackError::between(&here, &here);
         assert_eq!((equal.rms, equal.high, equal.most), (0.0, 0.0, 0.0));
         assert_eq!(TrackError::between(&[], &[]).most, 0.0);

@@ -1,35 +1,35 @@
-//! What is varied: the settings that buy accuracy of a flow.
+//! The parameters that decide the accuracy of a flow.
 
 use glam::Vec2;
 
 use lightloom_core::flow::{FlowSettings, GridSize};
 
-/// The settings that decide how exactly a flow is worked out; all others decide which flow it is.
+/// The parameters that decide the accuracy of a flow; all others decide which flow it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Setting {
     /// Time steps of the segment.
     pub(super) steps: u32,
     /// Cells of the field along x and y.
     pub(super) cells: [u32; 2],
-    /// Photons fitted to.
+    /// Guide photons.
     pub(super) guides: u32,
     /// Relative residual at which the solver stops.
     pub(super) tolerance: f32,
 }
 
-/// How many times finer than a project its reference is.
+/// The factors by which the reference of a project is finer than the project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Refinement {
     pub(super) steps: u32,
     /// Along each side.
     pub(super) cells: u32,
-    /// So many times as many guides, if there are as many photons.
+    /// Limited by the number of photons.
     pub(super) guides: u32,
-    /// Photons beyond which no guides are taken, by the project neither.
+    /// Largest number of guides of the project.
     pub(super) most_guides: usize,
 }
 
-/// One of them.
+/// One of the parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parameter {
     Steps,
@@ -38,25 +38,25 @@ pub(super) enum Parameter {
     Tolerance,
 }
 
-/// Residual that the reference is solved to: a thousandth of the default, which itself is hardly seen.
+/// Residual of the reference: a thousandth of the default, whose error is hardly visible.
 const EXACT: f32 = 1e-7;
-/// Parts and multiples of the own steps and cells that are tried, and of the own guides.
+/// Factors on the project's steps and cells, and on its guides.
 const FACTORS: [f64; 5] = [0.125, 0.25, 0.5, 1.0, 2.0];
 const FEWER: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 1.0];
-/// Coarser tolerances that are tried.
+/// Tolerances coarser than the default.
 const TOLERANCES: [f32; 3] = [1e-1, 1e-2, 1e-3];
-/// Fewest cells along a side that a field can have.
+/// Fewest cells along a side of a field.
 const FEWEST_CELLS: u32 = 8;
 
 impl Setting {
-    /// As a project has it, on a plane of this extent and with no more than so many guides.
+    /// The setting of a project on a plane of this extent, with at most `most_guides` guides.
     pub(super) fn of(settings: &FlowSettings, extent: Vec2, most_guides: usize) -> Self {
         let guides = settings.guides.min(u32::try_from(most_guides).unwrap_or(u32::MAX));
         let cells = settings.grid.cells(extent);
         Self { steps: settings.steps, cells, guides, tolerance: settings.tolerance }
     }
 
-    /// So much finer than this; `photons` are all there are.
+    /// The setting of the reference; `photons` is the number of photons.
     pub(super) fn reference(self, finer: Refinement, photons: usize) -> Self {
         let photons = u32::try_from(photons).unwrap_or(u32::MAX);
         Self {
@@ -67,13 +67,13 @@ impl Setting {
         }
     }
 
-    /// Half as fine in all but the photons: what a reference is compared with to learn its own error.
+    /// The setting with half the steps and cells, which gives an estimate of the error of a reference.
     pub(super) fn half(self) -> Self {
         let cells = self.cells.map(|cells| (cells / 2).max(FEWEST_CELLS));
         Self { steps: (self.steps / 2).max(1), cells, tolerance: 100.0 * self.tolerance, ..self }
     }
 
-    /// With one parameter as another setting has it.
+    /// The setting with one parameter of another.
     pub(super) fn with(self, parameter: Parameter, other: &Self) -> Self {
         match parameter {
             Parameter::Steps => Self { steps: other.steps, ..self },
@@ -83,19 +83,19 @@ impl Setting {
         }
     }
 
-    /// A project's settings with these in place of its own.
+    /// The settings of a project with these parameters.
     pub(super) fn apply(self, settings: &FlowSettings) -> FlowSettings {
         let Self { steps, cells, guides, tolerance } = self;
         FlowSettings { steps, grid: GridSize::Both(cells), guides, tolerance, ..settings.clone() }
     }
 
-    /// About how long it takes, in any unit.
+    /// Estimated work, in arbitrary units.
     pub(super) fn work(&self) -> u64 {
         let [x, y] = self.cells.map(u64::from);
         u64::from(self.steps) * (x * y + u64::from(self.guides))
     }
 
-    /// For people.
+    /// The setting in words.
     pub(super) fn describe(&self) -> String {
         let Self { steps, cells: [x, y], guides, tolerance } = self;
         format!("{steps} steps, {x} x {y} cells, {guides} guide photons, tolerance {tolerance:e}")
@@ -114,7 +114,7 @@ impl Parameter {
         }
     }
 
-    /// Where a setting has it; of the grid the cells along the longer side.
+    /// The value in a setting; of the grid the cells along the longer side.
     pub(super) fn of(self, setting: &Setting) -> f64 {
         match self {
             Self::Steps => setting.steps.into(),
@@ -124,7 +124,7 @@ impl Parameter {
         }
     }
 
-    /// Whether `a` has it finer than `b`.
+    /// Whether it is finer in `a` than in `b`.
     fn is_finer(self, a: &Setting, b: &Setting) -> bool {
         match self {
             Self::Tolerance => a.tolerance < b.tolerance,
@@ -132,7 +132,7 @@ impl Parameter {
         }
     }
 
-    /// The project's `own` setting with this parameter turned from coarse to as fine as `reference` has it.
+    /// The project's `own` setting with this parameter from coarse to the value of `reference`.
     pub(super) fn sweep(self, own: Setting, reference: &Setting) -> Vec<Setting> {
         let scaled = |value: u32, factor: f64, least: u32| {
             // Saturates; what is too large is finer than the reference and goes again.

@@ -1,12 +1,11 @@
-//! What is listed of the flows that were measured.
+//! The tables of the section.
 
 use super::setting::{Parameter, Setting};
-use super::text::SAME;
-use super::trial::{Measured, Run, Variation};
+use super::trial::{Measured, Run, SAME, Variation};
 use crate::content::{Cell, Table, Tone};
 use crate::pareto::{cheapest, front};
 
-/// Errors that a setting is named for, in the plane's longer side.
+/// Errors for which the cheapest setting is listed, plane units.
 const NAMED: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const COLUMNS: [&str; 9] = [
     "varied",
@@ -20,7 +19,7 @@ const COLUMNS: [&str; 9] = [
     "largest (plane)",
 ];
 impl Measured {
-    /// The cheapest setting for some errors.
+    /// The cheapest setting for each of some errors.
     pub(super) fn cheapest_table(&self) -> Table {
         let caption = "The cheapest setting that was measured for an error (root mean square).";
         let columns = ["error (plane)", "setting", "seconds", "rms (plane)"];
@@ -37,13 +36,13 @@ impl Measured {
         table
     }
 
-    /// What each parameter causes alone.
+    /// The error that each parameter causes alone.
     pub(super) fn alone_table(&self) -> Table {
         let caption = "The error that each setting causes alone.";
         let columns = ["setting", "value", "seconds", "rms (plane)", "99.9 % (plane)"];
         let mut table = Table::new("flow_alone", caption, &columns);
         for (parameter, rows) in &self.alone {
-            for (row, apart) in rows {
+            for (row, error) in rows {
                 let run = &self.runs[*row];
                 let value = match parameter {
                     Parameter::Tolerance => format!("{:e}", run.setting.tolerance).into(),
@@ -56,8 +55,8 @@ impl Measured {
                         parameter.name().into(),
                         value,
                         run.seconds.into(),
-                        apart.rms.into(),
-                        apart.high.into(),
+                        error.rms.into(),
+                        error.high.into(),
                     ],
                 );
             }
@@ -93,7 +92,7 @@ impl Measured {
     }
 }
 
-/// Its columns of the table.
+/// The cells of a setting.
 fn cells(setting: &Setting) -> [Cell; 4] {
     let Setting { steps, cells: [x, y], guides, tolerance } = *setting;
     let [steps, guides] = [steps, guides].map(|count| Cell::from(f64::from(count)));

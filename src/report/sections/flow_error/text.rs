@@ -1,30 +1,27 @@
-//! The section, and what is said in it of the flows that were measured.
+//! The section and its text.
 
 use super::probes::TrackError;
 use super::setting::Parameter;
-use super::trial::Measured;
-use crate::content::{Section, short};
-use crate::pareto::{cheapest, is_worth_it};
-use crate::slope::slope;
-
-/// An error that is larger by no more than this is the same to an eye.
-pub(super) const SAME: f64 = 1.05;
+use super::trial::{Measured, SAME};
+use crate::content::Section;
+use crate::number::short;
+use crate::pareto::{cheapest, is_on_front};
 
 impl Measured {
     pub(super) fn section(&self) -> Section {
         let mut section = Section::new("flow", "What exactness of the flow costs");
-        section.text(self.how());
+        section.text(self.method());
         section.plot(self.front_plot());
-        section.text(self.own_in_words());
+        section.text(self.own_text());
         section.table(self.cheapest_table());
         section.plot(self.alone_plot());
-        section.text(self.alone_in_words());
+        section.text(self.alone_text());
         section.table(self.alone_table());
         section.table(self.table());
         section
     }
 
-    fn how(&self) -> String {
+    fn method(&self) -> String {
         let turbulence = match &self.project.flow.turbulence {
             Some(turbulence) if turbulence.is_on() => "with the turbulence of the project",
             _ => "without turbulence",
@@ -44,21 +41,13 @@ impl Measured {
             self.probes,
             self.reference.describe(),
             short(self.reference_seconds),
-            short(self.doubt.rms),
+            short(self.uncertainty.rms),
             short(self.reference_error()),
         )
     }
 
-    /// About how far the reference itself is from right. If errors fall like h^p, that of h is 1/(2^p - 1) of what it lies
-    /// from 2 h; p is the least of the orders found, from 1 to 2.
-    pub(super) fn reference_error(&self) -> f64 {
-        let orders = [Parameter::Steps, Parameter::Grid]
-            .map(|parameter| self.order(parameter).unwrap_or(1.0).clamp(1.0, 2.0));
-        self.doubt.rms / (2_f64.powf(orders[0].min(orders[1])) - 1.0)
-    }
-
-    /// Whether the project's setting is worth its price, and what else is.
-    fn own_in_words(&self) -> String {
+    /// The project's setting against the Pareto front.
+    fn own_text(&self) -> String {
         let (own, candidates) = (self.own(), self.candidates());
         let begin = format!(
             "The project's own setting ({}) takes {} s for an error of {}",
@@ -66,7 +55,7 @@ impl Measured {
             short(own.seconds),
             short(own.error.rms)
         );
-        let kept = if is_worth_it(&candidates, 0) { "on the front" } else { "not on the front" };
+        let kept = if is_on_front(&candidates, 0) { "on the front" } else { "not on the front" };
         let cheaper = match cheapest(&candidates, SAME * own.error.rms) {
             None | Some(0) => "nothing that was measured is as exact for less".to_owned(),
             Some(row) => {
@@ -82,8 +71,8 @@ impl Measured {
         format!("{begin}. It is {kept}; {cheaper}.")
     }
 
-    /// Which parameter causes most of the error, and whether that explains the whole.
-    fn alone_in_words(&self) -> String {
+    /// The error that each parameter causes, and their sum against the whole error.
+    fn alone_text(&self) -> String {
         let own =
             |rows: &[(usize, TrackError)]| rows.iter().find(|(row, _)| *row == 0).map_or(0.0, |(_, a)| a.rms);
         let mut causes: Vec<(Parameter, f64)> =
@@ -99,11 +88,11 @@ impl Measured {
             list.join(", "),
             short(together),
             short(self.own().error.rms),
-            self.orders_in_words()
+            self.orders_text()
         )
     }
 
-    fn orders_in_words(&self) -> String {
+    fn orders_text(&self) -> String {
         let order = |(parameter, name)| self.order(parameter).map(|order| format!("{order:.1} in {name}"));
         let orders: Vec<_> =
             [(Parameter::Steps, "steps"), (Parameter::Grid, "cells")].into_iter().filter_map(order).collect();
@@ -111,16 +100,5 @@ impl Measured {
             true => String::new(),
             false => format!("Orders of convergence: {}.", orders.join(", ")),
         }
-    }
-
-    /// By which power of its value the error of a parameter falls, between the two finest values that are coarse beside the
-    /// finest of all, from which the error is measured.
-    fn order(&self, parameter: Parameter) -> Option<f64> {
-        let (_, rows) = self.alone.iter().find(|(other, _)| *other == parameter)?;
-        let point = |&(row, apart): &(usize, TrackError)| (parameter.of(&self.runs[row].setting), apart.rms);
-        let points: Vec<(f64, f64)> = rows.iter().map(point).collect();
-        let (finest, _) = *points.last()?;
-        let coarse = points.iter().filter(|(value, _)| 2.0 * value <= finest).count();
-        slope(&points[coarse.checked_sub(2)?..coarse]).map(|slope| -slope)
     }
 }

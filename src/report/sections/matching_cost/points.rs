@@ -7,22 +7,22 @@ use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::pipeline::FirstMove;
 use lightloom_core::{Progress, Result};
 
-/// Iterations of the maps by which a lower bound is looked for.
+/// Iterations of the maps that give the lower bound.
 const THOROUGH: usize = 40;
-/// Pass of the random numbers that mix the rows: no pass of a render.
+/// Pass number of the random numbers that shuffle the rows; no render has it.
 const MIXING: u64 = u64::MAX;
 
-/// Points at two keys, in no common order.
+/// Points at two key frames, in no common order.
 pub(super) struct Points {
     pub(super) source: Vec<Vec2>,
     pub(super) target: Vec<Vec2>,
-    /// Row of the target that the project pairs each source row with.
+    /// Row of `target` that the project pairs with each row of `source`.
     pub(super) given: Vec<u32>,
     pub(super) extent: Vec2,
 }
 
 impl Points {
-    /// At most so many of the photons, at even distances; the target's rows are mixed, for they come paired.
+    /// At most `most` of the photons, at even distances; the rows of the target are shuffled.
     pub(super) fn new(photons: &FirstMove, most: usize, seed: u64) -> Self {
         let all = photons.source.len();
         let count = most.min(all);
@@ -40,12 +40,12 @@ impl Points {
         }
     }
 
-    /// As the project pairs them.
+    /// The pairing of the project.
     pub(super) fn given(&self) -> Matching {
         Matching { target_of: self.given.clone() }
     }
 
-    /// A lower bound of the mean squared distance: the better of those by the project's lattice and by one of so many cells.
+    /// A lower bound of the mean squared distance: the larger of the bounds by the default lattice and by one of `cells` cells.
     pub(super) fn bound(&self, cells: usize, progress: &Progress) -> Result<f64> {
         let Self { source, target, extent, .. } = self;
         [None, Some(cells)].into_iter().try_fold(0.0_f64, |best, cells| {

@@ -1,21 +1,22 @@
-//! The section: what is said, drawn and listed of the pairings that were measured.
+//! The section: its text, plot and table.
 
 use super::variants::{Matched, Variant};
-use crate::content::{Cell, Section, Table, Tone, short};
-use crate::pareto::{Candidate, cheapest, front, is_worth_it};
+use crate::content::{Cell, Section, Table, Tone};
+use crate::number::short;
+use crate::pareto::{Candidate, cheapest, front, is_on_front};
 use crate::plot::{Axis, Line, Panel, Plot, Style};
 
-/// Colour of the ring around the project's own way.
+/// Colour of the ring around the project's own pairing.
 const OWN: usize = 1;
 
-/// All that was measured.
+/// The measurements of the section.
 pub(super) struct Measured {
     pub(super) project: String,
-    /// Points that were paired.
+    /// Number of points.
     pub(super) count: usize,
-    /// The project's own way first.
+    /// The project's own pairing first.
     pub(super) rows: Vec<Matched>,
-    /// A lower bound of the mean squared distance, along straight ways.
+    /// A lower bound of the mean squared distance along straight lines.
     pub(super) bound: f64,
     pub(super) walls: bool,
 }
@@ -23,9 +24,9 @@ pub(super) struct Measured {
 impl Measured {
     pub(super) fn section(&self) -> Section {
         let mut section = Section::new("matching", "What a good pairing costs");
-        section.text(self.how());
+        section.text(self.method());
         if self.bound > 0.0 {
-            section.text(self.own_in_words());
+            section.text(self.own_text());
             section.plot(self.plot());
         } else {
             section.text("No bound above zero was found: the points hardly move, and there is nothing to compare with.");
@@ -34,35 +35,35 @@ impl Measured {
         section
     }
 
-    fn how(&self) -> String {
+    fn method(&self) -> String {
         let walls = match self.walls {
             true => {
-                " Lengths are those of the ways around the walls, but the bound is that of straight ways: no more than a bound, \
+                " Lengths are those of the paths around the walls, but the bound is that of straight paths: no more than a bound, \
                  which nothing need come near."
             }
             false => "",
         };
         format!(
             "{} photons of the first move are paired with their points at the next key. The cost is the mean squared length \
-             of their ways, over the best lower bound of it that the dual of transport gave: 1 is the optimum, and no \
+             of their paths, over the best lower bound of it that the dual of transport gave: 1 is the optimum, and no \
              pairing is below.{walls} Seconds are those of the map, which all passes share, and of one bijection; the map's \
              lattice, its iterations and the sweeps after it are varied one by one. The bijection cuts both sets into equal \
              halves once; the swaps of its sweeps do what merging several such cuts would. The linear method pairs as \
-             transport along straight ways does.",
+             transport along straight paths does.",
             self.count
         )
     }
 
-    fn own_in_words(&self) -> String {
+    fn own_text(&self) -> String {
         let (own, candidates) = (&self.rows[0], self.candidates());
         let begin = format!(
-            "The project's own way ({}) takes {} s for {:.2} % over the bound",
+            "The project's own pairing ({}) takes {} s for {:.2} % over the bound",
             own.describe(),
             short(own.seconds()),
             100.0 * self.over(own)
         );
         match cheapest(&candidates, candidates[0].error) {
-            Some(row) if !is_worth_it(&candidates, 0) => {
+            Some(row) if !is_on_front(&candidates, 0) => {
                 let other = &self.rows[row];
                 format!(
                     "{begin}. It is not on the front: {} takes {} s for {:.2} %.",
@@ -88,20 +89,20 @@ impl Measured {
         let candidates = self.candidates();
         let point = |row: usize| (candidates[row].price, candidates[row].error);
         let of = |is: fn(&Variant) -> bool| {
-            (0..self.rows.len()).filter(|&row| is(&self.rows[row].way)).map(point).collect::<Vec<_>>()
+            (0..self.rows.len()).filter(|&row| is(&self.rows[row].variant)).map(point).collect::<Vec<_>>()
         };
         let lines = vec![
             Line::new("front", Style::Line(5), front(&candidates).into_iter().map(point).collect()),
-            Line::new("lattice", Style::Dots(0), of(|way| matches!(way, Variant::Lattice(_)))),
-            Line::new("iterations", Style::Dots(1), of(|way| matches!(way, Variant::Iterations(_)))),
-            Line::new("sweeps", Style::Dots(2), of(|way| matches!(way, Variant::Sweeps(_)))),
-            Line::new("no map, sweeps", Style::Dots(3), of(|way| matches!(way, Variant::Halves(_)))),
+            Line::new("lattice", Style::Dots(0), of(|variant| matches!(variant, Variant::Lattice(_)))),
+            Line::new("iterations", Style::Dots(1), of(|variant| matches!(variant, Variant::Iterations(_)))),
+            Line::new("sweeps", Style::Dots(2), of(|variant| matches!(variant, Variant::Sweeps(_)))),
+            Line::new("no map, sweeps", Style::Dots(3), of(|variant| matches!(variant, Variant::Halves(_)))),
             Line::new(
                 "transport",
                 Style::Dots(5),
-                of(|way| matches!(way, Variant::Straight | Variant::Around)),
+                of(|variant| matches!(variant, Variant::Straight | Variant::Around)),
             ),
-            Line::new("stylized", Style::Dots(4), of(|way| *way == Variant::Stylized)),
+            Line::new("stylized", Style::Dots(4), of(|variant| *variant == Variant::Stylized)),
             Line::new("the project's", Style::Rings(OWN), vec![point(0)]),
         ];
         let (x, y) = (Axis::log("seconds"), Axis::log("cost over the bound, less 1"));
@@ -113,16 +114,23 @@ impl Measured {
     }
 
     fn table(&self) -> Table {
-        let caption = "All ways to pair that were measured, the cheapest first.";
-        let columns =
-            ["way", "value", "map (s)", "bijection (s)", "seconds", "cost over the bound", "on the front"];
+        let caption = "All pairings that were measured, the cheapest first.";
+        let columns = [
+            "pairing",
+            "value",
+            "map (s)",
+            "bijection (s)",
+            "seconds",
+            "cost over the bound",
+            "on the front",
+        ];
         let mut table = Table::new("matching", caption, &columns);
         let best = front(&self.candidates());
         let mut rows: Vec<usize> = (0..self.rows.len()).collect();
         rows.sort_by(|&a, &b| self.rows[a].seconds().total_cmp(&self.rows[b].seconds()));
         for row in rows {
             let matched = &self.rows[row];
-            let (name, value) = matched.way.describe();
+            let (name, value) = matched.variant.describe();
             let ratio = (self.bound > 0.0).then(|| matched.cost / self.bound);
             let tone = if row == 0 { Tone::Marked } else { Tone::Plain };
             let numbers = [matched.map_seconds, matched.pair_seconds, matched.seconds()].map(Cell::from);
@@ -141,7 +149,7 @@ impl Matched {
     }
 
     fn describe(&self) -> String {
-        match self.way.describe() {
+        match self.variant.describe() {
             (name, Some(value)) => format!("{name} {value}"),
             (name, None) => name.to_owned(),
         }

@@ -1,4 +1,4 @@
-//! Variants to pair points, and what each takes and reaches.
+//! The variants of the matching, and the cost of each.
 
 use std::sync::Arc;
 
@@ -23,51 +23,51 @@ const ITERATIONS: [usize; 6] = [0, 1, 2, 5, 10, 40];
 const SWEPT: [usize; 6] = [0, 1, 2, 3, 12, 24];
 const SWEPT_HALVES: [usize; 4] = [0, 1, 6, 24];
 
-/// A way to pair.
+/// A variant of the matching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Variant {
-    /// Near the transport map, as projects without walls have it.
+    /// Along the transport map, as in projects without walls.
     Straight,
-    /// Near the map around the walls.
+    /// Along the map around the walls.
     Around,
-    /// Row by row, as the files give it.
+    /// Row by row, as given by the files.
     Given,
-    /// The method of 2016.
+    /// The method of Günther et al. 2016.
     Stylized,
-    /// As straight, by a lattice of so many cells along its longer side.
+    /// As `Straight`, with this many lattice cells along the longer side.
     Lattice(usize),
-    /// By so many iterations of the map, none left out.
+    /// As `Straight`, with this many iterations of the map.
     Iterations(usize),
-    /// By so many sweeps.
+    /// As `Straight`, with this many sweeps.
     Sweeps(usize),
-    /// By halves alone and so many sweeps: without a map.
+    /// Bisection and this many sweeps, without a map.
     Halves(usize),
 }
 
-/// Points paired in some way.
+/// A measured pairing.
 pub(super) struct Matched {
-    pub(super) way: Variant,
+    pub(super) variant: Variant,
     /// Seconds of the map, which all passes share.
     pub(super) map_seconds: f64,
     /// Seconds of the bijection.
     pub(super) pair_seconds: f64,
-    /// Mean squared length of the ways.
+    /// Mean squared length of the paths.
     pub(super) cost: f64,
 }
 
-/// What all ways work on.
+/// The points and the maps that several variants share.
 pub(super) struct Variants<'a> {
     points: &'a Points,
     progress: Progress,
     seed: u64,
-    /// The transport map as projects have it, and its seconds.
+    /// The default transport map, and its seconds.
     straight: (TransportMap, f64),
-    /// The map around walls, where walls lead, and its seconds.
+    /// The map around walls and its seconds; none where no wall affects the matching.
     around: Option<(ContinuousMap, f64)>,
 }
 
 impl Variant {
-    /// As the project pairs.
+    /// The variant of a project.
     pub(super) fn of(project: &Project, walls: bool) -> Self {
         match (project.matching, project.method) {
             (Method::Given, _) => Self::Given,
@@ -77,7 +77,7 @@ impl Variant {
         }
     }
 
-    /// All that are measured, the project's `own` first, with lattices of at most so many cells.
+    /// All variants, the project's `own` first, with lattices of at most `cells` cells.
     pub(super) fn list(own: Self, walls: bool, cells: usize) -> Vec<Self> {
         let walls = walls.then_some(Self::Around);
         let mut list: Vec<Self> = [own, Self::Straight, Self::Stylized].into_iter().chain(walls).collect();
@@ -86,16 +86,16 @@ impl Variant {
         list.extend(SWEPT.map(Self::Sweeps));
         list.extend(SWEPT_HALVES.map(Self::Halves));
         let mut seen = Vec::new();
-        list.retain(|way| {
-            !seen.contains(way) && {
-                seen.push(*way);
+        list.retain(|variant| {
+            !seen.contains(variant) && {
+                seen.push(*variant);
                 true
             }
         });
         list
     }
 
-    /// The row's name, and its value.
+    /// Its name and its value.
     pub(super) fn describe(self) -> (&'static str, Option<usize>) {
         match self {
             Self::Straight => ("transport", None),
@@ -111,7 +111,7 @@ impl Variant {
 }
 
 impl<'a> Variants<'a> {
-    /// Makes the maps that several ways share.
+    /// Computes the maps that several variants share.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -135,17 +135,17 @@ impl<'a> Variants<'a> {
         Ok(Self { points, progress, seed, straight, around })
     }
 
-    /// Pairs and looks at the clock.
+    /// Pairs the points and times it.
     ///
     /// # Errors
     /// `Cancelled`.
-    pub(super) fn measure(&self, way: Variant) -> Result<Matched> {
+    pub(super) fn measure(&self, variant: Variant) -> Result<Matched> {
         let (straight, known) = &self.straight;
         let map_with = |settings: MapSettings| {
             let Points { source, target, extent, .. } = self.points;
             fastest(2, AGAIN, || transport_map_with(source, target, *extent, &settings, &self.progress))
         };
-        let ((matching, pair_seconds), map_seconds) = match way {
+        let ((matching, pair_seconds), map_seconds) = match variant {
             Variant::Given => ((self.points.given(), 0.0), 0.0),
             Variant::Straight => (self.pair(Some(straight), SWEEPS)?, *known),
             Variant::Sweeps(count) => (self.pair(Some(straight), count)?, *known),
@@ -169,7 +169,7 @@ impl<'a> Variants<'a> {
                 None => (self.pair(Some(straight), SWEEPS)?, *known),
             },
         };
-        Ok(Matched { way, map_seconds, pair_seconds, cost: self.cost(&matching) })
+        Ok(Matched { variant, map_seconds, pair_seconds, cost: self.cost(&matching) })
     }
 
     fn pair(&self, map: Option<&TransportMap>, sweeps: usize) -> Result<(Matching, f64)> {
@@ -182,7 +182,7 @@ impl<'a> Variants<'a> {
         fastest(2, AGAIN, || Ok(map.pair(source, target, self.seed, 0, &self.progress)?.matching))
     }
 
-    /// Mean squared length of the ways, around walls where there are any.
+    /// Mean squared length of the paths, around walls where there are any.
     fn cost(&self, matching: &Matching) -> f64 {
         let Points { source, target, .. } = self.points;
         let targets: Vec<Vec2> = matching.target_of.iter().map(|&row| target[row as usize]).collect();
@@ -192,7 +192,7 @@ impl<'a> Variants<'a> {
         }
     }
 
-    /// Whether walls lead.
+    /// Whether walls affect the matching.
     pub(super) fn walls(&self) -> bool {
         self.around.is_some()
     }

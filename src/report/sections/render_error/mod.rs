@@ -1,18 +1,19 @@
-//! What passes and photons buy: the error of the light on the plane against a long reference.
+//! The error of the light on the plane against a long reference, over passes and photons.
 
 mod reference;
 mod runs;
 
 use super::section_def::SectionDef;
-use crate::content::{Cell, Picture, Pictures, Section, Table, Tone, short};
+use crate::content::{Cell, Picture, Pictures, Section, Table, Tone};
 use crate::context::Context;
+use crate::number::short;
 use crate::plot::{Axis, Line, Panel, Plot, Style};
 use crate::slope::slope;
 use lightloom_core::export::png::encode;
 use lightloom_core::matching::Method;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
-use runs::{Reached, Runs, Split};
+use runs::{PassError, Runs, Series};
 
 pub(super) const SECTION: SectionDef =
     SectionDef { name: "render", skip: same_in_every_pass, measure, seconds: [10.0, 220.0] };
@@ -23,7 +24,7 @@ const LIMIT: f64 = -1.0 / 3.0;
 
 /// Exponents above this one are those of edges under a shrinking kernel (-1/12), not of noise.
 const BLUR: f64 = -0.2;
-/// Noise of the reference, over the mean light, that a picture shows.
+/// Noise of the reference, over the mean light, that is visible.
 const NOISY: f64 = 0.2;
 
 fn same_in_every_pass(project: &Project) -> Option<&'static str> {
@@ -35,17 +36,17 @@ fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
     let runs = runs::run(context, progress)?;
     let mut section = Section::new("render", "What passes and photons buy");
     section.text(runs.method());
-    section.text(runs.lesson());
+    section.text(runs.summary());
     section.plot(runs.plot());
     section.pictures(runs.pictures()?);
     section.table(runs.table());
     Ok(section)
 }
 
-impl Split {
-    /// The exponents of rms and perceptual error over the photons so far.
+impl Series {
+    /// Exponents of the rms error and the perceptual error over the photons.
     fn slopes(&self) -> [Option<f64>; 2] {
-        [|row: &Reached| row.rms, |row: &Reached| row.perceptual].map(|error| {
+        [|row: &PassError| row.rms, |row: &PassError| row.perceptual].map(|error| {
             let points: Vec<_> =
                 self.rows.iter().map(|row| ((self.photons * row.passes) as f64, error(row))).collect();
             slope(&points)
@@ -58,15 +59,15 @@ impl Split {
 }
 
 impl Runs {
-    /// The passes of the project's own size, and where among them its own number stands, if it was reached.
-    fn own(&self) -> Option<(&Split, Option<&Reached>)> {
+    /// The passes of the project's own size, and the row of its own number of passes where that was reached.
+    fn own(&self) -> Option<(&Series, Option<&PassError>)> {
         let (photons, passes) = self.planned;
-        let split = self.splits.iter().find(|split| split.photons == photons)?;
-        Some((split, split.rows.iter().find(|row| row.passes == passes)))
+        let series = self.series.iter().find(|series| series.photons == photons)?;
+        Some((series, series.rows.iter().find(|row| row.passes == passes)))
     }
 
-    fn is_own(&self, split: &Split, row: &Reached) -> bool {
-        self.planned == (split.photons, row.passes)
+    fn is_own(&self, series: &Series, row: &PassError) -> bool {
+        self.planned == (series.photons, row.passes)
     }
 
     fn method(&self) -> String {
@@ -88,20 +89,20 @@ impl Runs {
         )
     }
 
-    /// What a reader takes away.
-    fn lesson(&self) -> String {
-        let Some((split, own)) = self.own() else {
+    /// The summary.
+    fn summary(&self) -> String {
+        let Some((series, own)) = self.own() else {
             return "The project's passes are too large to be followed here.".to_owned();
         };
-        let Some(row) = own.or(split.rows.last()) else { return String::new() };
+        let Some(row) = own.or(series.rows.last()) else { return String::new() };
         let mut text = format!(
             "{}, about {} s, have an rms error of {}.",
-            passes_of(row.passes, split.photons),
+            passes_of(row.passes, series.photons),
             short(row.seconds),
             short(row.rms)
         );
-        if let Some(exponent) = split.slopes()[0] {
-            text += &self.outlook(split, row, own.is_none(), exponent);
+        if let Some(exponent) = series.slopes()[0] {
+            text += &self.outlook(series, row, own.is_none(), exponent);
         }
         let best = self.best_within(row.seconds * 1.05);
         if let Some((other, better)) = best.filter(|(_, better)| better.rms < 0.95 * row.rms) {
@@ -114,12 +115,12 @@ impl Runs {
         text
     }
 
-    /// What more passes than those of `row` bring, whose error falls with this exponent.
-    fn outlook(&self, split: &Split, row: &Reached, is_short: bool, exponent: f64) -> String {
+    /// The expected error of more passes, if it falls with this exponent.
+    fn outlook(&self, series: &Series, row: &PassError, is_short: bool, exponent: f64) -> String {
         let left = 100.0 * 2.0_f64.powf(exponent);
         let mut text = format!(" Twice the passes leave {left:.0} % of it (at the limit 79 %).");
         if exponent > BLUR {
-            let radius = short(f64::from(split.radius));
+            let radius = short(f64::from(series.radius));
             text += &format!(
                 " What is left is mostly blur, which more passes hardly lower: a smaller render.radius than {radius} would."
             );
@@ -135,15 +136,15 @@ impl Runs {
         text
     }
 
-    /// What has the smallest rms error of all that takes no longer.
-    fn best_within(&self, seconds: f64) -> Option<(&Split, &Reached)> {
-        let all = self.splits.iter().flat_map(|split| split.rows.iter().map(move |row| (split, row)));
+    /// The smallest rms error within this time.
+    fn best_within(&self, seconds: f64) -> Option<(&Series, &PassError)> {
+        let all = self.series.iter().flat_map(|series| series.rows.iter().map(move |row| (series, row)));
         all.filter(|(_, row)| row.seconds <= seconds).min_by(|a, b| a.1.rms.total_cmp(&b.1.rms))
     }
 
     fn plot(&self) -> Plot {
-        let seconds = |row: &Reached| row.seconds;
-        let passes = |row: &Reached| row.passes as f64;
+        let seconds = |row: &PassError| row.seconds;
+        let passes = |row: &PassError| row.passes as f64;
         Plot {
             name: "render".to_owned(),
             title: "Error of the rendered light".to_owned(),
@@ -167,29 +168,29 @@ impl Runs {
         }
     }
 
-    /// One line for each size of passes, the project's own ringed; with the limit where it is asked for.
+    /// One line for each size of passes, the project's own marked by a ring; with the theoretical slope if `limit`.
     fn panel(
         &self,
         title: &str,
         axis: &str,
-        x: fn(&Reached) -> f64,
-        y: fn(&Reached) -> Option<f64>,
+        x: fn(&PassError) -> f64,
+        y: fn(&PassError) -> Option<f64>,
         limit: bool,
     ) -> Panel {
         let mut lines = Vec::new();
-        for (i, split) in self.splits.iter().enumerate() {
-            let points = split.rows.iter().filter_map(|row| Some((x(row), y(row)?))).collect();
-            let label = match split.slopes()[0].filter(|_| limit) {
-                Some(exponent) => format!("{}, slope {}", split.name(), short(exponent)),
-                None => split.name(),
+        for (i, series) in self.series.iter().enumerate() {
+            let points = series.rows.iter().filter_map(|row| Some((x(row), y(row)?))).collect();
+            let label = match series.slopes()[0].filter(|_| limit) {
+                Some(exponent) => format!("{}, slope {}", series.name(), short(exponent)),
+                None => series.name(),
             };
             lines.push(Line::new(label, Style::Line(i), points));
-            let own = split.rows.iter().find(|row| self.is_own(split, row));
+            let own = series.rows.iter().find(|row| self.is_own(series, row));
             if let Some((row, value)) = own.and_then(|row| Some((row, y(row)?))) {
                 lines.push(Line::new("as the project has it", Style::Rings(i), vec![(x(row), value)]));
             }
         }
-        if let Some(law) = self.splits.last().filter(|_| limit).and_then(|split| law(split, x, y)) {
+        if let Some(law) = self.series.last().filter(|_| limit).and_then(|series| law(series, x, y)) {
             lines.insert(0, Line::new("N^(-1/3)", Style::Law, law));
         }
         lines.retain(|line| !line.points.is_empty());
@@ -198,10 +199,11 @@ impl Runs {
 
     fn pictures(&self) -> Result<Pictures> {
         let mut pictures = Vec::new();
-        if let Some((split, _)) = self.own().or(self.splits.last().map(|split| (split, None))) {
-            let numbers = [split.rows.first(), split.rows.last()].map(|row| row.map_or(0, |row| row.passes));
-            for (picture, passes) in split.pictures.iter().zip(numbers) {
-                let label = format!("{passes} x {} photons", short(split.photons as f64));
+        if let Some((series, _)) = self.own().or(self.series.last().map(|series| (series, None))) {
+            let numbers =
+                [series.rows.first(), series.rows.last()].map(|row| row.map_or(0, |row| row.passes));
+            for (picture, passes) in series.pictures.iter().zip(numbers) {
+                let label = format!("{passes} x {} photons", short(series.photons as f64));
                 pictures.push(Picture { label, png: encode(picture)? });
             }
         }
@@ -226,15 +228,15 @@ impl Runs {
         let caption = "After each doubling of the passes. The slopes are exponents over the photons, of all rows of one \
                        size; the limit is -1/3. The error of the reference is its own noise.";
         let mut table = Table::new("render", caption, &columns);
-        for split in &self.splits {
-            for (i, row) in split.rows.iter().enumerate() {
-                let is_last = i + 1 == split.rows.len();
-                let [rms, perceptual] = if is_last { split.slopes() } else { [None; 2] };
-                let tone = if self.is_own(split, row) { Tone::Marked } else { Tone::Plain };
+        for series in &self.series {
+            for (i, row) in series.rows.iter().enumerate() {
+                let is_last = i + 1 == series.rows.len();
+                let [rms, perceptual] = if is_last { series.slopes() } else { [None; 2] };
+                let tone = if self.is_own(series, row) { Tone::Marked } else { Tone::Plain };
                 table.push(
                     tone,
                     vec![
-                        split.photons.into(),
+                        series.photons.into(),
                         row.passes.into(),
                         row.seconds.into(),
                         row.measured.into(),
@@ -260,9 +262,13 @@ fn passes_of(passes: usize, photons: usize) -> String {
     format!("{passes} {word} of {} photons", short(photons as f64))
 }
 
-/// A line of the limit's slope through the first point of a split.
-fn law(split: &Split, x: fn(&Reached) -> f64, y: fn(&Reached) -> Option<f64>) -> Option<Vec<(f64, f64)>> {
-    let first = split.rows.first()?;
+/// A line of the theoretical slope through the first point of a series.
+fn law(
+    series: &Series,
+    x: fn(&PassError) -> f64,
+    y: fn(&PassError) -> Option<f64>,
+) -> Option<Vec<(f64, f64)>> {
+    let first = series.rows.first()?;
     let (x0, y0) = (x(first), y(first)?);
-    Some(split.rows.iter().map(|row| (x(row), y0 * (x(row) / x0).powf(LIMIT))).collect())
+    Some(series.rows.iter().map(|row| (x(row), y0 * (x(row) / x0).powf(LIMIT))).collect())
 }

@@ -1,4 +1,4 @@
-//! What the light would be with many more photons, and how far a picture is from it.
+//! The reference: the light of many more photons, and the error of a picture against it.
 
 use glam::Vec3;
 
@@ -13,34 +13,34 @@ use lightloom_core::render::{Image, ReceiverTexture, View, plane_picture};
 const STILL: f32 = 0.02;
 /// Least light of a still pixel, as a share of the mean.
 const LIT: f32 = 0.1;
-/// Least share of still pixels that tell something of their noise.
+/// Least share of still pixels for which noise is measured.
 const ENOUGH: f64 = 1e-3;
 
-/// Noise of a reference that is sharper than it need be, over the mean light.
+/// Largest noise, over the mean light, of a reference that is sharper than the last pass.
 const CLEAN: f64 = 0.05;
-/// Kernels of the reference over that of the last pass, the sharpest first.
+/// Kernel radii of the reference over that of the last pass, the sharpest first.
 const SHARPER: [f32; 4] = [0.125, 0.25, 0.5, 1.0];
 /// The sharpest.
 pub(super) const SHARPEST: f32 = SHARPER[0];
 
-/// Linear pictures of the plane at neighbouring frames; the second is absent where nothing moves.
-pub(super) struct Seen(Vec<Image>);
+/// Linear pictures of the plane at one or two consecutive frames; one where nothing moves.
+pub(super) struct PlanePictures(Vec<Image>);
 
-/// How a picture of the plane is shown.
+/// The display of a picture of the plane.
 #[derive(Clone)]
-pub(super) struct Shown {
+pub(super) struct Display {
     pub(super) view: View,
-    /// Most pixels side by side.
+    /// Largest width in pixels.
     pub(super) width: usize,
 }
 
 /// Two independent halves of a long run.
 pub(super) struct Reference {
     crop: Crop,
-    /// The lit part alone.
-    halves: [Seen; 2],
-    shown: Shown,
-    /// Their mean as it is shown.
+    /// Cropped to the lit part.
+    halves: [PlanePictures; 2],
+    display: Display,
+    /// Their mean, as displayed.
     pub(super) picture: Image,
     /// Mean radiance of the lit part.
     mean: f64,
@@ -51,20 +51,20 @@ pub(super) struct Reference {
     pub(super) noise: f64,
 }
 
-/// How far a picture is from the reference.
-pub(super) struct Distance {
+/// The error of a picture against the reference.
+pub(super) struct LightError {
     /// Root mean square difference over the mean light.
     pub(super) rms: f64,
-    /// 1 - SSIM of the pictures as they are shown.
+    /// 1 - SSIM of the displayed pictures.
     pub(super) perceptual: f64,
     /// Root mean square of the change from one frame to the next less that of the reference, where the reference stands
     /// still, over the mean light there; none where too little stands still.
     pub(super) flicker: Option<f64>,
-    /// The picture as it is shown.
+    /// The picture, as displayed.
     pub(super) picture: Image,
 }
 
-impl Seen {
+impl PlanePictures {
     /// The light of all frames of a take.
     pub(super) fn of(passed: &Passed, frames: usize, rehearsal: &Rehearsal) -> Result<Self> {
         Ok(Self::spread(&light(passed, frames)?, 0.0, rehearsal))
@@ -93,23 +93,23 @@ pub(super) fn light(passed: &Passed, frames: usize) -> Result<Vec<ReceiverTextur
 }
 
 impl Reference {
-    /// Of two halves that are not spread yet; none where there is no light. Their kernel is the sharpest of some up to
-    /// `radius` by which their noise is small.
+    /// The reference of two halves whose light is not filtered yet; none where there is no light. The kernel is the sharpest
+    /// of [`SHARPER`] times `radius` that leaves little noise.
     pub(super) fn new(
         halves: [&[ReceiverTexture]; 2],
         radius: f32,
         rehearsal: &Rehearsal,
-        shown: &Shown,
+        display: &Display,
     ) -> Option<Self> {
         SHARPER.iter().find_map(|share| {
-            let halves = halves.map(|half| Seen::spread(half, share * radius, rehearsal));
-            let reference = Self::of(halves, share * radius, shown.clone());
+            let halves = halves.map(|half| PlanePictures::spread(half, share * radius, rehearsal));
+            let reference = Self::of(halves, share * radius, display.clone());
             // The widest at last, whatever its noise.
             reference.filter(|reference| *share >= 1.0 || reference.noise <= CLEAN)
         })
     }
 
-    fn of(halves: [Seen; 2], radius: f32, shown: Shown) -> Option<Self> {
+    fn of(halves: [PlanePictures; 2], radius: f32, display: Display) -> Option<Self> {
         let crop = Crop::lit(&mean(&halves[0].0[0], &halves[1].0[0]));
         let halves = halves.map(|half| half.cut(&crop));
         let [a, b] = &halves;
@@ -125,30 +125,30 @@ impl Reference {
             [now, next, ..] => still(now, next, light as f32),
             _ => Vec::new(),
         };
-        let picture = shown.picture(&means[0]);
-        Some(Self { crop, halves, shown, picture, mean: light, still, radius, noise })
+        let picture = display.picture(&means[0]);
+        Some(Self { crop, halves, display, picture, mean: light, still, radius, noise })
     }
 
-    /// How far the light of a take is from this. The noise of the reference does not count: the two halves err
-    /// independently, so that the product of the differences to both has none of it in the mean.
-    pub(super) fn distance(&self, seen: &Seen) -> Distance {
+    /// The error of the light of a take. The noise of the reference does not count: the errors of the halves are
+    /// independent, so they cancel in the mean of the product of both differences.
+    pub(super) fn distance(&self, seen: &PlanePictures) -> LightError {
         let seen = seen.cut(&self.crop);
         let [a, b] = self.halves.each_ref().map(|half| &half.0[0].pixels);
         let now = &seen.0[0];
         let terms = now.pixels.iter().zip(a.iter().zip(b)).map(|(&x, (&a, &b))| (x - a, x - b));
         let rms = root_mean(terms) / self.mean;
-        let picture = self.shown.picture(now);
+        let picture = self.display.picture(now);
         let perceptual = 1.0 - ssim(&picture, &self.picture);
-        Distance { rms, perceptual, flicker: self.flicker(&seen), picture }
+        LightError { rms, perceptual, flicker: self.flicker(&seen), picture }
     }
 
-    fn flicker(&self, seen: &Seen) -> Option<f64> {
+    fn flicker(&self, seen: &PlanePictures) -> Option<f64> {
         let [now, next, ..] = seen.0.as_slice() else { return None };
         if self.still.is_empty() || self.still_share() < ENOUGH {
             return None;
         }
         let change = |now: &Image, next: &Image, i: usize| next.pixels[i] - now.pixels[i];
-        let of_half = |half: &Seen, i: usize| change(&half.0[0], &half.0[1], i);
+        let of_half = |half: &PlanePictures, i: usize| change(&half.0[0], &half.0[1], i);
         let [a, b] = &self.halves;
         let terms = self.still.iter().map(|&i| {
             let own = change(now, next, i);
@@ -165,7 +165,7 @@ impl Reference {
     }
 }
 
-impl Shown {
+impl Display {
     fn picture(&self, linear: &Image) -> Image {
         self.view.apply(&shrunk(linear, self.width))
     }
@@ -181,7 +181,7 @@ fn mean_light(pixels: &[Vec3]) -> f64 {
     pixels.iter().map(|p| p.as_dvec3().element_sum()).sum::<f64>() / (3 * pixels.len().max(1)) as f64
 }
 
-/// Root of the mean product over pixels and colours; a mean that chance made negative is none.
+/// Root of the mean product over pixels and colours; 0 where chance makes the mean negative.
 fn root_mean(pairs: impl Iterator<Item = (Vec3, Vec3)>) -> f64 {
     let (sum, count) = pairs.fold((0.0, 0_usize), |(sum, count), (a, b)| {
         (sum + (a.as_dvec3() * b.as_dvec3()).element_sum(), count + 3)
@@ -217,8 +217,8 @@ mod tests {
     fn the_noise_of_the_reference_is_not_taken_for_error() {
         let view = lightloom_core::render::ViewSettings::default().view();
         let [a, b, run] = pictures([0.4, 0.4, 0.2]);
-        let seen = |picture: &Image| Seen(vec![picture.clone()]);
-        let reference = Reference::of([seen(&a), seen(&b)], 0.1, Shown { view, width: 50 })
+        let seen = |picture: &Image| PlanePictures(vec![picture.clone()]);
+        let reference = Reference::of([seen(&a), seen(&b)], 0.1, Display { view, width: 50 })
             .unwrap_or_else(|| panic!("light"));
         // The standard deviation of a uniform number over 1/sqrt(12); a mean of two has 1/sqrt(2) of it.
         let deviation = |size: f64| size / 12_f64.sqrt();

@@ -1,6 +1,6 @@
-//! Passes of several sizes, and how far their light is from the reference after each.
+//! Series of passes of several sizes, and the error of their light after each pass.
 
-use super::reference::{Distance, Reference, SHARPEST, Seen, Shown, light};
+use super::reference::{Display, LightError, PlanePictures, Reference, SHARPEST, light};
 use crate::context::Context;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::export::evenly_chosen;
@@ -10,22 +10,22 @@ use lightloom_core::render::density::radius_of_pass;
 use lightloom_core::render::{Image, ReceiverTexture, RenderSettings, TextureLayout, first_radius};
 use lightloom_core::{Error, Progress, Result};
 
-/// Where on the way between two keys the light is looked at: early, since a pass goes no further.
+/// Time between two key frames at which the light is measured: early, since a pass goes no further.
 const SHARE: f64 = 0.1;
-/// Longest animation whose pass is timed; longer ones are taken to go on at its pace.
+/// Most frames of a timed pass; longer animations are extrapolated.
 const TIMED: usize = 100;
 
-/// How much is run.
+/// The amount of work.
 struct Budget {
     /// Photons of a pass as shares of the project's own; the last is 1.
     shares: &'static [f64],
-    /// Fewest passes of the project's own size that are looked at: a slope needs some.
+    /// Fewest passes of the project's own size: a slope needs some.
     fewest: usize,
-    /// Photons of all passes of one size at most, without walls and with: around those each photon finds its way.
+    /// Most photons of all passes of one size, without walls and with walls, around which a photon costs more.
     most: [usize; 2],
     /// Photons of the reference over those of the longest run, without walls and with.
     longer: [usize; 2],
-    /// Pixels side by side of a picture.
+    /// Width of a picture in pixels.
     width: usize,
 }
 
@@ -34,39 +34,39 @@ const QUICK: Budget =
 const FULL: Budget =
     Budget { shares: &[0.1, 0.3, 1.0], fewest: 4, most: [8_000_000, 4_000_000], longer: [3, 2], width: 640 };
 
-/// All that was measured.
+/// The measurements of the section.
 pub(super) struct Runs {
     pub(super) reference: Reference,
     /// Photons of the reference.
     pub(super) photons: usize,
     /// Photons of one pass and passes, as the project has them.
     pub(super) planned: (usize, usize),
-    /// The frame that was looked at.
+    /// The measured frame.
     pub(super) frame: i32,
     /// Frames of the whole render.
     pub(super) frames: usize,
     /// The smallest passes first.
-    pub(super) splits: Vec<Split>,
+    pub(super) series: Vec<Series>,
 }
 
 /// Passes of one size.
-pub(super) struct Split {
-    /// Photons of each.
+pub(super) struct Series {
+    /// Photons of each pass.
     pub(super) photons: usize,
     /// The kernel's radius in the first pass, plane units.
     pub(super) radius: f32,
-    pub(super) rows: Vec<Reached>,
-    /// The light after the first pass and after the last, as it is shown; one picture where these are one.
+    pub(super) rows: Vec<PassError>,
+    /// The displayed light after the first pass and after the last; one picture where these are the same.
     pub(super) pictures: Vec<Image>,
 }
 
-/// What some passes reach.
+/// The error after some passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reached {
+pub(super) struct PassError {
     pub(super) passes: usize,
-    /// Seconds of as many passes through all frames, by the pace of one that was measured.
+    /// Seconds of as many passes through all frames, extrapolated from one.
     pub(super) seconds: f64,
-    /// Seconds measured, of one or two frames.
+    /// Measured seconds of one or two frames.
     pub(super) measured: f64,
     pub(super) rms: f64,
     pub(super) perceptual: f64,
@@ -75,7 +75,7 @@ pub(super) struct Reached {
 
 /// The sizes of the runs.
 struct Sizes {
-    splits: Vec<Size>,
+    series: Vec<Size>,
     /// Photons of a pass of the reference, and passes of each of its halves.
     reference: (usize, usize),
     /// The kernel's in the last pass of the project's own size.
@@ -100,27 +100,27 @@ impl Sizes {
         let (most, longer) = (budget.most[walled], budget.longer[walled]);
         let photons = photons.min(most / budget.fewest).max(1);
         let all = (photons * passes.max(budget.fewest)).min(most);
-        let split = |share: &f64| {
+        let series = |share: &f64| {
             let photons = ((photons as f64 * share).round() as usize).max(1);
             let settings = RenderSettings { photons: photons as u64, ..project.render.clone() };
             Size { photons, passes: all / photons, radius: first_radius(&settings, rehearsal.extent()) }
         };
-        let splits: Vec<Size> = budget.shares.iter().map(split).collect();
+        let series: Vec<Size> = budget.shares.iter().map(series).collect();
         let last = |size: &Size| radius_of_pass(size.radius, size.passes - 1);
-        let radius = splits.last().map_or(0.5, last);
-        let finest = splits.iter().map(last).fold(SHARPEST * radius, f32::min);
-        let widest = splits.iter().map(|size| size.radius).fold(0.0, f32::max);
+        let radius = series.last().map_or(0.5, last);
+        let finest = series.iter().map(last).fold(SHARPEST * radius, f32::min);
+        let widest = series.iter().map(|size| size.radius).fold(0.0, f32::max);
         let frame = rehearsal.frame_at(SHARE);
         let frames = if frame < rehearsal.frame_at(1.0) { vec![frame, frame + 1] } else { vec![frame] };
         let reference = (photons, (longer * all).div_ceil(2 * photons));
-        Self { splits, reference, radius, layout: rehearsal.layout((widest, finest)), frames }
+        Self { series, reference, radius, layout: rehearsal.layout((widest, finest)), frames }
     }
 
     /// Photons of all runs.
     fn photons(&self) -> usize {
         let (photons, passes) = self.reference;
         // The pass that is timed counts as one more.
-        self.splits.iter().map(|size| size.photons * (size.passes + 1)).sum::<usize>() + 2 * photons * passes
+        self.series.iter().map(|size| size.photons * (size.passes + 1)).sum::<usize>() + 2 * photons * passes
     }
 }
 
@@ -136,14 +136,14 @@ pub(super) fn run(context: &mut Context, progress: &Progress) -> Result<Runs> {
     progress.begin("render", sizes.photons() as u64);
     let runner = Runner { rehearsal: &rehearsal, project, sizes: &sizes, scratch: context.scratch, progress };
     let halves = [runner.half(1)?, runner.half(2)?];
-    let shown = Shown { view: project.render.view.view(), width: budget.width };
-    let Some(reference) = Reference::new([&halves[0], &halves[1]], sizes.radius, &rehearsal, &shown) else {
+    let display = Display { view: project.render.view.view(), width: budget.width };
+    let Some(reference) = Reference::new([&halves[0], &halves[1]], sizes.radius, &rehearsal, &display) else {
         return Err(Error::value("keys", "no light falls on the receiver, so there is none to measure"));
     };
     drop(halves);
-    let mut splits = Vec::new();
-    for &size in &sizes.splits {
-        splits.push(runner.split(&reference, size)?);
+    let mut series = Vec::new();
+    for &size in &sizes.series {
+        series.push(runner.series(&reference, size)?);
     }
     let planned = rehearsal.planned();
     Ok(Runs {
@@ -152,7 +152,7 @@ pub(super) fn run(context: &mut Context, progress: &Progress) -> Result<Runs> {
         planned,
         frame: sizes.frames[0],
         frames: rehearsal.frames().count(),
-        splits,
+        series,
     })
 }
 
@@ -161,7 +161,7 @@ fn has_walls(project: &Project) -> bool {
     project.fits() && project.constraints.iter().any(is_wall)
 }
 
-/// What the runs have in common.
+/// The input that all runs share.
 struct Runner<'a> {
     rehearsal: &'a Rehearsal,
     project: &'a Project,
@@ -190,7 +190,7 @@ impl Runner<'_> {
         })
     }
 
-    /// The light of one half of the reference, by a seed of its own, not spread.
+    /// The unfiltered light of one half of the reference, with a seed of its own.
     fn half(&self, number: u64) -> Result<Vec<ReceiverTexture>> {
         let (photons, passes) = self.sizes.reference;
         let seed = self.project.seed.wrapping_add(number);
@@ -218,13 +218,13 @@ impl Runner<'_> {
         Ok(seconds)
     }
 
-    /// Passes of one size, looked at after 1, 2, 4, ... of them and after the last. They end where their kernel gets finer than
-    /// that of the reference: what is sharper than it would count as wrong.
-    fn split(&self, reference: &Reference, size: Size) -> Result<Split> {
+    /// The passes of one size, measured after 1, 2, 4, ... of them and after the last. They end where their kernel gets finer
+    /// than that of the reference: a sharper picture would count as an error.
+    fn series(&self, reference: &Reference, size: Size) -> Result<Series> {
         let Size { photons, passes, radius } = size;
         // Rounding must not part a kernel from its equal.
-        let is_told = |passes: &usize| radius_of_pass(radius, passes - 1) > 0.999 * reference.radius;
-        let passes = (1..=passes).take_while(is_told).last().unwrap_or(1);
+        let is_resolved = |passes: &usize| radius_of_pass(radius, passes - 1) > 0.999 * reference.radius;
+        let passes = (1..=passes).take_while(is_resolved).last().unwrap_or(1);
         let take = Take { radius, shrinks: true, ..self.take(photons, passes) };
         let pace = self.pace(size)?;
         let (mut rows, mut pictures) = (Vec::new(), Vec::new());
@@ -232,9 +232,9 @@ impl Runner<'_> {
             if !passed.passes.is_power_of_two() && passed.passes < passes {
                 return Ok(());
             }
-            let Distance { rms, perceptual, flicker, picture } =
-                reference.distance(&Seen::of(passed, take.frames.len(), self.rehearsal)?);
-            rows.push(Reached {
+            let LightError { rms, perceptual, flicker, picture } =
+                reference.distance(&PlanePictures::of(passed, take.frames.len(), self.rehearsal)?);
+            rows.push(PassError {
                 passes: passed.passes,
                 seconds: pace * passed.passes as f64,
                 measured: passed.seconds,
@@ -246,6 +246,6 @@ impl Runner<'_> {
             pictures.push(picture);
             Ok(())
         })?;
-        Ok(Split { photons, radius, rows, pictures })
+        Ok(Series { photons, radius, rows, pictures })
     }
 }

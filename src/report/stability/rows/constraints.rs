@@ -72,7 +72,8 @@ pub(super) fn lines(_: Effort) -> Vec<Row> {
 
 /// Walls that close, touch, crowd, and leave gaps of a cell.
 pub(super) fn walls(effort: Effort) -> Vec<Row> {
-    const WHY: &str = "no photon crosses a wall that a way leads around; whom none reaches is counted";
+    const WHY: &str =
+        "no photon crosses a wall that a path leads around; photons that none reaches are counted";
     let count: usize = effort.pick(500, 50_000);
     let cell = 1.0 / effort.pick(32.0, 128.0);
     let row = |name: &str, walls: Vec<Vec<ActiveWall>>, photons: [&Vec<Vec2>; 2], unreachable: [usize; 2]| {

@@ -1,7 +1,5 @@
 //! Rows of the flow itself: its grid, its photons, its steps and its turbulence.
 
-use std::f32::EPSILON;
-
 use glam::Vec2;
 
 use super::row::Expected::{Fails, Holds, Refused};
@@ -146,9 +144,9 @@ pub(super) fn rest(_: Effort) -> Vec<Row> {
     let same = |flow: &mut FlowCase| flow.target = flow.source.clone();
     // Half a plane unit apart, no more than rounding moves them.
     let rounded =
-        |flow: &mut FlowCase| flow.target = flow.source.iter().map(|p| *p * (1.0 + EPSILON)).collect();
+        |flow: &mut FlowCase| flow.target = flow.source.iter().map(|p| *p * (1.0 + f32::EPSILON)).collect();
     vec![
         Row::flow("the source itself", Holds("nothing moves, and no number is 0/0"), same),
-        Row::flow("the source but for rounding", Holds("ways of 1e-8 are ways like others"), rounded),
+        Row::flow("the source but for rounding", Holds("paths of 1e-8 are paths like others"), rounded),
     ]
 }
