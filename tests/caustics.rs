@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
-use lightloom_core::pipeline::{CheckReport, Pipeline, Summary};
+use lightloom_core::engine::{CheckReport, Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;

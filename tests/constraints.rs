@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use lightloom_core::pipeline::{CheckReport, Pipeline, Summary};
+use lightloom_core::engine::{CheckReport, Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress, Result};
 use serde_json::{Value, json};

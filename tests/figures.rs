@@ -9,7 +9,7 @@ use crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::Constraint;
-use lightloom_core::pipeline::{Pipeline, Quality, Summary};
+use lightloom_core::engine::{Pipeline, Quality, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn path(name: &str) -> PathBuf {

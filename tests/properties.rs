@@ -11,7 +11,7 @@ use std::path::Path;
 use crossing::crosses;
 use glam::{DVec3, Vec2, Vec3};
 use lightloom_core::Progress;
-use lightloom_core::pipeline::{Pipeline, Summary};
+use lightloom_core::engine::{Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use proptest::prelude::*;
 use scenes::{Stage, glass, point, sphere_obj};

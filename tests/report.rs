@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use lightloom_core::flow::FitKind;
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};

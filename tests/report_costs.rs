@@ -6,7 +6,7 @@ mod letters;
 use std::path::Path;
 use std::time::Duration;
 
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use lightloom_core::{Error, Progress};

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::{Cell, Effort, Part, Picture, Report, Row, report};
 use lightloom_core::{Error, Progress};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::Vec2;
 use lightloom_core::flow::Movement;
 use lightloom_core::photon::Tracer;
-use lightloom_core::pipeline::{Detail, Pipeline, Sketch, Sketcher};
+use lightloom_core::engine::{Detail, Pipeline, Sketch, Sketcher};
 use lightloom_core::project::{AssetFolder, Ease, Project};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};

@@ -7,7 +7,7 @@ mod sketches;
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
 use lightloom_core::flow::{FlowSettings, GridSize};
-use lightloom_core::pipeline::{Detail, Exposure, Look, Pipeline};
+use lightloom_core::engine::{Detail, Exposure, Look, Pipeline};
 use lightloom_core::project::{AssetFolder, Ease};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;

@@ -19,7 +19,7 @@ const ORDER: [&str; 16] = [
     "render",
     "export",
     "project",
-    "pipeline",
+    "engine",
     "report",
     "lib",
 ];

@@ -14,7 +14,7 @@ use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::export::FrameFormat;
 use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Pipeline;
 use lightloom_core::project::{AssetFolder, Project, Shows};
 use lightloom_core::target::{ImageTarget, Placement};
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightloom_core::export::FrameFormat;
-use lightloom_core::pipeline::Quality;
+use lightloom_core::engine::Quality;
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 

@@ -1,7 +1,7 @@
 //! `lightloom check`: what would be done, what is left out and why, what is wrong, what it would cost.
 
 use lightloom_core::Result;
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Pipeline;
 use lightloom_core::project::AssetFolder;
 
 use super::args::CheckArgs;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lightloom_core::flow::Movement;
-use lightloom_core::pipeline::{Comparison, Pipeline, Summary, prepare_folder, write_report};
+use lightloom_core::engine::{Comparison, Pipeline, Summary, prepare_folder, write_report};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::{Report, Stability};
 use lightloom_core::{Progress, Result};

@@ -52,7 +52,7 @@ pub mod export;
 
 pub mod project;
 
-pub mod pipeline;
+pub mod engine;
 
 pub mod report;
 

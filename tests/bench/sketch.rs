@@ -7,7 +7,7 @@ use std::sync::Arc;
 use divan::Bencher;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, Wall};
-use lightloom_core::pipeline::{Detail, Exposure, Sketch, Sketcher};
+use lightloom_core::engine::{Detail, Exposure, Sketch, Sketcher};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn main() {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use lightloom_core::Progress;
-use lightloom_core::pipeline::{Detail, Sketch, Sketcher};
+use lightloom_core::engine::{Detail, Sketch, Sketcher};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;

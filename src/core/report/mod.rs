@@ -27,7 +27,7 @@ pub use stability::{Bound, EnergyOf, Limits, Measured, Size, Stability, Stabilit
 pub use workbench::Effort;
 
 use crate::files::write_atomic;
-use crate::pipeline::Pipeline;
+use crate::engine::Pipeline;
 use crate::project::Project;
 use crate::{Error, Progress, Result};
 use section::SECTIONS;

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::pipeline::{FirstMove, Pipeline, Quality, Summary};
+use crate::engine::{FirstMove, Pipeline, Quality, Summary};
 use crate::project::Project;
 use crate::{Error, Progress, Result};
 

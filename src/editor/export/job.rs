@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use lightloom_core::pipeline::{Onlooker, Pipeline, Plan, Summary, prepare_folder, write_report};
+use lightloom_core::engine::{Onlooker, Pipeline, Plan, Summary, prepare_folder, write_report};
 use lightloom_core::progress::Snapshot;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::render::Image;

@@ -2,7 +2,7 @@
 
 use egui::{Color32, RichText, Ui};
 use lightloom_core::flow::FlowReport;
-use lightloom_core::pipeline::{Detail, Sketch};
+use lightloom_core::engine::{Detail, Sketch};
 
 use super::setting::{NAMES, format_number};
 use super::{Desk, fold, section};

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lightloom_core::pipeline::{Detail, Sketch};
+use lightloom_core::engine::{Detail, Sketch};
 use lightloom_core::progress::Snapshot;
 use lightloom_core::{Error, Progress, Result};
 

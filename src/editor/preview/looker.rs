@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::ColorImage;
 use lightloom_core::Result;
-use lightloom_core::pipeline::{Exposure, Look};
+use lightloom_core::engine::{Exposure, Look};
 use lightloom_core::render::{Mark, PlaneView, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 

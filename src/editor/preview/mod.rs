@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
-use lightloom_core::pipeline::{Shot, Sketch};
+use lightloom_core::engine::{Shot, Sketch};
 use lightloom_core::project::Project;
 pub use looker::Seen;
 pub use painter::{Painted, Plane};

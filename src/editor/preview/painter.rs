@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Color32, ColorImage};
 use glam::Vec3;
-use lightloom_core::pipeline::{Detail, Exposure, Shot, Sketch};
+use lightloom_core::engine::{Detail, Exposure, Shot, Sketch};
 use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
 use rayon::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lightloom_core::pipeline::Shot;
+use lightloom_core::engine::Shot;
 use lightloom_core::{Error, Result};
 
 use super::subject::{Studio, Subject};

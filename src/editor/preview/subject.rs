@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightloom_core::pipeline::Sketcher;
+use lightloom_core::engine::Sketcher;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Result};
 

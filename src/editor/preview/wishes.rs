@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightloom_core::pipeline::{Shot, Sketch};
+use lightloom_core::engine::{Shot, Sketch};
 use lightloom_core::project::Project;
 use lightloom_core::render::{Paper, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};

@@ -7,7 +7,7 @@ use super::super::plot::{Axis, Line, Panel, Plot, Style};
 use super::super::workbench::Workbench;
 use super::{Section, nothing_moves};
 use crate::flow::{FitKind, FlowSettings, Movement, fit_segment, metric};
-use crate::pipeline::{FirstMove, Pipeline, Quality};
+use crate::engine::{FirstMove, Pipeline, Quality};
 use crate::project::Project;
 use crate::{Progress, Result};
 

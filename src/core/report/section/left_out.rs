@@ -8,7 +8,7 @@ use super::stage::fit_seconds;
 use super::{Section, nothing_moves};
 use crate::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
 use crate::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::{Progress, Result};
 
 pub(in crate::report) const SECTION: Section =

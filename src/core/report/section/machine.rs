@@ -17,7 +17,7 @@ use super::stage::{ENOUGH, carry_seconds, coupled, splat_seconds, ways, without_
 use super::{Section, nothing_moves};
 use crate::flow::fit::Fitter;
 use crate::flow::{Course, FlowSettings, fit_segment};
-use crate::pipeline::{FirstMove, Traced};
+use crate::engine::{FirstMove, Traced};
 use crate::render::{ProgressiveRender, TextureLayout, Workspace};
 use crate::{Progress, Result};
 

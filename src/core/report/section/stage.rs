@@ -6,7 +6,7 @@ use super::super::workbench::fastest;
 use crate::flow::field::Grid;
 use crate::flow::fit::{Blend, FitSettings};
 use crate::flow::{Carrier, Course, Fields, FlowSettings, fit_segment};
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::render::splat::Splatter;
 use crate::render::{ReceiverTexture, TextureLayout};
 use crate::{Progress, Result};

@@ -6,7 +6,7 @@ use super::super::workbench::Workbench;
 use super::{Section, nothing_moves};
 use crate::export::png::encode;
 use crate::flow::{FlowSettings, GridSize};
-use crate::pipeline::{Still, Stills, covered};
+use crate::engine::{Still, Stills, covered};
 use crate::project::Project;
 use crate::render::density::{Smoother, default_radius};
 use crate::render::splat::Splatter;

@@ -3,7 +3,7 @@
 use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
 use super::super::workbench::Workbench;
 use super::Section;
-use crate::pipeline::StageCost;
+use crate::engine::StageCost;
 use crate::project::Project;
 use crate::{Progress, Result};
 

@@ -10,7 +10,7 @@ use super::Size;
 use super::case::{EnergyOf, Limits, Measured};
 use super::solid::{Shape, Solid};
 use crate::photon::{Photons, TraceReport, Tracer};
-use crate::pipeline::{Pipeline, Summary};
+use crate::engine::{Pipeline, Summary};
 use crate::project::{AssetFolder, Project};
 use crate::scene::light::PointLight;
 use crate::scene::material::{Glass, Material};

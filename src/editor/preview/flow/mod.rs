@@ -6,7 +6,7 @@ mod sample;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec2;
-use lightloom_core::pipeline::Sketch;
+use lightloom_core::engine::Sketch;
 use lightloom_core::project::Project;
 
 use super::worker::{Share, Turn, Worker};

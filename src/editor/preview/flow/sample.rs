@@ -2,7 +2,7 @@
 
 use glam::{Vec2, vec2};
 use lightloom_core::Progress;
-use lightloom_core::pipeline::FieldAt;
+use lightloom_core::engine::FieldAt;
 
 use super::{FlowPicture, HeatMap, Request};
 use crate::editor::session::FieldMap;

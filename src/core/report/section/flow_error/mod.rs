@@ -13,7 +13,7 @@ use glam::Vec2;
 
 use super::{Section, nothing_moves};
 use crate::flow::{FlowSettings, fit_segment};
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::project::Project;
 use crate::report::chapter::Chapter;
 use crate::report::pareto::Offer;

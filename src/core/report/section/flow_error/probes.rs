@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use crate::flow::{Carrier, Fields};
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::{Progress, Result};
 
 /// Photons looked at, at most.

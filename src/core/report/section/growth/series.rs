@@ -8,7 +8,7 @@ use crate::constraint::{ActiveWall, Wall, Window};
 use crate::flow::fit::Fitter;
 use crate::flow::{Course, FlowSettings, fit_segment};
 use crate::math::rng::{Purpose, Stream};
-use crate::pipeline::{FirstMove, Traced};
+use crate::engine::{FirstMove, Traced};
 use crate::render::TextureLayout;
 use crate::report::workbench::{Workbench, fastest};
 use crate::{Error, Progress, Result};

@@ -11,7 +11,7 @@ use glam::Vec2;
 use super::{Section, nothing_moves};
 use crate::matching::{MapSettings, Matching, dual_bound, transport_map_with};
 use crate::math::rng::{Purpose, Stream};
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::report::chapter::Chapter;
 use crate::report::workbench::Workbench;
 use crate::{Progress, Result};

@@ -11,7 +11,7 @@ use crate::matching::{
     AroundMap, ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap,
     mean_square_distance, transport_map, transport_map_with,
 };
-use crate::pipeline::FirstMove;
+use crate::engine::FirstMove;
 use crate::project::Project;
 use crate::report::workbench::fastest;
 use crate::{Progress, Result};

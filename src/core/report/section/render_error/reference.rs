@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::Result;
-use crate::pipeline::{Passed, Rehearsal};
+use crate::engine::{Passed, Rehearsal};
 use crate::render::density::Smoother;
 use crate::render::{Image, ReceiverTexture, View, plane_picture};
 use crate::report::crop::{Crop, shrunk};

@@ -3,7 +3,7 @@
 use super::reference::{Distance, Reference, SHARPEST, Seen, Shown, light};
 use crate::constraint::Constraint;
 use crate::export::evenly_chosen;
-use crate::pipeline::{Passed, Rehearsal, Take};
+use crate::engine::{Passed, Rehearsal, Take};
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
 use crate::render::{Image, ReceiverTexture, RenderSettings, TextureLayout, first_radius};

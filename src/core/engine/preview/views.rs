@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Sketcher;
 use super::exposure::{finest_radius, margin};
-use crate::pipeline::meter::Meter;
-use crate::pipeline::seen::Seen;
+use crate::engine::meter::Meter;
+use crate::engine::seen::Seen;
 use crate::project::Project;
 use crate::render::{
     Image, LookLight, Mark, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, Visible, layout_for,

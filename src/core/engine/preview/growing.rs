@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::outcome::{Course, Sketch};
-use crate::pipeline::light::KeyPhotons;
-use crate::pipeline::motion::Segment;
+use crate::engine::light::KeyPhotons;
+use crate::engine::motion::Segment;
 
 /// Snapshots of one sketch at most, about: each holds one pointer per frame.
 const SNAPSHOTS: usize = 400;
