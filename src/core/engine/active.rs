@@ -1,4 +1,4 @@
-//! What the artist drew: as it acts in one segment, as it is shown on a sheet, and what is odd about it.
+//! The drawn constraints: those that act in a segment, their picture on a contact sheet, and notes on odd ones.
 
 use glam::Vec2;
 
@@ -11,35 +11,35 @@ const LINE_WIDTH: f32 = 0.006;
 /// Cells along the longer side in which lines are looked at for conflicts.
 const CELLS: f32 = 64.0;
 
-/// Lines and walls of one segment.
+/// The lines and walls that act in one segment.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Acting {
+pub(super) struct ActiveConstraints {
     pub(super) lines: Vec<ActiveLine>,
     pub(super) walls: Vec<ActiveWall>,
 }
 
-/// What acts from key `segment` to the next, on the rectangle `extent`.
-pub(super) fn acting(project: &Project, segment: usize, extent: Vec2) -> Acting {
-    let mut acting = Acting::default();
+/// The constraints that act from key frame `segment` to the next, on the rectangle `extent`.
+pub(super) fn active(project: &Project, segment: usize, extent: Vec2) -> ActiveConstraints {
+    let mut active = ActiveConstraints::default();
     if !project.fits() {
-        return acting;
+        return active;
     }
     for constraint in &project.constraints {
         let Some(window) = window(project, constraint, segment) else { continue };
         match constraint {
-            Constraint::DirectedLine(line) => acting.lines.extend(line.active(window, extent)),
-            Constraint::Wall(wall) => acting.walls.extend(wall.active(window)),
+            Constraint::DirectedLine(line) => active.lines.extend(line.active(window, extent)),
+            Constraint::Wall(wall) => active.walls.extend(wall.active(window)),
         }
     }
-    acting
+    active
 }
 
-/// What acts in each segment.
-pub(super) fn all_acting(project: &Project, extent: Vec2) -> Vec<Acting> {
-    (1..project.keys.len()).map(|next| acting(project, next - 1, extent)).collect()
+/// The constraints that act in each segment.
+fn all_active(project: &Project, extent: Vec2) -> Vec<ActiveConstraints> {
+    (1..project.keys.len()).map(|next| active(project, next - 1, extent)).collect()
 }
 
-/// When a constraint acts in a segment; none where it does not.
+/// The window of a segment in which a constraint acts; none where it does not.
 fn window(project: &Project, constraint: &Constraint, segment: usize) -> Option<Window> {
     let [from, to] = [&project.keys[segment], &project.keys[segment + 1]];
     match constraint.span() {
@@ -48,19 +48,19 @@ fn window(project: &Project, constraint: &Constraint, segment: usize) -> Option<
     }
 }
 
-/// Everything that was drawn and is switched on, for a sheet: lines in orange, walls in magenta.
-pub(super) fn shown(project: &Project) -> Vec<Drawn> {
-    let shown = |constraint: &Constraint| {
+/// The enabled constraints as they are drawn on a sheet: lines in orange, walls in magenta.
+pub(super) fn drawn(project: &Project) -> Vec<Drawn> {
+    let drawn = |constraint: &Constraint| {
         let points = stroke::clean(constraint.points());
         match constraint {
             Constraint::DirectedLine(_) => Drawn { points, colour: ORANGE, width: LINE_WIDTH, arrow: true },
             Constraint::Wall(wall) => Drawn { points, colour: MAGENTA, width: wall.thickness, arrow: false },
         }
     };
-    project.constraints.iter().filter(|constraint| constraint.is_enabled()).map(shown).collect()
+    project.constraints.iter().filter(|constraint| constraint.is_enabled()).map(drawn).collect()
 }
 
-/// What is odd about what was drawn: what does nothing, contradicts itself, or does other than it looks.
+/// Notes on constraints that do nothing, contradict each other, or do other than they look.
 pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<String> {
     if !project.fits() || project.keys.len() < 2 {
         return Vec::new();
@@ -79,17 +79,17 @@ pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<String> {
         };
         notes.extend(odd.map(|odd| format!("constraints[{i}]: {odd}")));
     }
-    for acting in all_acting(project, extent) {
-        let walls: Vec<&ActiveWall> = acting.walls.iter().collect();
+    for active in all_active(project, extent) {
+        let walls: Vec<&ActiveWall> = active.walls.iter().collect();
         notes.extend(Barriers::new(&walls, extent).notes().iter().cloned());
-        notes.extend(conflict(&acting.lines));
+        notes.extend(conflict(&active.lines));
     }
     notes.sort();
     notes.dedup();
     notes
 }
 
-/// What is odd about one constraint on the receiver.
+/// A note on one constraint on the receiver.
 fn odd(constraint: &Constraint, extent: Vec2, cell: f32) -> Option<String> {
     match constraint {
         Constraint::DirectedLine(line) => {

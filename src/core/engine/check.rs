@@ -1,12 +1,14 @@
-//! What `check` says of a project before any work is done.
+//! The report of `check`: the work ahead, before any of it is done.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::Engine;
 use super::grouping::notes_on_dark;
-use super::loader::Prepared;
+use super::meter::Meter;
+use super::prepare::Prepared;
 use super::plan::{LeftOut, Plan};
 use crate::photon::Tracer;
 use crate::project::{Project, Shows};
@@ -48,13 +50,23 @@ pub struct CastCaustic {
     pub watts: f64,
 }
 
+impl Engine {
+    /// Reports the work ahead and its cost. Opens every file the project names, and traces a few photons to see which
+    /// caustics there are.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn check(&self, project: &Project) -> Result<CheckReport> {
+        let (meter, progress) = (Meter::quick(), Progress::new());
+        let prepared = self.prepare(project, &meter, &progress)?;
+        let job = self.job(&prepared, &meter, &progress)?;
+        CheckReport::new(&prepared, job.tracer().as_ref(), &progress)
+    }
+}
+
 impl CheckReport {
-    pub(super) fn new(
-        project: &Project,
-        prepared: &Prepared,
-        tracer: Option<&Tracer>,
-        progress: &Progress,
-    ) -> Result<Self> {
+    fn new(prepared: &Prepared, tracer: Option<&Tracer>, progress: &Progress) -> Result<Self> {
+        let project = &prepared.project;
         let key = |key: &crate::project::KeyFrame| {
             let mut text = format!("frame {}: {}", key.frame, describe(&key.shows));
             for (name, caustic) in &key.caustics {
@@ -134,7 +146,7 @@ fn cast(
     progress: &Progress,
 ) -> Result<Vec<CastCaustic>> {
     let Some(scene) = &prepared.scene else { return Ok(Vec::new()) };
-    let grouping = prepared.supplies.grouping();
+    let grouping = prepared.sources.grouping();
     let (photons, _) = tracer.trace(0, PILOT, progress)?;
     let total = photons.total_flux().element_sum();
     let mut watts = BTreeMap::<(u16, u16), f64>::new();

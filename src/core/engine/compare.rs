@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::acting;
-use super::loader::Prepared;
 use super::meter::Meter;
-use super::{Pipeline, Rendered, Summary, Work};
+use super::prepare::Prepared;
+use super::render::{Output, Rendered};
+use super::{Engine, Summary, active};
 use crate::export::{Comparison as Sheet, Drawn, Overlay, Row, evenly_chosen, write_comparison};
 use crate::flow::Movement;
 use crate::matching::Method;
@@ -61,16 +61,16 @@ pub struct Compared {
     pub summary: Summary,
 }
 
-impl Pipeline {
+impl Engine {
     /// Renders the project by every method into folders of their names below `out`, and one sheet of all, `compare.png`. At
     /// most `frames` frames, evenly chosen from those of the project; all of them where that is absent.
     ///
     /// A run that is stopped still writes the sheet of what is there.
     ///
     /// # Errors
-    /// As [`Pipeline::render`]; cancelled before the first method was finished.
+    /// As [`Engine::render`]; cancelled before the first method was finished.
     pub fn compare(
-        &mut self,
+        &self,
         project: &Project,
         frames: Option<usize>,
         out: &Path,
@@ -79,8 +79,8 @@ impl Pipeline {
     ) -> Result<Comparison> {
         let variants = variants(project, frames)?;
         let prepared = variants.iter().map(|(_, variant)| {
-            let mut meter = Meter::default();
-            self.prepare(variant, &mut meter, progress).map(|prepared| (prepared, meter))
+            let meter = Meter::default();
+            self.prepare(variant, &meter, progress).map(|prepared| (prepared, meter))
         });
         let prepared = prepared.collect::<Result<Vec<_>>>()?;
         for (prepared, _) in &prepared {
@@ -89,11 +89,11 @@ impl Pipeline {
         progress.set_road(road(&prepared));
         let mut done: Vec<(Movement, Rendered)> = Vec::new();
         let mut stopped = false;
-        for ((method, variant), (prepared, meter)) in variants.iter().zip(prepared) {
+        for ((method, _), (prepared, meter)) in variants.iter().zip(prepared) {
             let folder = out.join(method.name());
             std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
-            let work = Work { out: &folder, progress, saved, onlooker: &() };
-            match self.frames(variant, prepared, meter, &work) {
+            let output = Output { folder: &folder, progress, saved, observer: &() };
+            match self.render_prepared(prepared, &meter, &output) {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {
                     let rendered = rendered?;
@@ -107,7 +107,7 @@ impl Pipeline {
         }
         let comparison = Comparison::new(project, &done, stopped);
         let path = out.join("compare.png");
-        comparison.write_sheet(&path, &acting::shown(project), &done)?;
+        comparison.write_sheet(&path, &active::drawn(project), &done)?;
         saved(&path);
         Ok(comparison)
     }
@@ -209,8 +209,8 @@ impl Compared {
         };
         // All methods pair the same points, so that what one knows of their optimum holds for all.
         let bound =
-            |segment: usize| all.iter().find_map(|(_, other)| other.motion.segments.get(segment)?.cost.bound);
-        let segments = rendered.motion.segments.iter().enumerate();
+            |segment: usize| all.iter().find_map(|(_, other)| other.fitted.flow.segments.get(segment)?.cost.bound);
+        let segments = rendered.fitted.flow.segments.iter().enumerate();
         let ratios = segments.filter_map(|(i, segment)| segment.cost.ratio(bound(i)));
         Self {
             method,

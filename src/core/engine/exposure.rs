@@ -3,19 +3,23 @@
 //! All frames refine together, so a run that is stopped has every frame at the quality reached so far. Nothing of a
 //! pass outlives it but its sum in the [`ProgressiveRender`].
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 
-use super::batch::Batch;
-use super::motion::Segment;
-use super::ride::Ride;
-use super::slots::Slots;
+use super::flow::FittedSegment;
+use super::frame_times::FrameTimes;
+use super::job::Job;
+use super::key_photons::{all_flux, all_positions};
+use super::trajectories::SegmentTrajectories;
+use super::walk::{MapsFrom, Walk};
 use crate::flow::{Astray, flux};
 use crate::render::splat::Outside;
 use crate::render::{ProgressiveRender, Workspace};
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
-/// Where the photons of the passes land.
-pub(super) struct Exposer<'a> {
+/// Adds the photons of passes to all frames.
+pub(super) struct Exposures<'a> {
     render: &'a ProgressiveRender,
     /// Two, in turn: one is filled while the other is kept.
     works: [Workspace; 2],
@@ -24,15 +28,15 @@ pub(super) struct Exposer<'a> {
     positions: Vec<Vec2>,
     flux: Vec<Vec3>,
     /// Over all frames and passes.
-    pub(super) account: Account,
+    pub(super) balance: EnergyBalance,
 }
 
 /// How well the light was kept, over all frames and passes.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Account {
+pub(super) struct EnergyBalance {
     /// Most photons of one frame that flowed beyond the texture.
     pub(super) outside: usize,
-    /// Flux of the photons over that of the source, as bright as its caustics are asked to be; the frame farthest from 1.
+    /// Flux of the photons over that of the source, as bright as its caustics are requested to be; the frame farthest from 1.
     pub(super) flux_ratio: Option<f64>,
     /// Flux in the texture over flux of the photons on it, the frame farthest from 1.
     pub(super) texture_ratio: Option<f64>,
@@ -42,7 +46,7 @@ pub(super) struct Account {
     pub(super) unreachable: usize,
 }
 
-impl<'a> Exposer<'a> {
+impl<'a> Exposures<'a> {
     pub(super) fn new(render: &'a ProgressiveRender) -> Self {
         Self {
             render,
@@ -50,74 +54,81 @@ impl<'a> Exposer<'a> {
             pending: None,
             positions: Vec::new(),
             flux: Vec::new(),
-            account: Account::default(),
+            balance: EnergyBalance::default(),
         }
     }
 
-    /// Carries the photons of `pass` through all moments.
+    /// Carries the photons of pass number `pass` of a job through all moments, which `progress` counts. `kernel` is the pass
+    /// whose kernel is used.
+    ///
+    /// # Errors
+    /// Photons that are not finite; input and output; cancelled.
     pub(super) fn run(
         &mut self,
-        mut batch: Batch,
-        segments: &[Segment],
-        slots: &Slots,
-        pass: usize,
+        job: &Job,
+        segments: &[Arc<FittedSegment>],
+        times: &FrameTimes,
+        (pass, kernel): (usize, usize),
         progress: &Progress,
     ) -> Result<()> {
+        let mut walk = Walk::start(job, pass as u64)?;
         if segments.is_empty() {
-            let at = || batch.at.iter();
-            self.positions = at().flat_map(|group| &group.positions).copied().collect();
-            self.flux = at().flat_map(|group| &group.flux).copied().collect();
-            self.expose(0, pass, batch.asked(), |_, _| Ok(()))?;
+            self.positions = all_positions(walk.at()).collect();
+            self.flux = all_flux(walk.at()).collect();
+            self.expose(0, kernel, walk.requested(), |_, _| Ok(()))?;
             progress.advance(1);
         }
-        for (i, segment) in segments.iter().enumerate() {
-            let next = batch.next(&segment.maps, &progress.inner())?;
-            let ride = Ride::new(segment, &batch.at, &next);
-            let asked = [batch.asked(), batch.asked_next()];
-            self.carry(ride, asked, pass, slots.of_segment(i), progress)?;
-            batch.arrive(next);
+        for (i, fitted) in segments.iter().enumerate() {
+            let maps = match pass {
+                0 if job.remembers => MapsFrom::Own { bounded: true },
+                _ => MapsFrom::Others(&fitted.maps),
+            };
+            let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
+            let trajectories = SegmentTrajectories::new(fitted, &photons.from, &photons.to);
+            let moments = times.of_segment(i);
+            self.carry(trajectories, photons.requested, kernel, moments, progress)?;
         }
         self.pending.take().map_or(Ok(()), |slot| self.render.keep(slot, &self.works[1]))
     }
 
-    /// Carries the photons through the moments of one segment; `asked` is the flux they should have at its ends.
+    /// Carries the photons through the moments of one segment; `requested` is the flux they should have at its ends.
     fn carry(
         &mut self,
-        mut ride: Ride,
-        asked: [f64; 2],
-        pass: usize,
+        mut trajectories: SegmentTrajectories,
+        requested: [f64; 2],
+        kernel: usize,
         moments: impl Iterator<Item = (usize, f64)>,
         progress: &Progress,
     ) -> Result<()> {
-        self.positions.resize(ride.len(), Vec2::ZERO);
-        self.flux.resize(ride.len(), Vec3::ZERO);
+        self.positions.resize(trajectories.len(), Vec2::ZERO);
+        self.flux.resize(trajectories.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            self.expose(slot, pass, between(asked, time), |positions, flux| {
-                ride.flux_at(time, flux);
-                ride.positions_at(time, positions, &progress.inner())
+            self.expose(slot, kernel, between(requested, time), |positions, flux| {
+                trajectories.flux_at(time, flux);
+                trajectories.positions_at(time, positions, &progress.inner())
             })?;
             progress.advance(1);
             progress.check()?;
         }
-        self.account.keep_astray(ride.astray());
+        self.balance.keep_astray(trajectories.astray());
         Ok(())
     }
 
-    /// Lets `place` say where the photons stand and what they carry, and adds them to the frame of `slot`; `asked` is the flux
-    /// they should have, watts. Meanwhile the frame before goes to the store.
+    /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`; `requested` is the flux they
+    /// should have, watts. Meanwhile the frame before goes to the store.
     fn expose(
         &mut self,
         slot: usize,
-        pass: usize,
-        asked: f64,
+        kernel: usize,
+        requested: f64,
         place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
     ) -> Result<()> {
-        let Self { render, works: [work, before], pending, positions, flux, account } = self;
+        let Self { render, works: [work, before], pending, positions, flux, balance } = self;
         let keep = || pending.take().map_or(Ok(()), |slot| render.keep(slot, before));
         let expose = || {
             place(positions, flux)?;
-            let outside = render.expose(pass, positions, flux, work);
-            account.keep(outside, total(flux), asked, work.texture().total().element_sum());
+            let outside = render.expose(kernel, positions, flux, work);
+            balance.keep(outside, total(flux), requested, work.texture().total().element_sum());
             Ok(())
         };
         let (exposed, kept) = rayon::join(expose, keep);
@@ -128,23 +139,23 @@ impl<'a> Exposer<'a> {
     }
 }
 
-impl Account {
+impl EnergyBalance {
     /// Notes the photons of one segment that walls did not keep.
     pub(super) fn keep_astray(&mut self, astray: Astray) {
         self.crossings += astray.crossings;
         self.unreachable = self.unreachable.max(astray.unreachable);
     }
 
-    /// Notes one frame: what lies beyond the texture, the flux of its photons, that asked for, and that in the texture, watts.
-    fn keep(&mut self, outside: Outside, flux: f64, asked: f64, lit: f64) {
+    /// Notes one frame: what lies beyond the texture, the flux of its photons, that requested for, and that in the texture, watts.
+    fn keep(&mut self, outside: Outside, flux: f64, requested: f64, lit: f64) {
         self.outside = self.outside.max(outside.photons);
-        self.keep_flux_ratio(flux, asked);
+        self.keep_flux_ratio(flux, requested);
         farther(&mut self.texture_ratio, lit, flux - outside.flux.element_sum());
     }
 
-    /// Notes the flux of one frame's photons against what is asked for, both in watts.
-    pub(super) fn keep_flux_ratio(&mut self, flux: f64, asked: f64) {
-        farther(&mut self.flux_ratio, flux, asked);
+    /// Notes the flux of one frame's photons against what is requested for, both in watts.
+    pub(super) fn keep_flux_ratio(&mut self, flux: f64, requested: f64) {
+        farther(&mut self.flux_ratio, flux, requested);
     }
 }
 

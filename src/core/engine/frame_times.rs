@@ -1,17 +1,17 @@
-//! Which moments must be rendered for the frames asked for: frames that show the same moment share one.
+//! The moments of the requested frames. Frames that show the same moment share one.
 
 use crate::project::{KeyFrame, Moment, moment};
 
-/// The different moments of a list of frames, in the order the photons pass them.
+/// The distinct moments of a list of frames, in the order in which photons pass them.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Slots {
+pub(super) struct FrameTimes {
     /// Moments, segment by segment, times rising.
     pub(super) moments: Vec<Moment>,
-    /// For each frame asked for, in the order asked: its number and the index of its moment.
+    /// For each requested frame, in the requested order: its number and the index of its moment.
     pub(super) frames: Vec<(i32, usize)>,
 }
 
-impl Slots {
+impl FrameTimes {
     pub(super) fn new(keys: &[KeyFrame], frames: &[i32]) -> Self {
         let mut moments: Vec<Moment> = frames.iter().map(|&frame| moment(keys, frame)).collect();
         let order = |a: &Moment, b: &Moment| a.segment.cmp(&b.segment).then(a.time.total_cmp(&b.time));
@@ -45,7 +45,7 @@ mod tests {
             caustics: Default::default(),
             ease: Ease::Linear,
         };
-        let slots = Slots::new(&[key(1), key(3), key(5)], &[9, 4, 2, 0, 1, 7]);
+        let slots = FrameTimes::new(&[key(1), key(3), key(5)], &[9, 4, 2, 0, 1, 7]);
         let times: Vec<_> = slots.moments.iter().map(|m| (m.segment, m.time)).collect();
         assert_eq!(times, [(0, 0.0), (0, 0.5), (1, 0.5), (1, 1.0)]);
         assert_eq!(slots.frames, [(9, 3), (4, 2), (2, 1), (0, 0), (1, 0), (7, 3)]);

@@ -1,11 +1,11 @@
-//! From the gathered light of all frames to files.
+//! Writes the gathered light of all frames to files.
 
 use std::path::Path;
 use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use super::slots::Slots;
+use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, sheet, write_frame};
 use crate::flow::Movement;
@@ -23,30 +23,31 @@ const SHEET_WIDTH: usize = 480;
 /// Small pictures in screen values with the numbers of their frames.
 pub(super) type Thumbnails = Vec<(i32, Image)>;
 
-/// What every frame of a run is made with.
-pub(super) struct Finisher<'a> {
+/// Everything that the frames of a run are made from.
+pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
     pub(super) render: &'a ProgressiveRender,
     pub(super) visible: &'a Visible,
     pub(super) background: &'a Image,
-    pub(super) out: &'a Path,
-    /// What the artist drew, for the sheet.
+    /// The output folder.
+    pub(super) folder: &'a Path,
+    /// The drawn constraints, for the contact sheet.
     pub(super) drawn: &'a [Drawn],
     pub(super) plane: PlaneView,
     /// Told of each file as it is complete.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
-impl Finisher<'_> {
-    /// Writes all frames and the contact sheet; returns what had to be replaced in them, and the pictures on the sheet
-    /// with their numbers.
-    pub(super) fn run(&self, slots: &Slots, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
-        progress.begin("write", slots.frames.len() as u64);
-        let numbers: Vec<i32> = slots.frames.iter().map(|(frame, _)| *frame).collect();
+impl FrameWriter<'_> {
+    /// Writes all frames and the contact sheet; returns the replaced values, and the pictures on the sheet with their
+    /// numbers.
+    pub(super) fn run(&self, times: &FrameTimes, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
+        progress.begin("write", times.frames.len() as u64);
+        let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
         let view = self.project.render.view.view();
         let thumbnails = Mutex::new(Vec::new());
-        let repairs: Vec<(i32, Repairs)> = slots
+        let repairs: Vec<(i32, Repairs)> = times
             .frames
             .par_iter()
             .map(|&(frame, slot)| {
@@ -65,7 +66,7 @@ impl Finisher<'_> {
             .collect::<Result<_>>()?;
         let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
-        let path = self.out.join("contact_sheet.png");
+        let path = self.folder.join("contact_sheet.png");
         let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
         let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
         let overlay = Overlay { drawn: self.drawn, pixel_from_plane: &pixel_from_plane };
@@ -75,8 +76,8 @@ impl Finisher<'_> {
     }
 
     /// A frame as it stands in screen values, none where it is not among the frames of this run.
-    pub(super) fn picture(&self, slots: &Slots, frame: i32) -> Result<Option<Image>> {
-        let Some(&(_, slot)) = slots.frames.iter().find(|(number, _)| *number == frame) else {
+    pub(super) fn picture(&self, times: &FrameTimes, frame: i32) -> Result<Option<Image>> {
+        let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
         let (texture, _) = self.render.mean(slot)?;
@@ -94,7 +95,7 @@ impl Finisher<'_> {
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = Repairs::default();
         for &format in &output.formats {
-            let path = pattern.path(self.out, frame, format);
+            let path = pattern.path(self.folder, frame, format);
             all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }

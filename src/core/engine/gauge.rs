@@ -6,8 +6,8 @@ use std::time::Instant;
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::Engine;
 use super::meter::Meter;
-use super::{Pipeline, learn};
 use crate::math::rng::{Purpose, Stream};
 use crate::project::Project;
 use crate::scene::{Ray, Scene};
@@ -36,20 +36,20 @@ pub struct TraceGauge {
     pub bare_rays_per_second: f64,
 }
 
-impl Pipeline {
+impl Engine {
     /// Traces so many photons of pass 0, number by number, and times bare rays; nothing where the project traces none.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.
     pub fn gauge_tracing(
-        &mut self,
+        &self,
         project: &Project,
         counts: &[usize],
         progress: &Progress,
     ) -> Result<Option<TraceGauge>> {
-        let mut meter = Meter::quick();
-        let prepared = self.prepare(project, &mut meter, progress)?;
-        let tracer = learn(&prepared, project, &mut meter, progress)?;
+        let meter = Meter::quick();
+        let prepared = self.prepare(project, &meter, progress)?;
+        let tracer = self.job(&prepared, &meter, progress)?.tracer();
         let Some((tracer, scene)) = tracer.as_ref().zip(prepared.scene.as_deref()) else { return Ok(None) };
         let trace = |&photons: &usize| {
             let (_, report) = tracer.trace(0, photons, progress)?;

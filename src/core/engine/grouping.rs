@@ -28,7 +28,7 @@ struct Members {
 
 /// The light of one caustic on the receiver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CausticLight {
+pub struct CausticFlux {
     /// Its name in the project; none for the rest.
     pub name: Option<String>,
     /// Photons of the first pass.
@@ -109,11 +109,11 @@ impl Grouping {
     }
 
     /// What there is of each group, from its photons and their flux; empty where no caustic is named.
-    pub(super) fn lights(&self, groups: impl Iterator<Item = (usize, DVec3)>) -> Vec<CausticLight> {
+    pub(super) fn lights(&self, groups: impl Iterator<Item = (usize, DVec3)>) -> Vec<CausticFlux> {
         if self.count() == 1 {
             return Vec::new();
         }
-        let light = |(group, (photons, flux)): (usize, (usize, DVec3))| CausticLight {
+        let light = |(group, (photons, flux)): (usize, (usize, DVec3))| CausticFlux {
             name: self.name(group).map(str::to_owned),
             photons,
             watts: flux.element_sum(),
@@ -165,7 +165,7 @@ pub(super) fn notes_on_names(scene: &Scene) -> Vec<String> {
 }
 
 /// What the artist should know of named caustics without a photon.
-pub(super) fn notes_on_dark(caustics: &[CausticLight]) -> Vec<String> {
+pub(super) fn notes_on_dark(caustics: &[CausticFlux]) -> Vec<String> {
     let dark = caustics.iter().filter(|caustic| caustic.photons == 0);
     let note = |name: &String| {
         format!("caustic '{name}' has no photons: none of its light falls on the receiver by way of its mesh")

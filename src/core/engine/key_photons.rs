@@ -4,11 +4,11 @@ use glam::{DVec3, Vec2, Vec3};
 
 /// The light of one group in one pass.
 pub(super) struct GroupLight {
-    /// The traced photons where a key shows them.
+    /// The traced photons; absent where no key frame shows them.
     pub(super) physical: Option<KeyPhotons>,
-    /// Flux of all its photons, watts, which the other keys share out.
+    /// Flux of all photons, watts, which the other key frames share out.
     pub(super) total: DVec3,
-    /// How many they are.
+    /// Number of photons.
     pub(super) count: usize,
 }
 
@@ -22,37 +22,17 @@ pub(super) struct PassLight {
 pub(super) struct KeyPhotons {
     /// Plane coordinates.
     pub(super) positions: Vec<Vec2>,
-    /// RGB flux in watts.
+    /// RGB flux, watts.
     pub(super) flux: Vec<Vec3>,
-    /// Which traced photon each is, where they shall stay in place until the next key; else empty.
+    /// Index of the traced photon in each row, where photons stay in place until the next key frame; else empty.
     pub(super) origin: Vec<u32>,
-    /// How far the photons' ways to this key bow from the straight ones at half-time; empty where the method bows none.
-    pub(super) bows: Vec<Vec2>,
-}
-
-/// Which of a group's points at a key each photon goes to.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Partners {
-    /// Photon k goes to point `order[k]`, as the points are drawn; absent where to point k.
-    pub(super) order: Option<Vec<u32>>,
-    /// See [`KeyPhotons::bows`].
-    pub(super) bows: Vec<Vec2>,
-}
-
-impl Partners {
-    /// The points as they are drawn, each in the row of its photon.
-    pub(super) fn arrange(&self, points: KeyPhotons) -> KeyPhotons {
-        let mut arranged = match &self.order {
-            Some(order) => points.permuted(order),
-            None => points,
-        };
-        arranged.bows.clone_from(&self.bows);
-        arranged
-    }
+    /// Distance of each photon's path from the straight line at the middle of the segment before, plane units; empty where
+    /// paths have none.
+    pub(super) midpoint_offsets: Vec<Vec2>,
 }
 
 impl KeyPhotons {
-    /// Row k of the result is row `order[k]` of this, not yet paired.
+    /// The photons in another order: row k of the result is row `order[k]` of this, not yet paired.
     pub(super) fn permuted(&self, order: &[u32]) -> Self {
         let origin = if self.origin.is_empty() {
             Vec::new()
@@ -63,7 +43,22 @@ impl KeyPhotons {
             positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
             flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
             origin,
-            bows: Vec::new(),
+            midpoint_offsets: Vec::new(),
         }
     }
+}
+
+/// The number of photons in all groups.
+pub(super) fn count(groups: &[KeyPhotons]) -> usize {
+    groups.iter().map(|group| group.positions.len()).sum()
+}
+
+/// The positions of all groups, one after the other.
+pub(super) fn all_positions(groups: &[KeyPhotons]) -> impl Iterator<Item = Vec2> {
+    groups.iter().flat_map(|group| &group.positions).copied()
+}
+
+/// The flux of all groups, one after the other, watts.
+pub(super) fn all_flux(groups: &[KeyPhotons]) -> impl Iterator<Item = Vec3> {
+    groups.iter().flat_map(|group| &group.flux).copied()
 }

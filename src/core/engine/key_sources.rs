@@ -1,55 +1,42 @@
-//! What the key frames show, ready to give the photons of any pass.
+//! The sources of the light at the key frames: the physical caustic, pictures and points, ready to give the photons of any
+//! pass.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::grouping::{CausticLight, Grouping};
-use super::light::{GroupLight, KeyPhotons, PassLight};
-use super::stage::Stamp;
+use super::grouping::{CausticFlux, Grouping};
+use super::key_photons::{GroupLight, KeyPhotons, PassLight};
+use super::memo::{FileStamp, Same};
 use crate::flow::flux;
 use crate::matching::Method;
-use crate::photon::{Photons, Tracer};
+use crate::photon::Photons;
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
 use crate::target::{PictureSampler, Points, load_points};
-use crate::{Error, Progress, Result};
+use crate::{Error, Result};
 
-/// What a group shows at a key frame, resolved.
-pub(super) enum Supply {
+/// The source of a group's light at a key frame.
+pub(super) enum KeySource {
     Physical,
     Picture(PictureSampler),
     Points(Points),
 }
 
-/// What the keys of a project showed last, resolved: a picture that they go on showing is not read again.
-#[derive(Default)]
-pub(super) struct Opened {
-    known: Vec<Known>,
-}
-
-/// Something that was opened.
-struct Known {
-    from: OpenInput,
-    supply: Arc<Supply>,
-    /// Whether a key still shows it.
-    shown: bool,
-}
-
-/// What a supply is made from.
+/// Everything that a source depends on.
 #[derive(PartialEq)]
-struct OpenInput {
+pub(super) struct SourceInput {
     shows: Shows,
     extent: Vec2,
-    file: Option<Stamp>,
+    file: Option<FileStamp>,
 }
 
-/// All key frames of a project, resolved.
+/// The sources at all key frames of a project.
 #[derive(Clone)]
-pub(super) struct Supplies {
+pub(super) struct KeySources {
     /// By key, then by group.
-    shown: Vec<Vec<Arc<Supply>>>,
+    shown: Vec<Vec<Arc<KeySource>>>,
     /// Factor on the light, by key, then by group.
     gains: Vec<Vec<Vec3>>,
     grouping: Grouping,
@@ -62,38 +49,37 @@ pub(super) struct Supplies {
     rows: Option<Vec<usize>>,
 }
 
-impl Supplies {
-    /// Opens the pictures and point files of a project, and finds its caustics in the scene.
+impl KeySources {
+    /// Opens the pictures and point files of a project by `open`, which gets the source, its place in the project and a
+    /// number of its own, and finds the caustics in the scene.
     pub(super) fn load(
         project: &Project,
         scene: Option<&Scene>,
-        extent: Vec2,
-        (assets, opened): (&AssetFolder, &mut Opened),
-        progress: &Progress,
+        open: &dyn Fn(&Shows, &str, usize) -> Result<Arc<KeySource>>,
     ) -> Result<Self> {
         let grouping = Grouping::resolve(project, scene)?;
         let mut notes = Vec::new();
-        opened.known.iter_mut().for_each(|known| known.shown = false);
-        let mut open = |shows: &Shows, place: String| -> Result<Arc<Supply>> {
-            progress.check()?;
-            let supply = opened.get(shows, &place, extent, assets)?;
-            if let Supply::Picture(picture) = &*supply {
+        let mut open = |shows: &Shows, place: String, slot: usize| -> Result<Arc<KeySource>> {
+            let source = open(shows, &place, slot)?;
+            if let KeySource::Picture(picture) = &*source {
                 notes.extend(picture.notes().iter().cloned());
             }
-            Ok(supply)
+            Ok(source)
         };
         let mut shown = Vec::new();
+        let slots = grouping.count() + 1;
         for (i, key) in project.keys.iter().enumerate() {
-            let mut groups = vec![open(&key.shows, format!("keys[{i}].shows"))?; grouping.count()];
+            let shared = open(&key.shows, format!("keys[{i}].shows"), i * slots)?;
+            let mut groups = vec![shared; grouping.count()];
             for (group, of_group) in groups.iter_mut().enumerate() {
                 let own = grouping.name(group).and_then(|name| Some((name, key.caustics.get(name)?)));
                 if let Some((name, Some(shows))) = own.map(|(name, own)| (name, &own.shows)) {
-                    *of_group = open(shows, format!("keys[{i}].caustics.{name}.shows"))?;
+                    let place = format!("keys[{i}].caustics.{name}.shows");
+                    *of_group = open(shows, place, i * slots + 1 + group)?;
                 }
             }
             shown.push(groups);
         }
-        opened.known.retain(|known| known.shown);
         let gains = (0..project.keys.len()).map(|key| grouping.gains(project, key)).collect();
         Ok(Self {
             shown,
@@ -108,7 +94,7 @@ impl Supplies {
         })
     }
 
-    /// What was odd about a picture, such as pixels that were not finite.
+    /// Notes on the pictures, such as on pixels that are not finite.
     pub(super) fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
@@ -130,9 +116,9 @@ impl Supplies {
 
     /// Whether `count` photons show all there is, so that another pass would bring nothing new.
     pub(super) fn is_fixed(&self, count: usize) -> bool {
-        let is_fixed = |supply: &Arc<Supply>| match &**supply {
-            Supply::Points(points) => points.positions.len() <= count,
-            Supply::Physical | Supply::Picture(_) => false,
+        let is_fixed = |supply: &Arc<KeySource>| match &**supply {
+            KeySource::Points(points) => points.positions.len() <= count,
+            KeySource::Physical | KeySource::Picture(_) => false,
         };
         self.grouping.count() == 1 && self.shown.iter().flatten().all(is_fixed)
     }
@@ -141,7 +127,7 @@ impl Supplies {
     pub(super) fn given_rows(&self, method: Method) -> Result<Option<usize>> {
         let mut rows = None;
         for (i, key) in self.shown.iter().enumerate() {
-            let (Supply::Points(points), Method::Given) = (&*key[0], method) else { continue };
+            let (KeySource::Points(points), Method::Given) = (&*key[0], method) else { continue };
             let count = points.positions.len();
             match rows {
                 Some(first) if first != count => {
@@ -168,24 +154,9 @@ impl Supplies {
         Ok((thinned, rows.min(count)))
     }
 
-    /// What all groups show at a key.
-    pub(super) fn shown_at(&self, key: usize) -> &[Arc<Supply>] {
-        &self.shown[key]
-    }
-
-    /// Traces the photons of `pass`, where a key shows them or caustics are told apart.
-    pub(super) fn light(
-        &self,
-        tracer: Option<&Tracer>,
-        pass: u64,
-        count: usize,
-        progress: &Progress,
-    ) -> Result<PassLight> {
-        let photons = match tracer.filter(|_| self.traces) {
-            Some(tracer) => Some(tracer.trace(pass, count, progress)?.0),
-            None => None,
-        };
-        Ok(self.light_of(photons, count))
+    /// The sources of all groups at a key frame, by identity.
+    pub(super) fn at_key(&self, key: usize) -> Vec<Same<KeySource>> {
+        self.shown[key].iter().map(Same::of).collect()
     }
 
     /// The light of `count` photons: those that were traced, where any must be.
@@ -213,13 +184,13 @@ impl Supplies {
     }
 
     fn shows_physical(&self, group: usize) -> bool {
-        self.shown.iter().any(|key| matches!(*key[group], Supply::Physical))
+        self.shown.iter().any(|key| matches!(*key[group], KeySource::Physical))
     }
 
     /// Whether the photons of a group stay in place from key `key` to the next: it is the physical caustic at both.
     pub(super) fn rests(&self, key: usize, group: usize) -> bool {
         let physical =
-            |key: usize| self.shown.get(key).is_some_and(|k| matches!(*k[group], Supply::Physical));
+            |key: usize| self.shown.get(key).is_some_and(|k| matches!(*k[group], KeySource::Physical));
         physical(key) && physical(key + 1)
     }
 
@@ -234,7 +205,7 @@ impl Supplies {
         let seed = self.seed ^ ((key as u64) << 40) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let gain = self.gains[key][group] * if key == 0 { 1.0 } else { self.rho };
         let points = match &*self.shown[key][group] {
-            Supply::Physical => {
+            KeySource::Physical => {
                 let mut photons = physical.clone().unwrap_or_default();
                 photons.flux.iter_mut().for_each(|flux| *flux *= gain);
                 if self.rests(key, group) {
@@ -242,8 +213,8 @@ impl Supplies {
                 }
                 return photons;
             }
-            Supply::Picture(picture) => picture.sample(seed, pass, *count),
-            Supply::Points(points) => match &self.rows {
+            KeySource::Picture(picture) => picture.sample(seed, pass, *count),
+            KeySource::Points(points) => match &self.rows {
                 Some(rows) => points.rows(rows),
                 None => points.resampled(*count, seed, pass),
             },
@@ -253,42 +224,48 @@ impl Supplies {
     }
 
     /// The flux that the photons of a pass should have at key `key`, watts; rho does not count.
-    pub(super) fn asked(&self, key: usize, light: &PassLight) -> f64 {
+    pub(super) fn requested(&self, key: usize, light: &PassLight) -> f64 {
         let gains = self.gains[key].iter().map(|gain| gain.as_dvec3());
         light.groups.iter().zip(gains).map(|(group, gain)| (group.total * gain).element_sum()).sum()
     }
 
     /// How the light of a pass falls to the caustics; empty where none is named.
-    pub(super) fn caustics(&self, light: &PassLight) -> Vec<CausticLight> {
+    pub(super) fn caustics(&self, light: &PassLight) -> Vec<CausticFlux> {
         self.grouping.lights(light.groups.iter().map(|group| (group.count, group.total)))
     }
 }
 
-impl Opened {
-    /// What `shows` means, which stands at `place`: as it is known, if its file is still the same.
-    fn get(&mut self, shows: &Shows, place: &str, extent: Vec2, assets: &AssetFolder) -> Result<Arc<Supply>> {
+impl SourceInput {
+    /// The input of the source that `shows` asks for at `place` of the project, and its file.
+    ///
+    /// # Errors
+    /// A file outside the folders that a project may read.
+    pub(super) fn new(
+        shows: &Shows,
+        place: &str,
+        extent: Vec2,
+        assets: &AssetFolder,
+    ) -> Result<(Self, Option<PathBuf>)> {
         let file = match shows {
             Shows::PhysicalCaustic => None,
             Shows::Image(image) => Some(assets.resolve(&image.file, &format!("{place}.image.file"))?),
             Shows::Points(points) => Some(assets.resolve(&points.file, &format!("{place}.points.file"))?),
         };
-        let from = OpenInput { shows: shows.clone(), extent, file: file.as_deref().map(Stamp::of) };
-        if let Some(known) = self.known.iter_mut().find(|known| known.from == from) {
-            known.shown = true;
-            return Ok(known.supply.clone());
-        }
-        let supply = Arc::new(open(shows, file.as_deref(), place, extent)?);
-        self.known.push(Known { from, supply: supply.clone(), shown: true });
-        Ok(supply)
+        let stamp = file.as_deref().map(FileStamp::of);
+        Ok((Self { shows: shows.clone(), extent, file: stamp }, file))
     }
 }
 
-fn open(shows: &Shows, file: Option<&Path>, place: &str, extent: Vec2) -> Result<Supply> {
+/// Reads the picture or the points of a source.
+///
+/// # Errors
+/// A file that cannot be read, with the place in the project that names it.
+pub(super) fn open(shows: &Shows, file: Option<&Path>, place: &str, extent: Vec2) -> Result<KeySource> {
     Ok(match (shows, file) {
         (Shows::Image(image), Some(path)) => {
-            Supply::Picture(PictureSampler::load(path, image, extent, &format!("{place}.image"))?)
+            KeySource::Picture(PictureSampler::load(path, image, extent, &format!("{place}.image"))?)
         }
-        (Shows::Points(_), Some(path)) => Supply::Points(load_points(path)?),
-        _ => Supply::Physical,
+        (Shows::Points(_), Some(path)) => KeySource::Points(load_points(path)?),
+        _ => KeySource::Physical,
     })
 }

@@ -1,6 +1,7 @@
 //! Seconds and peak memory of each stage.
 
 use std::fs;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use serde::Serialize;
@@ -21,7 +22,7 @@ pub struct StageCost {
 /// Measures the stages of one run.
 #[derive(Default)]
 pub(super) struct Meter {
-    costs: Vec<StageCost>,
+    costs: Mutex<Vec<StageCost>>,
     /// Whether only time is measured: asking for the peak of memory walks through all of it.
     quick: bool,
 }
@@ -29,11 +30,11 @@ pub(super) struct Meter {
 impl Meter {
     /// Measures wall-clock time only.
     pub(super) fn quick() -> Self {
-        Self { costs: Vec::new(), quick: true }
+        Self { costs: Mutex::default(), quick: true }
     }
 
     /// Runs `work` as `stage`. A stage that runs again adds to its first entry.
-    pub(super) fn measure<T>(&mut self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+    pub(super) fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
         if self.quick {
             let start = Instant::now();
             let result = work();
@@ -50,20 +51,21 @@ impl Meter {
         result
     }
 
-    fn add(&mut self, cost: StageCost) {
-        match self.costs.iter_mut().find(|c| c.stage == cost.stage) {
+    fn add(&self, cost: StageCost) {
+        let mut costs = self.costs.lock().unwrap_or_else(PoisonError::into_inner);
+        match costs.iter_mut().find(|c| c.stage == cost.stage) {
             Some(sum) => {
                 sum.seconds += cost.seconds;
                 sum.cpu_seconds = sum.cpu_seconds.zip(cost.cpu_seconds).map(|(a, b)| a + b);
                 sum.peak_memory_mib = sum.peak_memory_mib.zip(cost.peak_memory_mib).map(|(a, b)| a.max(b));
             }
-            None => self.costs.push(cost),
+            None => costs.push(cost),
         }
     }
 
     /// The stages so far, in the order they first ran.
-    pub(super) fn costs(&self) -> &[StageCost] {
-        &self.costs
+    pub(super) fn costs(&self) -> Vec<StageCost> {
+        self.costs.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 

@@ -1,111 +1,135 @@
-//! One moment of many flows: the photons halfway between two keys, traced and matched once.
+//! The first segment in which photons move, traced and matched once, for those who fit many flows to it.
 
 use std::time::Instant;
 
 use glam::{Vec2, Vec3};
 
-use super::acting::{Acting, acting};
-use super::batch::Batch;
-use super::light::KeyPhotons;
-use super::meter::Meter;
-use super::motion::{LayerMoments, Leg, layers, match_next};
-use super::{Pipeline, learn};
-use crate::flow::{FlowReport, FlowSettings, Movement, flux};
+use super::Engine;
+use super::flow::LayerSamples;
+use super::key_photons::{all_flux, count};
+use super::meter::{Meter, StageCost};
+use super::pairing::takes_part;
+use super::walk::{MapsFrom, SegmentPhotons, Walk};
+use crate::constraint::{ActiveLine, ActiveWall};
+use crate::flow::{Course, FlowReport, FlowSettings, flux};
+use crate::flow::guidance::mean_straight;
 use crate::project::Project;
 use crate::render::Paper;
 use crate::{Error, Progress, Result};
 
-/// The photons of the first two keys between which light moves, matched.
-pub(crate) struct Stills {
+/// The photons of the first two key frames between which they move, matched: row k of [`Self::target`] is where photon k of
+/// [`Self::source`] goes.
+pub struct MovingSegment {
+    /// Positions at the earlier key frame, plane units: those of the caustics that share a field, or of the first that flows
+    /// by itself.
+    pub source: Vec<Vec2>,
+    /// Positions at the later one.
+    pub target: Vec<Vec2>,
+    /// Size of the plane; its longer side is 1.
+    pub extent: Vec2,
+    /// Number of the segment, from 0.
+    pub number: usize,
+    /// Directed lines that act in the segment.
+    pub lines: Vec<ActiveLine>,
+    /// Walls that act in the segment.
+    pub walls: Vec<ActiveWall>,
+    /// Seconds of "trace" and "match", over all segments up to this one.
+    pub costs: Vec<StageCost>,
+    /// The look of light on the plane.
+    pub paper: Paper,
     project: Project,
-    extent: Vec2,
-    paper: Paper,
-    acting: Acting,
-    /// Which segment it is, from 0.
-    number: usize,
-    at: Vec<KeyPhotons>,
-    next: Vec<KeyPhotons>,
-    /// Groups that flow together.
-    layers: Vec<Vec<usize>>,
+    photons: SegmentPhotons,
 }
 
-/// The photons of one flow halfway.
-pub(crate) struct Still {
-    /// Plane coordinates, row by row of [`Stills::flux`].
-    pub(crate) positions: Vec<Vec2>,
-    /// How the caustics that share a field flow.
-    pub(crate) report: FlowReport,
+/// The photons of one flow at the middle of the segment.
+pub struct Halfway {
+    /// Plane coordinates, row by row of [`MovingSegment::flux`].
+    pub positions: Vec<Vec2>,
+    /// Report on the flow of the caustics that share a field.
+    pub report: FlowReport,
     /// Seconds of the fit.
-    pub(crate) seconds: f64,
+    pub seconds: f64,
 }
 
-impl Pipeline {
-    /// Traces and matches at most `photons` photons, whatever the project's method.
+impl Engine {
+    /// Traces and matches the photons of pass 0, at most `most` of them, up to the first segment in which they move.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; nothing that moves; cancelled.
-    pub(crate) fn stills(
-        &mut self,
+    pub fn moving_segment(
+        &self,
         project: &Project,
-        photons: usize,
+        most: Option<usize>,
         progress: &Progress,
-    ) -> Result<Stills> {
-        let project = Project { method: Movement::Flow, ..project.clone() };
-        let mut meter = Meter::quick();
-        let prepared = self.prepare(&project, &mut meter, progress)?;
-        let tracer = learn(&prepared, &project, &mut meter, progress)?;
-        let (supplies, photons) = prepared.supplies.thinned(project.matching, photons)?;
-        let light = supplies.light(tracer.as_ref(), 0, photons, &progress.inner())?;
-        let extent = prepared.extent;
-        let paper = prepared.scene.as_ref().map_or(Paper::WHITE, |scene| Paper::of(scene.receiver()));
-        let mut batch = Batch::start(&supplies, light, 0, &project, extent);
-        for number in 0..project.keys.len().saturating_sub(1) {
-            let next = match_next(&batch, false, &progress.inner())?.next;
-            let layers = layers(&batch);
-            if !layers.is_empty() {
-                let (at, acting) = (std::mem::take(&mut batch.at), acting(&project, number, extent));
-                return Ok(Stills { project, extent, paper, acting, number, at, next, layers });
-            }
-            batch.arrive(next);
+    ) -> Result<MovingSegment> {
+        let meter = Meter::quick();
+        let mut prepared = self.prepare(project, &meter, progress)?;
+        if let Some(most) = most {
+            prepared = prepared.limited(prepared.quality, most)?;
         }
-        Err(Error::value(
-            "keys",
-            "no photon moves from one key frame to the next, so there is no flow to look at",
-        ))
+        let meter = Meter::quick();
+        let job = self.job(&prepared, &meter, progress)?;
+        let mut walk = Walk::start(&job, 0)?;
+        while let Some(photons) = walk.next(MapsFrom::Own { bounded: false })? {
+            for groups in &photons.layers {
+                let [source, target] = photons.columns(groups);
+                if mean_straight(&source, &target) > 0.0 {
+                    return Ok(MovingSegment {
+                        source: source.into_owned(),
+                        target: target.into_owned(),
+                        extent: prepared.extent,
+                        number: photons.number,
+                        lines: photons.active.lines.clone(),
+                        walls: photons.active.walls.clone(),
+                        costs: meter.costs(),
+                        paper: prepared.paper(),
+                        project: project.clone(),
+                        photons,
+                    });
+                }
+            }
+        }
+        let what = "no photon moves from one key frame to the next, so there is no flow to look at";
+        Err(Error::value("keys", what))
     }
 }
 
-impl Stills {
-    /// Size of the plane; its longer side is 1.
-    pub(crate) fn extent(&self) -> Vec2 {
-        self.extent
+impl MovingSegment {
+    /// Walls that take part in the matching; photons only go around the others.
+    pub fn matched_walls(&self) -> Vec<&ActiveWall> {
+        self.walls.iter().filter(|wall| takes_part(wall)).collect()
     }
 
-    /// What light on the plane looks like.
-    pub(crate) fn paper(&self) -> Paper {
-        self.paper
+    /// The segment with these flow settings.
+    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
+        let Self { source, target, extent, number, lines, walls, .. } = self;
+        Course { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
 
-    /// RGB flux of all photons halfway, watts.
-    pub(crate) fn flux(&self) -> Vec<Vec3> {
-        let column = |at: &[KeyPhotons]| at.iter().flat_map(|group| &group.flux).copied().collect::<Vec<_>>();
-        let (from, to) = (column(&self.at), column(&self.next));
+    /// Seconds of the matching, over all segments up to this one.
+    pub fn match_seconds(&self) -> Option<f64> {
+        self.costs.iter().find(|cost| cost.stage == "match").map(|cost| cost.seconds)
+    }
+
+    /// RGB flux of the photons of all groups at the middle of the segment, watts.
+    pub fn flux(&self) -> Vec<Vec3> {
+        let [from, to] =
+            [&self.photons.from, &self.photons.to].map(|at| all_flux(at).collect::<Vec<_>>());
         let mut halfway = vec![Vec3::ZERO; from.len()];
         flux::blend(&from, &to, 0.5, &mut halfway);
         halfway
     }
 
-    /// Fits a flow to all photons and shows them halfway; what does not flow is where it was.
+    /// Fits a flow to the photons of all groups and returns them at the middle of the segment; those that do not flow stay
+    /// where they were.
     ///
     /// # Errors
     /// A fit that fails; cancelled.
-    pub(crate) fn halfway(&self, flow: &FlowSettings, progress: &Progress) -> Result<Still> {
-        let Self { at, next, acting, number, extent, .. } = self;
-        let count = at.iter().map(|group| group.positions.len()).sum::<usize>();
-        let flow = FlowSettings { guides: u32::try_from(count).unwrap_or(u32::MAX), ..flow.clone() };
-        let project = Project { flow, ..self.project.clone() };
-        let leg = Leg { at, next, acting, number: *number, extent: *extent };
-        let mut groups: Vec<Vec<Vec2>> = at.iter().map(|group| group.positions.clone()).collect();
+    pub fn halfway(&self, flow: &FlowSettings, progress: &Progress) -> Result<Halfway> {
+        let guides = u32::try_from(count(&self.photons.from)).unwrap_or(u32::MAX);
+        let project = Project { flow: FlowSettings { guides, ..flow.clone() }, ..self.project.clone() };
+        let mut groups: Vec<Vec<Vec2>> =
+            self.photons.from.iter().map(|group| group.positions.clone()).collect();
         let show = &mut |of: &[usize], _: usize, positions: &[Vec2]| {
             let mut rest = positions;
             for &group in of {
@@ -114,13 +138,12 @@ impl Stills {
                 rest = others;
             }
         };
-        let moments = Some(LayerMoments { times: &[0.5], show });
-        let start = Instant::now();
-        let layers = self.layers.clone();
-        let (_, reports) = leg.fit(layers, &project, moments, &mut Meter::quick(), &progress.inner())?;
+        let samples = Some(LayerSamples { times: &[0.5], show });
+        let (start, meter) = (Instant::now(), Meter::quick());
+        let (_, reports) = self.photons.fit(&project, self.extent, samples, &meter, &progress.inner())?;
         let seconds = start.elapsed().as_secs_f64();
         let report = reports.into_iter().next();
         let report = report.ok_or(Error::Numeric { stage: "fit", what: "nothing flows".to_owned() })?;
-        Ok(Still { positions: groups.concat(), report, seconds })
+        Ok(Halfway { positions: groups.concat(), report, seconds })
     }
 }

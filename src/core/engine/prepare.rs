@@ -1,120 +1,95 @@
-//! What every command begins with: the scene read, what the keys show opened, and the plan.
+//! The first step of every command: a project checked, its files opened, its work planned.
 
 use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::batch::Batch;
+use super::frame_times::FrameTimes;
+use super::key_sources::KeySources;
+use super::memo::{Client, Slot};
 use super::plan::{self, Plan};
-use super::slots::Slots;
-use super::stage::{Same, Stage, Stamp};
-use super::supply::{Opened, Supplies};
-use super::{acting, grouping};
+use super::stages::Stages;
+use super::{Quality, active, grouping};
 use crate::flow::{FlowSettings, GridSize};
-use crate::photon::Tracer;
-use crate::project::{AssetFolder, Project};
-use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
+use crate::project::{Project, Shows};
+use crate::render::Paper;
+use crate::scene::Scene;
 use crate::{Progress, Result};
 
-/// Opens what a project names, and remembers it.
-pub(super) struct Loader {
-    assets: AssetFolder,
-    geometry: Stage<(Vec<MeshDesc>, Vec<Stamp>), Noted<Geometry>>,
-    scene: Stage<(SceneDesc, Same<Geometry>), Noted<Scene>>,
-    opened: Opened,
-}
-
-/// Something, and what the artist should know of it.
-type Noted<T> = (Arc<T>, Arc<Vec<String>>);
-
-/// What every command begins with.
+/// A project whose files are open and whose work is planned.
+#[derive(Clone)]
 pub(super) struct Prepared {
+    pub(super) project: Project,
+    /// The quality whose limits hold beside the project's own numbers.
+    pub(super) quality: Quality,
     pub(super) scene: Option<Arc<Scene>>,
     pub(super) extent: Vec2,
-    pub(super) supplies: Supplies,
-    pub(super) slots: Slots,
+    pub(super) sources: KeySources,
+    pub(super) times: FrameTimes,
     pub(super) plan: Plan,
     pub(super) notes: Vec<String>,
+    /// Photons of one pass.
+    pub(super) photons: usize,
 }
 
-impl Loader {
-    /// Has opened nothing yet and finds files through `assets`.
-    pub(super) fn new(assets: AssetFolder) -> Self {
-        let (geometry, scene) = (Stage::default(), Stage::default());
-        Self { assets, geometry, scene, opened: Opened::default() }
-    }
-
-    /// Through which files are found.
-    pub(super) fn assets(&self) -> &AssetFolder {
-        &self.assets
-    }
-
+impl Stages {
     /// Checks a project and opens every file it names.
-    pub(super) fn prepare(&mut self, project: &Project, progress: &Progress) -> Result<Prepared> {
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the project or its files; cancelled.
+    pub(super) fn prepare(&self, client: Client, project: &Project, progress: &Progress) -> Result<Prepared> {
         project.check()?;
         let frames = project.frames()?;
-        let mut notes = Vec::new();
         let scene = match &project.scene {
             None => None,
-            Some(desc) => Some(self.scene(desc, &mut notes, progress)?),
+            Some(desc) => Some(self.scene(client, desc, progress)?),
         };
+        let (scene, of_scene) = scene.unzip();
         let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
-        let files = (&self.assets, &mut self.opened);
-        let supplies = Supplies::load(project, scene.as_deref(), extent, files, progress)?;
-        notes.extend(supplies.notes());
+        let open = |shows: &Shows, place: &str, index: usize| {
+            let slot = Slot { client, quality: Quality::Final, index };
+            self.source(slot, (shows, place), extent, progress)
+        };
+        let sources = KeySources::load(project, scene.as_deref(), &open)?;
+        let mut notes: Vec<String> = of_scene.iter().flat_map(|notes| &**notes).cloned().collect();
+        notes.extend(sources.notes());
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
         notes.extend(stretch_note(project.flow.grid, extent));
-        notes.extend(acting::notes(project, extent));
+        notes.extend(active::notes(project, extent));
         notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
-        let slots = Slots::new(&project.keys, &frames);
+        let times = FrameTimes::new(&project.keys, &frames);
         let plan = plan::plan(
             project,
             extent,
             frames.len(),
-            supplies.given_rows(project.matching)?,
-            supplies.is_fixed(project.render.photons as usize),
+            sources.given_rows(project.matching)?,
+            sources.is_fixed(project.render.photons as usize),
         );
-        Ok(Prepared { scene, extent, supplies, slots, plan, notes })
+        let photons = plan.photons;
+        let (project, quality) = (project.clone(), Quality::Final);
+        Ok(Prepared { project, quality, scene, extent, sources, times, plan, notes, photons })
     }
-
-    /// A scene, whose meshes are read again only if they, or their files, are others than before.
-    pub(super) fn scene(
-        &mut self,
-        desc: &SceneDesc,
-        notes: &mut Vec<String>,
-        progress: &Progress,
-    ) -> Result<Arc<Scene>> {
-        desc.check("scene")?;
-        let assets = &self.assets;
-        // A file that cannot be found has no stamp; reading it tells why.
-        let stamp = |mesh: &MeshDesc| Some(Stamp::of(&assets.resolve(&mesh.file, "").ok()?));
-        let stamps = desc.meshes.iter().filter_map(stamp).collect();
-        let (geometry, of_meshes) = self.geometry.get((desc.meshes.clone(), stamps), |(meshes, _)| {
-            let resolve = |path: &str, place: &str| assets.resolve(path, place);
-            Geometry::load(meshes, &resolve, progress).map(noted)
-        })?;
-        let input = (desc.clone(), Same::of(&geometry));
-        let (scene, of_scene) = self.scene.get(input, |_| Scene::with(desc, geometry).map(noted))?;
-        notes.extend(of_meshes.iter().chain(&*of_scene).cloned());
-        Ok(scene)
-    }
-}
-
-fn noted<T>((thing, notes): (T, Vec<String>)) -> Noted<T> {
-    (Arc::new(thing), Arc::new(notes))
 }
 
 impl Prepared {
-    /// The photons of one pass at the first key.
-    pub(super) fn start<'a>(
-        &'a self,
-        project: &'a Project,
-        tracer: Option<&Tracer>,
-        pass: u64,
-        progress: &Progress,
-    ) -> Result<Batch<'a>> {
-        let light = self.supplies.light(tracer, pass, self.plan.photons, &progress.inner())?;
-        Ok(Batch::start(&self.supplies, light, pass, project, self.extent))
+    /// The look of light on the plane.
+    pub(super) fn paper(&self) -> Paper {
+        self.scene.as_ref().map_or(Paper::WHITE, |scene| Paper::of(scene.receiver()))
+    }
+
+    /// The same with at most `photons` photons in a pass, at a lower quality.
+    ///
+    /// # Errors
+    /// Point files of different lengths whose rows are paired as given.
+    pub(super) fn limited(&self, quality: Quality, photons: usize) -> Result<Self> {
+        let (sources, photons) = self.sources.thinned(self.project.matching, photons)?;
+        Ok(Self { quality, sources, photons, ..self.clone() })
+    }
+
+    /// The same with other random numbers and another number of photons in a pass; what was fitted stays.
+    pub(super) fn reseeded(&self, seed: u64, photons: usize) -> Self {
+        let project = Project { seed, ..self.project.clone() };
+        Self { project, sources: self.sources.with_seed(seed), photons, ..self.clone() }
     }
 }
 

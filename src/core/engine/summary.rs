@@ -1,19 +1,19 @@
-//! What was done, with its numbers: `summary.json` and the lines at the end of a command.
+//! The summary of a run: `summary.json` and the lines at the end of a command.
 
 use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::grouping::{CausticLight, notes_on_dark};
-use super::loader::Prepared;
+use super::grouping::{CausticFlux, notes_on_dark};
+use super::prepare::Prepared;
 use super::meter::{Meter, StageCost};
-use super::motion::{Cost, Motion};
-use super::passes::Account;
+use super::flow::FittedFlow;
+use super::exposure::EnergyBalance;
+use super::pairing::TransportCost;
 use super::plan::LeftOut;
 use crate::constraint::Constraint;
 use crate::export::Repairs;
 use crate::flow::FlowReport;
-use crate::project::Project;
 
 /// The numbers of the flow, the worst over all segments.
 #[derive(Clone, Debug, Serialize)]
@@ -32,7 +32,7 @@ pub struct FlowNumbers {
 
 impl FlowNumbers {
     /// Of each layer of one segment.
-    pub(super) fn of_segment(reports: Vec<FlowReport>, cost: &Cost) -> impl Iterator<Item = Self> {
+    pub(super) fn of_segment(reports: Vec<FlowReport>, cost: &TransportCost) -> impl Iterator<Item = Self> {
         let (transport_cost, transport_cost_ratio) = (cost.mean(), cost.ratio(cost.bound));
         // Each layer has photons of its own, so those that walls shut off add up.
         let unreachable = reports.iter().map(|report| report.unreachable).sum();
@@ -104,7 +104,7 @@ pub struct Summary {
     /// The light of each named caustic, and of the rest: their photons follow each other in the tracks. Absent where none
     /// is named.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub caustics: Vec<CausticLight>,
+    pub caustics: Vec<CausticFlux>,
     /// Whether walls were drawn.
     #[serde(skip)]
     pub walled: bool,
@@ -154,28 +154,28 @@ fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
     })
 }
 
-/// What a run did, for its summary.
+/// The results of a run.
 pub(super) struct Done<'a> {
     pub(super) command: &'static str,
     pub(super) passes: usize,
-    pub(super) motion: &'a Motion,
-    pub(super) account: Account,
+    pub(super) flow: &'a FittedFlow,
+    pub(super) balance: EnergyBalance,
     pub(super) bad_values: BadValues,
 }
 
 impl Summary {
-    pub(super) fn new(project: &Project, prepared: Prepared, done: Done, meter: &Meter) -> Self {
-        let account = done.account;
-        let flow = done.motion.numbers.clone();
+    pub(super) fn new(prepared: &Prepared, done: Done, meter: &Meter) -> Self {
+        let (project, balance) = (&prepared.project, done.balance);
+        let flow = done.flow.numbers.clone();
         let flow = flow.map(|mut numbers| {
-            numbers.flux_ratio = account.flux_ratio.unwrap_or(1.0);
-            numbers.flow.wall_crossings += account.crossings;
-            numbers.flow.unreachable = numbers.flow.unreachable.max(account.unreachable);
+            numbers.flux_ratio = balance.flux_ratio.unwrap_or(1.0);
+            numbers.flow.wall_crossings += balance.crossings;
+            numbers.flow.unreachable = numbers.flow.unreachable.max(balance.unreachable);
             numbers
         });
-        let stages = meter.costs().to_vec();
-        let mut notes = prepared.notes;
-        notes.extend(notes_on_dark(&done.motion.caustics));
+        let stages = meter.costs();
+        let mut notes = prepared.notes.clone();
+        notes.extend(notes_on_dark(&done.flow.caustics));
         notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         let tolerance = project.flow.tolerance.into();
         notes.extend(flow.iter().filter_map(|numbers| note_on_solver(&numbers.flow, tolerance)));
@@ -189,13 +189,13 @@ impl Summary {
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             flow,
-            caustics: done.motion.caustics.clone(),
+            caustics: done.flow.caustics.clone(),
             walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
-            energy: Energy { texture_ratio: account.texture_ratio, photons_outside: account.outside },
+            energy: Energy { texture_ratio: balance.texture_ratio, photons_outside: balance.outside },
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
             stages,
-            left_out: prepared.plan.left_out,
+            left_out: prepared.plan.left_out.clone(),
             notes,
         }
     }
@@ -267,7 +267,7 @@ mod tests {
     #[test]
     fn photons_shut_off_add_up_over_the_layers_of_a_segment() {
         let reports = [2, 3].map(|unreachable| FlowReport { unreachable, ..FlowReport::default() }).to_vec();
-        let numbers = FlowNumbers::of_segment(reports, &Cost::default()).reduce(FlowNumbers::worst);
+        let numbers = FlowNumbers::of_segment(reports, &TransportCost::default()).reduce(FlowNumbers::worst);
         assert_eq!(numbers.map(|numbers| numbers.flow.unreachable), Some(5));
     }
 

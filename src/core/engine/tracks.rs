@@ -2,16 +2,18 @@
 
 use std::io::{self, Write as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 use npyz::WriterBuilder as _;
 
-use super::batch::Batch;
+use super::exposure::{EnergyBalance, between, total};
+use super::flow::FittedFlow;
 use super::grouping::Grouping;
-use super::light::KeyPhotons;
-use super::motion::Motion;
-use super::passes::{Account, between, total};
-use super::ride::Ride;
+use super::job::Job;
+use super::key_photons::{KeyPhotons, count};
+use super::trajectories::SegmentTrajectories;
+use super::walk::{MapsFrom, Walk};
 use crate::files::write_atomic;
 use crate::flow::Fields;
 use crate::flow::field::Field;
@@ -34,74 +36,74 @@ pub(super) fn with_guides_alone(project: &Project) -> Project {
 /// of each named caustic follow each other too, in the order of the project, and the rest comes last: `summary.json` has
 /// their numbers.
 pub(super) fn write(
-    batch: Batch,
-    motion: &Motion,
-    project: &Project,
+    job: &Job,
+    flow: &FittedFlow,
     out: &Path,
     progress: &Progress,
     saved: &(dyn Fn(&Path) + Sync),
-) -> Result<Account> {
-    let grouping = batch.supplies().grouping();
-    let stops = stops(batch, motion, progress)?;
+) -> Result<EnergyBalance> {
+    let grouping = job.sources.grouping();
+    let stops = stops(job, flow)?;
     progress.begin("write", 3);
     // Where walls stand there are more steps: the way between two rows shall cross none.
-    let fields = motion.segments.iter().flat_map(|segment| segment.fields(grouping));
-    let steps = fields.map(|(_, fields)| fields.steps()).max().unwrap_or(project.flow.steps as usize);
-    let table = Table { stops: &stops, motion, steps };
+    let fields = flow.segments.iter().flat_map(|segment| segment.fields(grouping));
+    let steps = fields.map(|(_, fields)| fields.steps()).max().unwrap_or(job.project.flow.steps as usize);
+    let table = Table { stops: &stops, flow, steps };
     let tracks = out.join("tracks.npy");
     table.write_tracks(&tracks, progress)?;
     saved(&tracks);
     progress.advance(1);
     let flux = out.join("flux.npy");
-    let account = table.write_flux(&flux)?;
+    let balance = table.write_flux(&flux)?;
     saved(&flux);
     progress.advance(1);
-    if motion.segments.iter().any(|segment| segment.fields(grouping).next().is_some()) {
+    if flow.segments.iter().any(|segment| segment.fields(grouping).next().is_some()) {
         let path = out.join("fields.npz");
-        write_fields(&path, motion, grouping)?;
+        write_fields(&path, flow, grouping)?;
         saved(&path);
     }
     progress.advance(1);
-    Ok(account)
+    Ok(balance)
 }
 
-/// The photons at one key, group by group.
+/// The photons at one key frame.
 struct Stop {
-    at: Vec<KeyPhotons>,
+    /// By group.
+    at: Arc<Vec<KeyPhotons>>,
     /// The flux they should have, watts.
-    asked: f64,
+    requested: f64,
 }
 
-/// The photons at every key, row k of a group always being its photon k.
-fn stops(mut batch: Batch, motion: &Motion, progress: &Progress) -> Result<Vec<Stop>> {
-    let mut stops = Vec::new();
-    for segment in &motion.segments {
-        let next = batch.next(&segment.maps, &progress.inner())?;
-        stops.push(Stop { at: batch.at.clone(), asked: batch.asked() });
-        batch.arrive(next);
+/// The photons at every key frame, row k of a group always being its photon k.
+fn stops(job: &Job, flow: &FittedFlow) -> Result<Vec<Stop>> {
+    let mut walk = Walk::start(job, 0)?;
+    let mut stops = vec![Stop { at: walk.at().clone(), requested: walk.requested() }];
+    for segment in &flow.segments {
+        let photons = walk.next(MapsFrom::Own { bounded: true })?;
+        debug_assert!(photons.is_some_and(|p| Arc::ptr_eq(&p.matched.maps, &segment.maps)), "it is remembered");
+        stops.push(Stop { at: walk.at().clone(), requested: walk.requested() });
     }
-    stops.push(Stop { asked: batch.asked(), at: batch.at });
     Ok(stops)
 }
 
 struct Table<'a> {
     stops: &'a [Stop],
-    motion: &'a Motion,
+    flow: &'a FittedFlow,
     steps: usize,
 }
 
 impl Table<'_> {
     fn rows(&self) -> u64 {
-        (self.motion.segments.len() * self.steps + 1) as u64
+        (self.flow.segments.len() * self.steps + 1) as u64
     }
 
-    /// The photons' way through segment `i`.
-    fn ride(&self, i: usize) -> Ride<'_> {
-        Ride::new(&self.motion.segments[i], &self.stops[i].at, &self.stops[i + 1].at)
+    /// The trajectories of the photons through segment `i`.
+    fn trajectories(&self, i: usize) -> SegmentTrajectories<'_> {
+        SegmentTrajectories::new(&self.flow.segments[i], &self.stops[i].at, &self.stops[i + 1].at)
     }
 
     fn photons(&self) -> usize {
-        self.stops[0].at.iter().map(|group| group.positions.len()).sum()
+        count(&self.stops[0].at)
     }
 
     /// The flow's times of the rows that segment `segment` adds.
@@ -117,10 +119,10 @@ impl Table<'_> {
             let shape = [self.rows(), photons as u64, 2];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut positions = vec![Vec2::ZERO; photons];
-            for i in 0..self.motion.segments.len() {
-                let mut ride = self.ride(i);
+            for i in 0..self.flow.segments.len() {
+                let mut trajectories = self.trajectories(i);
                 for time in self.times(i) {
-                    if let Err(error) = ride.positions_at(time, &mut positions, &progress.inner()) {
+                    if let Err(error) = trajectories.positions_at(time, &mut positions, &progress.inner()) {
                         failure = Some(error);
                         return Err(io::Error::other("the advection failed"));
                     }
@@ -132,24 +134,25 @@ impl Table<'_> {
         failure.map_or(written, Err)
     }
 
-    fn write_flux(&self, path: &Path) -> Result<Account> {
+    fn write_flux(&self, path: &Path) -> Result<EnergyBalance> {
         let photons = self.photons();
-        let mut account = Account::default();
+        let mut balance = EnergyBalance::default();
         write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 3];
             let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
             let mut now = vec![Vec3::ZERO; photons];
-            for i in 0..self.motion.segments.len() {
-                let (ride, asked) = (self.ride(i), [i, i + 1].map(|stop| self.stops[stop].asked));
+            for i in 0..self.flow.segments.len() {
+                let trajectories = self.trajectories(i);
+                let requested = [i, i + 1].map(|stop| self.stops[stop].requested);
                 for time in self.times(i) {
-                    ride.flux_at(time, &mut now);
-                    account.keep_flux_ratio(total(&now), between(asked, time));
+                    trajectories.flux_at(time, &mut now);
+                    balance.keep_flux_ratio(total(&now), between(requested, time));
                     npy.extend(now.iter().flat_map(|f| f.to_array()))?;
                 }
             }
             npy.finish()
         })?;
-        Ok(account)
+        Ok(balance)
     }
 }
 
@@ -158,11 +161,11 @@ impl Table<'_> {
 /// Each grid of the turbulence adds its own J grad psi at these times: `noise_i_C` for C cells along the longer side,
 /// square ones, so that the last may reach beyond the plane. The own flow of caustic number c in the project, from 0,
 /// adds `psi_i_c` and so on.
-fn write_fields(path: &Path, motion: &Motion, grouping: &Grouping) -> Result<()> {
+fn write_fields(path: &Path, flow: &FittedFlow, grouping: &Grouping) -> Result<()> {
     write_atomic(path, |file| {
         let mut npz = npyz::npz::NpzWriter::new(file);
         let mut described = false;
-        for (i, segment) in motion.segments.iter().enumerate() {
+        for (i, segment) in flow.segments.iter().enumerate() {
             for (own, fields) in segment.fields(grouping) {
                 let Some(grid) = fields.nodes().first().map(|field| field.grid()) else { continue };
                 let name = own.map_or_else(|| i.to_string(), |caustic| format!("{i}_{caustic}"));

@@ -1,17 +1,17 @@
-//! The photons of one pass on their way through one segment, whatever carries each group.
+//! The trajectories of the photons of one pass through one segment, group by group.
 
 use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::light::KeyPhotons;
-use super::motion::Segment;
+use super::key_photons::KeyPhotons;
+use super::flow::FittedSegment;
 use crate::flow::{Astray, Carriage, flux};
 use crate::{Progress, Result};
 
-/// All groups from one key to the next. Their rows follow each other in the columns that are filled.
-pub(super) struct Ride<'a> {
+/// The trajectories of all groups from one key frame to the next. The rows of the groups follow each other.
+pub(super) struct SegmentTrajectories<'a> {
     groups: Vec<Group<'a>>,
 }
 
@@ -20,24 +20,25 @@ struct Group<'a> {
     to: &'a KeyPhotons,
     rows: Range<usize>,
     /// Absent where the group rests, or where the fit saw no photon of it: then all go straight.
-    carriage: Option<Carriage<'a>>,
+    trajectories: Option<Carriage<'a>>,
 }
 
-impl<'a> Ride<'a> {
-    /// The groups of photons at `from`, bound for `to`, row by row.
-    pub(super) fn new(segment: &'a Segment, from: &'a [KeyPhotons], to: &'a [KeyPhotons]) -> Self {
+impl<'a> SegmentTrajectories<'a> {
+    /// The trajectories of the photons at `from` to those at `to`, row by row.
+    pub(super) fn new(segment: &'a FittedSegment, from: &'a [KeyPhotons], to: &'a [KeyPhotons]) -> Self {
         let mut end = 0;
         let group = |(group, (from, to)): (usize, (&'a KeyPhotons, &'a KeyPhotons))| {
             let rows = end..end + from.positions.len();
             end = rows.end;
-            let mover = segment.mover_of(group).filter(|_| !rows.is_empty());
-            let carriage = mover.map(|mover| mover.carry(&from.positions, &to.positions, &to.bows));
-            Group { from, to, rows, carriage }
+            let flow = segment.flow_of(group).filter(|_| !rows.is_empty());
+            let trajectories =
+                flow.map(|flow| flow.carry(&from.positions, &to.positions, &to.midpoint_offsets));
+            Group { from, to, rows, trajectories }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }
     }
 
-    /// Photons of all groups.
+    /// The number of photons.
     pub(super) fn len(&self) -> usize {
         self.groups.last().map_or(0, |group| group.rows.end)
     }
@@ -50,20 +51,20 @@ impl<'a> Ride<'a> {
     /// # Panics
     /// When `out` has not one place for each photon.
     pub(super) fn positions_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
-        for Group { from, to, rows, carriage } in &mut self.groups {
+        for Group { from, to, rows, trajectories } in &mut self.groups {
             let out = &mut out[rows.clone()];
-            match carriage {
-                Some(carriage) => carriage.positions_at(t, out, progress)?,
+            match trajectories {
+                Some(trajectories) => trajectories.positions_at(t, out, progress)?,
                 None => straight(&from.positions, &to.positions, t as f32, out),
             }
         }
         Ok(())
     }
 
-    /// Photons that walls did not keep, so far.
+    /// The photons that crossed walls or were shut off by them, so far.
     pub(super) fn astray(&self) -> Astray {
-        let carriages = self.groups.iter().filter_map(|group| group.carriage.as_ref());
-        carriages.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
+        let all = self.groups.iter().filter_map(|group| group.trajectories.as_ref());
+        all.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
     }
 
     /// RGB flux of all photons at time `t`, 0..=1, watts.

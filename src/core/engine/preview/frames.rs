@@ -1,102 +1,102 @@
-//! What a sketch holds: photons at every frame, and the fields that moved them.
+//! A preview: photons at every frame, and the fields that moved them.
 
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::Detail;
+use crate::engine::Quality;
 use super::field::FieldAt;
 use crate::flow::{Fields, flux};
-use crate::engine::grouping::CausticLight;
-use crate::engine::light::KeyPhotons;
+use crate::engine::grouping::CausticFlux;
+use crate::engine::key_photons::{KeyPhotons, all_flux, all_positions};
 use crate::engine::meter::StageCost;
-use crate::engine::motion::Segment;
-use crate::engine::passes::{between, total};
+use crate::engine::flow::FittedSegment;
+use crate::engine::exposure::{between, total};
 use crate::engine::plan::LeftOut;
 use crate::engine::summary::FlowNumbers;
 use crate::project::Moment;
 use crate::{Progress, Result};
 
-/// Photons at the frames of a project, from the first key to the last, and what moved them. It never changes: while work
+/// Photons at the frames of a project, from the first key to the last, and the fields that moved them. It never changes: while work
 /// goes on, new ones with more frames are handed out, which share what they have in common.
 ///
 /// Rows are photons: row i is the same photon at every frame. The photons of each named caustic follow each other, and
 /// the rest comes last.
 #[derive(Clone)]
-pub struct Sketch {
-    pub(super) course: Arc<Course>,
+pub struct Preview {
+    pub(super) keys: Arc<Keys>,
     /// By frame; absent until worked out.
     pub(super) frames: Vec<Option<Arc<[Vec2]>>>,
     /// By segment; absent until fitted.
-    pub(super) segments: Vec<Option<Arc<Segment>>>,
+    pub(super) segments: Vec<Option<Arc<FittedSegment>>>,
     pub(super) numbers: Option<FlowNumbers>,
     pub(super) stages: Vec<StageCost>,
     pub(super) notes: Vec<String>,
 }
 
-/// What is known of a sketch before anything flows.
-pub(super) struct Course {
-    pub(super) detail: Detail,
+/// The key frames of a preview, known before anything flows.
+pub(super) struct Keys {
+    pub(super) quality: Quality,
     pub(super) extent: Vec2,
     /// Number of the first frame.
     pub(super) first: i32,
     /// By frame.
     pub(super) moments: Vec<Moment>,
-    pub(super) stops: Vec<Stop>,
+    pub(super) lights: Vec<KeyLight>,
     pub(super) groups: Vec<(Option<String>, Range<usize>)>,
-    pub(super) caustics: Vec<CausticLight>,
+    pub(super) caustics: Vec<CausticFlux>,
     pub(super) left_out: Vec<LeftOut>,
     /// Area that the photons cover, plane units squared, as a mean over the keys.
     pub(super) covered: f32,
-    /// Brightness asked for at later keys than the first.
+    /// Brightness requested for at later keys than the first.
     pub(super) rho: f64,
 }
 
-/// All photons at a key.
-pub(super) struct Stop {
+/// The light of all photons at a key frame.
+pub(super) struct KeyLight {
     pub(super) positions: Arc<[Vec2]>,
     flux: Vec<Vec3>,
     /// Flux of all photons, and what they should have without rho, watts.
     watts: f64,
-    asked: f64,
+    requested: f64,
 }
 
-impl Stop {
-    /// The photons `at` a key, group by group; `asked` is the flux that they should have but for rho, watts.
-    pub(super) fn new(at: &[KeyPhotons], asked: f64) -> Self {
-        let positions = at.iter().flat_map(|group| &group.positions).copied().collect();
-        let flux: Vec<Vec3> = at.iter().flat_map(|group| &group.flux).copied().collect();
+impl KeyLight {
+    /// The photons `at` a key, group by group; `requested` is the flux that they should have but for rho, watts.
+    pub(super) fn new(at: &[KeyPhotons], requested: f64) -> Self {
+        let positions = all_positions(at).collect();
+        let flux: Vec<Vec3> = all_flux(at).collect();
         let watts = total(&flux);
-        Self { positions, flux, watts, asked }
+        Self { positions, flux, watts, requested }
     }
 }
 
-impl Sketch {
-    /// How much work it was worth.
-    pub fn detail(&self) -> Detail {
-        self.course.detail
+impl Preview {
+    /// The quality.
+    pub fn quality(&self) -> Quality {
+        self.keys.quality
     }
 
     /// Size of the plane; its longer side is 1.
     pub fn extent(&self) -> Vec2 {
-        self.course.extent
+        self.keys.extent
     }
 
     /// The frames, from the first key to the last.
     pub fn frames(&self) -> RangeInclusive<i32> {
-        let first = self.course.first;
+        let first = self.keys.first;
         first..=first + self.frames.len() as i32 - 1
     }
 
     /// Photons at every frame.
     pub fn photons(&self) -> usize {
-        self.course.stops.first().map_or(0, |stop| stop.positions.len())
+        self.keys.lights.first().map_or(0, |stop| stop.positions.len())
     }
 
     /// The named caustics in their order, then the rest, without a name: their rows.
     pub fn groups(&self) -> &[(Option<String>, Range<usize>)] {
-        &self.course.groups
+        &self.keys.groups
     }
 
     /// Whether the photons of a frame are worked out; those of frames outside are at the nearest key.
@@ -112,19 +112,19 @@ impl Sketch {
     /// RGB flux of all photons at a frame, watts, into `out`, which grows or shrinks to fit.
     pub fn flux(&self, frame: i32, out: &mut Vec<Vec3>) {
         out.resize(self.photons(), Vec3::ZERO);
-        let ([from, to], time) = self.stops(frame);
+        let ([from, to], time) = self.lights(frame);
         flux::blend(&from.flux, &to.flux, time as f32, out);
     }
 
-    /// Flux of all photons at a frame over that of the source, times rho, colour and brightness as they are asked for:
-    /// 1 but for rounding. None where no light is asked for.
+    /// Flux of all photons at a frame over that of the source, times rho, colour and brightness as they are requested for:
+    /// 1 but for rounding. None where no light is requested for.
     pub fn energy(&self, frame: i32) -> Option<f64> {
-        let ([from, to], time) = self.stops(frame);
+        let ([from, to], time) = self.lights(frame);
         let key = self.moment(frame).segment;
-        let rho = |key: usize| if key == 0 { 1.0 } else { self.course.rho };
-        let last = self.course.stops.len() - 1;
-        let asked = between([from.asked * rho(key), to.asked * rho((key + 1).min(last))], time);
-        (asked > 0.0).then(|| between([from.watts, to.watts], time) / asked)
+        let rho = |key: usize| if key == 0 { 1.0 } else { self.keys.rho };
+        let last = self.keys.lights.len() - 1;
+        let requested = between([from.requested * rho(key), to.requested * rho((key + 1).min(last))], time);
+        (requested > 0.0).then(|| between([from.watts, to.watts], time) / requested)
     }
 
     /// The fields that act at a frame: the one that caustics share, and those of caustics that flow by themselves. None
@@ -133,10 +133,10 @@ impl Sketch {
         let moment = self.moment(frame);
         let layers = self.segments.get(moment.segment).into_iter().flatten().flat_map(|s| &s.layers);
         let field = |groups: &[usize], fields: &Fields| {
-            let rows = groups.iter().map(|&group| self.course.groups[group].1.clone()).collect();
+            let rows = groups.iter().map(|&group| self.keys.groups[group].1.clone()).collect();
             FieldAt::new(fields.at(moment.time), rows)
         };
-        layers.filter_map(|layer| field(&layer.groups, layer.mover.fields()?)).collect()
+        layers.filter_map(|layer| field(&layer.groups, layer.flow.fields()?)).collect()
     }
 
     /// What the fit leaves undone at a frame: for each photon, guidance minus the velocity of its field, plane units per
@@ -150,9 +150,9 @@ impl Sketch {
         let mut residuals = vec![Vec2::ZERO; positions.len()];
         let targets = self.targets(frame);
         for layer in self.segments.get(segment).into_iter().flatten().flat_map(|s| &s.layers) {
-            let Some(fields) = layer.mover.fields() else { continue };
+            let Some(fields) = layer.flow.fields() else { continue };
             let acting = fields.at(time);
-            for rows in layer.groups.iter().map(|&group| self.course.groups[group].1.clone()) {
+            for rows in layer.groups.iter().map(|&group| self.keys.groups[group].1.clone()) {
                 if acting.is_empty() {
                     continue;
                 }
@@ -168,7 +168,7 @@ impl Sketch {
 
     /// Where the photons of a frame are bound for: their places at the next key, row by row.
     pub fn targets(&self, frame: i32) -> &[Vec2] {
-        &self.stops(frame).0[1].positions
+        &self.lights(frame).0[1].positions
     }
 
     /// The way of the photon in row `row` over the frames that are worked out, with their numbers. None for a row that
@@ -218,13 +218,13 @@ impl Sketch {
     }
 
     /// The light of each named caustic, and of the rest; empty where none is named.
-    pub fn caustics(&self) -> &[CausticLight] {
-        &self.course.caustics
+    pub fn caustics(&self) -> &[CausticFlux] {
+        &self.keys.caustics
     }
 
     /// What this project does not need.
     pub fn left_out(&self) -> &[LeftOut] {
-        &self.course.left_out
+        &self.keys.left_out
     }
 
     /// What the artist should know.
@@ -237,27 +237,27 @@ impl Sketch {
         &self.stages
     }
 
-    /// Flux of all photons over that of the source, times the colour and brightness asked for, at the key where it is
+    /// Flux of all photons over that of the source, times the colour and brightness requested for, at the key where it is
     /// farthest from 1; between two keys it is between theirs.
     pub(super) fn flux_ratio(&self) -> f64 {
-        let ratios = self.course.stops.iter().filter(|s| s.asked > 0.0).map(|stop| stop.watts / stop.asked);
+        let ratios = self.keys.lights.iter().filter(|s| s.requested > 0.0).map(|stop| stop.watts / stop.requested);
         ratios.reduce(|a, b| if (b - 1.0).abs() > (a - 1.0).abs() { b } else { a }).unwrap_or(1.0)
     }
 
     pub(super) fn slot(&self, frame: i32) -> usize {
         let last = self.frames.len() as i64 - 1;
-        (i64::from(frame) - i64::from(self.course.first)).clamp(0, last) as usize
+        (i64::from(frame) - i64::from(self.keys.first)).clamp(0, last) as usize
     }
 
     pub(super) fn moment(&self, frame: i32) -> Moment {
-        self.course.moments[self.slot(frame)]
+        self.keys.moments[self.slot(frame)]
     }
 
     /// The keys around a frame, and the time between them. With one key, that one twice.
-    fn stops(&self, frame: i32) -> ([&Stop; 2], f64) {
+    fn lights(&self, frame: i32) -> ([&KeyLight; 2], f64) {
         let Moment { segment, time } = self.moment(frame);
-        let stops = &self.course.stops;
-        ([&stops[segment], &stops[(segment + 1).min(stops.len() - 1)]], time)
+        let lights = &self.keys.lights;
+        ([&lights[segment], &lights[(segment + 1).min(lights.len() - 1)]], time)
     }
 }
 
@@ -268,6 +268,6 @@ mod tests {
     #[test]
     fn sketches_go_from_thread_to_thread() {
         fn shared<T: Send + Sync>() {}
-        shared::<Sketch>();
+        shared::<Preview>();
     }
 }

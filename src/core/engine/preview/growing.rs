@@ -1,45 +1,45 @@
-//! A sketch while it is worked out: frames come in, and snapshots go out.
+//! A preview while it is made: frames come in, and snapshots go out.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::outcome::{Course, Sketch};
-use crate::engine::light::KeyPhotons;
-use crate::engine::motion::Segment;
+use super::frames::{Keys, Preview};
+use crate::engine::flow::FittedSegment;
+use crate::engine::key_photons::{KeyPhotons, all_positions};
 
-/// Snapshots of one sketch at most, about: each holds one pointer per frame.
+/// Snapshots of one preview at most, about: each holds one pointer per frame.
 const SNAPSHOTS: usize = 400;
 
-/// Gathers the frames of a sketch and shows it as it grows.
+/// Gathers the frames of a preview and shows it as it grows.
 pub(super) struct Growing<'a> {
-    sketch: Sketch,
+    preview: Preview,
     /// The frame that is waited for.
     first: i32,
-    ready: &'a mut dyn FnMut(&Arc<Sketch>),
+    ready: &'a mut dyn FnMut(&Arc<Preview>),
     /// Frames since the last snapshot.
     unseen: usize,
 }
 
 impl<'a> Growing<'a> {
     /// Knows the photons at the keys, and shows them. `first` is the frame that is waited for.
-    pub(super) fn new(course: Course, first: i32, ready: &'a mut dyn FnMut(&Arc<Sketch>)) -> Self {
-        let (frames, segments) = (course.moments.len(), course.stops.len() - 1);
+    pub(super) fn new(keys: Keys, first: i32, ready: &'a mut dyn FnMut(&Arc<Preview>)) -> Self {
+        let (frames, segments) = (keys.moments.len(), keys.lights.len() - 1);
         let at_key = |moment: &crate::project::Moment| {
             let key = moment.segment + usize::from(moment.time >= 1.0);
-            (moment.time <= 0.0 || moment.time >= 1.0).then(|| course.stops[key].positions.clone())
+            (moment.time <= 0.0 || moment.time >= 1.0).then(|| keys.lights[key].positions.clone())
         };
-        let sketch = Sketch {
-            frames: course.moments.iter().map(at_key).collect(),
+        let preview = Preview {
+            frames: keys.moments.iter().map(at_key).collect(),
             segments: vec![None; segments],
             numbers: None,
             stages: Vec::new(),
             notes: Vec::new(),
-            course: Arc::new(course),
+            keys: Arc::new(keys),
         };
-        debug_assert_eq!(sketch.frames.len(), frames);
-        let mut growing = Self { sketch, first, ready, unseen: 0 };
+        debug_assert_eq!(preview.frames.len(), frames);
+        let mut growing = Self { preview, first, ready, unseen: 0 };
         growing.show();
         growing
     }
@@ -48,42 +48,42 @@ impl<'a> Growing<'a> {
     pub(super) fn between_keys(&self, segment: usize) -> (Vec<usize>, Vec<f64>) {
         let inside =
             |(_, m): &(usize, &crate::project::Moment)| m.segment == segment && m.time > 0.0 && m.time < 1.0;
-        let moments = self.sketch.course.moments.iter().enumerate();
+        let moments = self.preview.keys.moments.iter().enumerate();
         moments.filter(inside).map(|(slot, moment)| (slot, moment.time)).unzip()
     }
 
     /// The segment of the frame that is waited for.
     pub(super) fn first_segment(&self) -> usize {
-        self.sketch.moment(self.first).segment
+        self.preview.moment(self.first).segment
     }
 
     /// Takes the photons at the frame of a slot.
     pub(super) fn add(&mut self, slot: usize, positions: &Arc<[Vec2]>) {
-        if self.sketch.frames[slot].is_some() {
+        if self.preview.frames[slot].is_some() {
             return;
         }
-        self.sketch.frames[slot] = Some(positions.clone());
+        self.preview.frames[slot] = Some(positions.clone());
         self.unseen += 1;
-        let all = self.sketch.frames.len();
-        if slot == self.sketch.slot(self.first) || self.unseen >= all.div_ceil(SNAPSHOTS) {
+        let all = self.preview.frames.len();
+        if slot == self.preview.slot(self.first) || self.unseen >= all.div_ceil(SNAPSHOTS) {
             self.show();
         }
     }
 
     /// Takes what moves the photons of a segment.
-    pub(super) fn fitted(&mut self, number: usize, segment: &Arc<Segment>) {
-        self.sketch.segments[number] = Some(segment.clone());
+    pub(super) fn fitted(&mut self, number: usize, segment: &Arc<FittedSegment>) {
+        self.preview.segments[number] = Some(segment.clone());
         self.show();
     }
 
-    /// The sketch with all there is.
-    pub(super) fn finish(self) -> Sketch {
-        self.sketch
+    /// The preview with all there is.
+    pub(super) fn finish(self) -> Preview {
+        self.preview
     }
 
     fn show(&mut self) {
         self.unseen = 0;
-        (self.ready)(&Arc::new(self.sketch.clone()));
+        (self.ready)(&Arc::new(self.preview.clone()));
     }
 }
 
@@ -105,7 +105,7 @@ impl Composition {
             start..end
         };
         let ranges = at.iter().map(range).collect();
-        let start: Vec<Vec2> = at.iter().flat_map(|group| &group.positions).copied().collect();
+        let start: Vec<Vec2> = all_positions(at).collect();
         let composition = Self { ranges, missing: vec![layers; moments], moments: vec![start; moments] };
         (layers > 0).then_some(composition)
     }

@@ -1,8 +1,9 @@
-//! The light of a sketch on the receiver: the estimate that renders use, from fewer photons.
+//! The light of a preview on the receiver: the estimate that renders use, from fewer photons.
 
 use glam::{Vec2, Vec3};
 
-use super::{Detail, Sketch};
+use super::Preview;
+use crate::engine::Quality;
 use crate::render::density::{Smoother, default_radius};
 use crate::render::splat::Splatter;
 use crate::render::{ReceiverTexture, TextureLayout};
@@ -10,9 +11,9 @@ use crate::render::{ReceiverTexture, TextureLayout};
 /// Widest kernel, plane units.
 const WIDEST: f32 = 0.5;
 
-/// Exposes frames of sketches, with its buffers.
+/// Exposes frames of previewes, with its buffers.
 #[derive(Default)]
-pub struct Exposure {
+pub struct PreviewExposure {
     splatter: Splatter,
     smoother: Smoother,
     texture: Option<ReceiverTexture>,
@@ -20,60 +21,64 @@ pub struct Exposure {
     flux: Vec<Vec3>,
 }
 
-impl Exposure {
+impl PreviewExposure {
     /// The light at a frame with `resolution` texels along the longer side of the receiver, watts per texel. `shown` tells
-    /// for each of [`Sketch::groups`] whether it shines; groups beyond its end do. None before the frame is worked out.
+    /// for each of [`Preview::groups`] whether it shines; groups beyond its end do. None before the frame is worked out.
     pub fn expose(
         &mut self,
-        sketch: &Sketch,
+        preview: &Preview,
         frame: i32,
         resolution: usize,
         shown: &[bool],
     ) -> Option<&ReceiverTexture> {
-        let all = sketch.positions(frame)?;
-        sketch.flux(frame, &mut self.flux);
+        let all = preview.positions(frame)?;
+        preview.flux(frame, &mut self.flux);
         let is_shown = |group: &usize| shown.get(*group) != Some(&false);
-        let groups = 0..sketch.groups().len();
+        let groups = 0..preview.groups().len();
         let positions = if groups.clone().all(|group| is_shown(&group)) {
             all
         } else {
-            let rows = |group: usize| sketch.groups()[group].1.clone();
+            let rows = |group: usize| preview.groups()[group].1.clone();
             let kept = || groups.clone().filter(is_shown).flat_map(rows);
             self.positions = kept().map(|row| all[row]).collect();
             self.flux = kept().map(|row| self.flux[row]).collect();
             &self.positions
         };
-        let layout = layout(sketch.extent(), resolution);
+        let layout = layout(preview.extent(), resolution);
         let texture = match self.texture.take() {
             Some(texture) if *texture.layout() == layout => texture,
             _ => ReceiverTexture::new(layout),
         };
         let texture = self.texture.insert(texture);
         self.splatter.splat(positions, &self.flux, texture);
-        self.smoother.filter(texture, Self::radius(sketch));
+        self.smoother.filter(texture, Self::radius(preview));
         Some(texture)
     }
 
-    /// The radius of the kernel for the photons of a sketch, plane units: that of a render whose photons lie as densely as
+    /// The radius of the kernel for the photons of a preview, plane units: that of a render whose photons lie as densely as
     /// these do where they are. Fewer photons are spread wider. The same at all frames.
-    pub fn radius(sketch: &Sketch) -> f32 {
-        default_radius(sketch.photons(), sketch.course.covered).min(WIDEST)
+    pub fn radius(preview: &Preview) -> f32 {
+        default_radius(preview.photons(), preview.keys.covered).min(WIDEST)
     }
 }
 
-/// The texture of all sketches on a receiver of `extent`, with a margin for the widest kernel.
+/// The texture of all previewes on a receiver of `extent`, with a margin for the widest kernel.
 pub(super) fn layout(extent: Vec2, resolution: usize) -> TextureLayout {
     TextureLayout::new(extent, resolution, margin(extent))
 }
 
-/// As wide as the kernel of the coarsest sketch whose photons lie all over the plane.
-pub(super) fn margin(extent: Vec2) -> f32 {
-    default_radius(Detail::Draft.photons(), extent.x * extent.y).min(WIDEST)
+fn photons(quality: Quality) -> usize {
+    quality.photons().unwrap_or(usize::MAX)
 }
 
-/// Radius of the finest sketch, where its photons cover a twentieth of the plane.
+/// As wide as the kernel of the coarsest preview whose photons lie all over the plane.
+pub(super) fn margin(extent: Vec2) -> f32 {
+    default_radius(photons(Quality::Draft), extent.x * extent.y).min(WIDEST)
+}
+
+/// Radius of the finest preview, where its photons cover a twentieth of the plane.
 pub(super) fn finest_radius(extent: Vec2) -> f32 {
-    default_radius(Detail::Fine.photons(), 0.05 * extent.x * extent.y).min(WIDEST)
+    default_radius(photons(Quality::Fine), 0.05 * extent.x * extent.y).min(WIDEST)
 }
 
 /// Cells along the longer side in which photons are counted to see how much of the plane they cover.
@@ -81,7 +86,7 @@ const CELLS: usize = 64;
 
 /// The area that photons cover on a plane of `extent`: that of a region on which so many, evenly spread, would have as many
 /// neighbours as these have in the mean. Plane units squared.
-pub(crate) fn covered(photons: &[Vec2], extent: Vec2) -> f32 {
+pub fn covered_area(photons: &[Vec2], extent: Vec2) -> f32 {
     let [columns, rows] = (extent * CELLS as f32).to_array().map(|side| side.ceil().max(1.0) as usize);
     let mut counts = vec![0_u32; columns * rows];
     for p in photons.iter().map(|p| *p * CELLS as f32).filter(|p| p.cmpge(Vec2::ZERO).all()) {
@@ -110,10 +115,10 @@ mod tests {
             (0..256 * 256).map(|i| vec2(at(i % 256), at(i / 256))).collect()
         };
         for (side, area) in [(0.5, 0.25), (1.0, 1.0)] {
-            let seen = covered(&points(side), Vec2::ONE);
+            let seen = covered_area(&points(side), Vec2::ONE);
             // Each point is no neighbour of itself: one part in the 16 to 64 of a cell.
             assert!((seen / area - 1.0).abs() < 0.07, "{seen} for {area}");
         }
-        assert_eq!(covered(&[Vec2::ZERO], vec2(1.0, 0.5)), 0.5);
+        assert_eq!(covered_area(&[Vec2::ZERO], vec2(1.0, 0.5)), 0.5);
     }
 }

@@ -1,245 +1,188 @@
-//! The live preview: a project's photons at every frame, at once in coarse strokes, then finer.
-//!
-//! The same stages as a render, cut finer: each remembers its result and is redone only when what it was made from
-//! changes. A new gamma fits anew but neither traces nor matches; a new brightness changes flux alone; a key that is
-//! moved in time leaves the fields as they are; a light that is moved leaves the meshes as they are.
+//! The live preview: a project's photons at every frame, coarse at once, then finer.
 
-mod detail;
-mod exposure;
 mod field;
+mod frames;
 mod growing;
-mod level;
-mod outcome;
+mod light;
+mod orbit;
+mod positions;
 mod shot;
 
 use std::sync::Arc;
 
-use crate::photon::{Lesson, Tracer};
-use crate::engine::grouping::notes_on_dark;
-use crate::engine::light::KeyPhotons;
-use crate::engine::loader::{Loader, Prepared};
-use crate::engine::meter::Meter;
-use crate::engine::stage::{Same, Stage};
-use crate::engine::summary::{FlowNumbers, note_on_walls};
-use crate::engine::supply::Supplies;
-use crate::project::{AssetFolder, OutputSettings, Project};
-use crate::scene::{Geometry, LightDesc, ReceiverDesc, Scene};
+use super::Engine;
+use super::grouping::notes_on_dark;
+use super::job::Job;
+use super::key_photons::KeyPhotons;
+use super::meter::Meter;
+use super::prepare::Prepared;
+use super::quality::Quality;
+use super::summary::{FlowNumbers, note_on_walls};
+use super::walk::{MapsFrom, SegmentPhotons, Walk};
+use super::{flow::FittedSegment, grouping::CausticFlux};
+use crate::project::{OutputSettings, Project};
 use crate::{Progress, Result};
+use frames::{Keys, KeyLight};
 use growing::Growing;
-use level::{Fitted, Job, Level, Walk};
-use outcome::{Course, Stop};
-use shot::Views;
 
-pub use detail::Detail;
-pub use exposure::Exposure;
-pub(crate) use exposure::covered;
 pub use field::FieldAt;
-pub use outcome::Sketch;
-pub use shot::{Look, Shot};
+pub use frames::Preview;
+pub use light::{PreviewExposure, covered_area};
+pub use orbit::OrbitView;
+pub(super) use positions::PositionsInput;
+pub use shot::Shot;
 
-/// Sketches a project again and again while it is edited, with what it remembers from edit to edit.
-pub struct Sketcher {
-    loader: Loader,
-    lesson: Stage<LessonInput, Arc<Lesson>>,
-    /// By [`Detail`].
-    levels: [Level; 3],
-    views: Views,
-}
+/// Most positions that a preview keeps, photons times frames: 160 MB.
+const MOST_POSITIONS: usize = 20_000_000;
 
-/// What must stay for lights to shine to where they did.
-#[derive(PartialEq)]
-struct LessonInput {
-    geometry: Same<Geometry>,
-    lights: Vec<LightDesc>,
-    receiver: ReceiverDesc,
-    seed: u64,
-}
-
-impl Sketcher {
-    /// Has seen no project yet and finds files through `assets`.
-    pub fn new(assets: AssetFolder) -> Self {
-        Self {
-            loader: Loader::new(assets),
-            lesson: Stage::default(),
-            levels: Default::default(),
-            views: Views::default(),
-        }
-    }
-
-    /// The photons of all frames. `ready` is shown the sketch as it grows: first the keys, then frame after frame, those
-    /// of the segment around the frame `first` before the others. The same project gives the same photons, whatever was
-    /// sketched before, for any number of threads.
+impl Engine {
+    /// The photons at all frames of a project, at one of [`Quality::LIVE`]. `ready` gets the preview as it grows: first the
+    /// key frames, then frame after frame, those of the segment around the frame `first` before the others. The same
+    /// project gives the same photons, whatever was previewed before, for any number of threads.
     ///
     /// # Errors
     /// As a render of the project, with the same words; more frames than one run may have; cancelled.
-    pub fn sketch(
-        &mut self,
+    pub fn preview(
+        &self,
         project: &Project,
-        detail: Detail,
+        quality: Quality,
         first: i32,
         progress: &Progress,
-        ready: &mut dyn FnMut(&Arc<Sketch>),
-    ) -> Result<Arc<Sketch>> {
+        ready: &mut dyn FnMut(&Arc<Preview>),
+    ) -> Result<Arc<Preview>> {
         project.check()?;
-        let mut meter = Meter::quick();
-        let all_frames = OutputSettings { frames: None, ..project.output.clone() };
-        let whole = &Project { output: all_frames, ..project.clone() };
-        let prepared = meter.measure("load", || self.loader.prepare(whole, progress))?;
-        let source = self.source(whole, &prepared, &mut meter, progress)?;
-        match detail {
-            Detail::Draft | Detail::Preview => {
-                let level = &mut self.levels[detail as usize];
-                let run = Run { whole, prepared: &prepared, detail, source, progress };
-                run.fitted(level, first, &mut meter, ready)
+        let meter = Meter::quick();
+        let output = OutputSettings { frames: None, ..project.output.clone() };
+        let all_frames = Project { output, ..project.clone() };
+        let whole = self.prepare(&all_frames, &meter, progress)?;
+        let (sized, note) = at_quality(&whole, quality)?;
+        let job = self.job(&sized, &meter, progress)?;
+        let run = Run { whole: &whole, job: &job };
+        let preview = match quality.fitted_at() {
+            fitted_at if fitted_at == quality => run.fitted(first, ready)?,
+            fitted_at => {
+                let (guides, _) = at_quality(&whole, fitted_at)?;
+                run.carried(&self.job(&guides, &meter, progress)?, first, ready)?
             }
-            Detail::Fine => {
-                let [_, preview, fine] = &mut self.levels;
-                let run = Run { whole, prepared: &prepared, detail, source, progress };
-                run.carried([preview, fine], first, &mut meter, ready)
-            }
-        }
-    }
-
-    /// The scene, and where its lights must shine, where photons must be traced.
-    fn source(
-        &mut self,
-        project: &Project,
-        prepared: &Prepared,
-        meter: &mut Meter,
-        progress: &Progress,
-    ) -> Result<Option<(Arc<Scene>, Arc<Lesson>)>> {
-        let scene = prepared.scene.clone().filter(|_| prepared.supplies.traces());
-        let (Some(scene), Some(desc)) = (scene, &project.scene) else { return Ok(None) };
-        let input = LessonInput {
-            geometry: Same::of(scene.geometry()),
-            lights: desc.lights.clone(),
-            receiver: desc.receiver.clone(),
-            seed: project.seed,
         };
-        let lesson = self.lesson.get(input, |_| {
-            let learn = || Tracer::new(&scene, project.seed, progress).map(|tracer| tracer.lesson().clone());
-            meter.measure("trace", learn).map(Arc::new)
-        })?;
-        Ok(Some((scene, lesson)))
+        Ok(Arc::new(preview.concluded(&whole.notes, note, &meter)))
     }
 }
 
-/// One sketch of a project.
-struct Run<'a> {
-    whole: &'a Project,
-    prepared: &'a Prepared,
-    detail: Detail,
-    source: Option<(Arc<Scene>, Arc<Lesson>)>,
-    progress: &'a Progress,
+/// A prepared project with no more work in it than a quality is worth, and a note where memory allows fewer photons.
+fn at_quality(whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<String>)> {
+    let project = quality.apply(&whole.project);
+    let wanted = quality.photons_of(&project);
+    let frames = whole.plan.frames.max(1);
+    let kept = (MOST_POSITIONS / frames).clamp(1, wanted);
+    let note = (kept < wanted).then(|| {
+        format!(
+            "preview: {kept} photons in place of {wanted}, so that {frames} frames fit into memory; what is rendered keeps its photons"
+        )
+    });
+    let limited = whole.limited(quality, kept)?;
+    Ok((Prepared { project, ..limited }, note))
 }
 
-/// A project at one detail.
-struct Sized {
-    project: Project,
-    supplies: Supplies,
-    photons: usize,
-    note: Option<String>,
+/// One preview of a project.
+struct Run<'a> {
+    whole: &'a Prepared,
+    job: &'a Job<'a>,
 }
 
 impl Run<'_> {
-    fn sized(&self, detail: Detail) -> Result<Sized> {
-        let Self { whole, prepared, .. } = self;
-        let (most, note) = detail.photons_for(whole, prepared.plan.frames);
-        let (supplies, photons) = prepared.supplies.thinned(whole.matching, most)?;
-        Ok(Sized { project: detail.apply(whole, photons), supplies, photons, note })
-    }
-
-    fn job<'a>(&'a self, sized: &'a Sized) -> Job<'a> {
-        Job {
-            project: &sized.project,
-            extent: self.prepared.extent,
-            supplies: &sized.supplies,
-            source: self.source.clone(),
-            count: sized.photons,
-            anchors: self.detail.anchors(),
-            progress: self.progress,
-        }
-    }
-
     /// Matches and fits; the frames fall out of the fits.
-    fn fitted(
-        &self,
-        level: &mut Level,
-        first: i32,
-        meter: &mut Meter,
-        ready: &mut dyn FnMut(&Arc<Sketch>),
-    ) -> Result<Arc<Sketch>> {
-        let sized = self.sized(self.detail)?;
-        let job = self.job(&sized);
-        let walk = level.walk(&job, None, meter)?;
-        let mut growing = Growing::new(self.course(&sized, &walk), first, ready);
-        let mut fitted = Vec::new();
-        for number in outward(growing.first_segment(), self.whole.keys.len() - 1) {
-            fitted.push(level.fit(&job, &walk, number, Some(&mut growing), meter)?);
+    fn fitted(&self, first: i32, ready: &mut dyn FnMut(&Arc<Preview>)) -> Result<Preview> {
+        let (keys, segments) = self.walk(|_| MapsFrom::Own { bounded: false })?;
+        let mut growing = Growing::new(keys, first, ready);
+        let mut all = Vec::new();
+        for number in outward(growing.first_segment(), segments.len()) {
+            let (fitted, frames) = growing.fit(self.job, &segments[number])?;
+            growing.carry(self.job, &segments[number], &fitted, frames)?;
+            all.push(fitted);
         }
-        Ok(self.finish(growing, &fitted, &sized, meter))
+        Ok(finished(growing, &all))
     }
 
-    /// Pairs photons of its own as those of `guide` are, and carries them along the fields of those.
+    /// Pairs photons as those of `guides` are, and carries them along the fields of those.
     fn carried(
         &self,
-        [guide, level]: [&mut Level; 2],
+        guides: &Job,
         first: i32,
-        meter: &mut Meter,
-        ready: &mut dyn FnMut(&Arc<Sketch>),
-    ) -> Result<Arc<Sketch>> {
-        let (before, sized) = (self.sized(Detail::Preview)?, self.sized(self.detail)?);
-        let (guides, job) = (self.job(&before), self.job(&sized));
-        let led = guide.walk(&guides, None, meter)?;
-        let walk = level.walk(&job, Some(&led), meter)?;
-        let mut growing = Growing::new(self.course(&sized, &walk), first, ready);
-        let mut fitted = Vec::new();
-        for number in outward(growing.first_segment(), self.whole.keys.len() - 1) {
-            let fit = guide.fit(&guides, &led, number, None, meter)?;
-            level.carry(&job, &walk, number, (&fit, None), &mut growing, meter)?;
-            fitted.push(fit);
+        ready: &mut dyn FnMut(&Arc<Preview>),
+    ) -> Result<Preview> {
+        let guides = Run { whole: self.whole, job: guides };
+        let (_, led) = guides.walk(|_| MapsFrom::Own { bounded: false })?;
+        let (keys, segments) = self.walk(|number| MapsFrom::Others(&led[number].matched.maps))?;
+        let mut growing = Growing::new(keys, first, ready);
+        let mut all = Vec::new();
+        for number in outward(growing.first_segment(), segments.len()) {
+            let fitted = super::flow::fit_segment(guides.job, &led[number], None)?;
+            growing.carry(self.job, &segments[number], &fitted, None)?;
+            all.push(fitted);
         }
-        Ok(self.finish(growing, &fitted, &sized, meter))
+        Ok(finished(growing, &all))
     }
 
-    fn course(&self, sized: &Sized, walk: &Walk) -> Course {
-        let Prepared { extent, slots, plan, .. } = self.prepared;
-        let grouping = sized.supplies.grouping();
+    /// The photons at all key frames and in all segments, matched by the maps that `maps` gives for each.
+    fn walk<'m>(&self, maps: impl Fn(usize) -> MapsFrom<'m>) -> Result<(Keys, Vec<SegmentPhotons>)> {
+        let mut walk = Walk::start(self.job, 0)?;
+        let caustics = self.job.sources.caustics(walk.light());
+        let groups = walk.at().clone();
+        let mut lights = vec![KeyLight::new(walk.at(), walk.requested())];
+        let mut segments: Vec<SegmentPhotons> = Vec::new();
+        while let Some(photons) = walk.next(maps(segments.len()))? {
+            lights.push(KeyLight::new(walk.at(), walk.requested()));
+            segments.push(photons);
+        }
+        Ok((self.keys(lights, &groups, caustics), segments))
+    }
+
+    fn keys(&self, lights: Vec<KeyLight>, groups: &[KeyPhotons], caustics: Vec<CausticFlux>) -> Keys {
+        let Prepared { project, extent, times, plan, .. } = self.whole;
+        let grouping = self.job.sources.grouping();
         let mut end = 0;
         let group = |(group, at): (usize, &KeyPhotons)| {
             let start = end;
             end += at.positions.len();
             (grouping.name(group).map(str::to_owned), start..end)
         };
-        let stops: Vec<Stop> =
-            walk.stops.iter().zip(&walk.asked).map(|(at, asked)| Stop::new(at, *asked)).collect();
-        let covered = stops.iter().map(|stop| covered(&stop.positions, *extent)).sum::<f32>();
-        Course {
-            covered: covered / stops.len() as f32,
-            detail: self.detail,
+        let covered = lights.iter().map(|light| covered_area(&light.positions, *extent)).sum::<f32>();
+        Keys {
+            covered: covered / lights.len() as f32,
+            quality: self.job.quality,
             extent: *extent,
-            first: self.whole.keys[0].frame,
-            moments: slots.frames.iter().map(|&(_, slot)| slots.moments[slot]).collect(),
-            stops,
-            groups: walk.stops[0].iter().enumerate().map(group).collect(),
-            caustics: walk.caustics.clone(),
+            first: project.keys[0].frame,
+            moments: times.frames.iter().map(|&(_, slot)| times.moments[slot]).collect(),
+            lights,
+            groups: groups.iter().enumerate().map(group).collect(),
+            caustics,
             left_out: plan.left_out.clone(),
-            rho: self.whole.flow.rho.into(),
+            rho: project.flow.rho.into(),
         }
     }
+}
 
-    fn finish(&self, growing: Growing, fitted: &[Arc<Fitted>], sized: &Sized, meter: &Meter) -> Arc<Sketch> {
-        let mut sketch = growing.finish();
-        let numbers = fitted.iter().flat_map(|f| FlowNumbers::of_segment(f.reports.clone(), &f.segment.cost));
-        sketch.numbers = numbers.reduce(FlowNumbers::worst);
-        let flux_ratio = sketch.flux_ratio();
-        sketch.numbers.iter_mut().for_each(|numbers| numbers.flux_ratio = flux_ratio);
-        sketch.stages = meter.costs().to_vec();
-        sketch.notes = self.prepared.notes.clone();
-        sketch.notes.extend(sized.note.clone());
-        sketch.notes.extend(notes_on_dark(sketch.caustics()));
-        sketch.notes.extend(sketch.numbers.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
-        Arc::new(sketch)
+/// The preview with the numbers of its flow, the worst over all segments.
+fn finished(growing: Growing, fitted: &[Arc<FittedSegment>]) -> Preview {
+    let mut preview = growing.finish();
+    let numbers = fitted.iter().flat_map(|f| FlowNumbers::of_segment(f.reports.clone(), &f.cost));
+    preview.numbers = numbers.reduce(FlowNumbers::worst);
+    let flux_ratio = preview.flux_ratio();
+    preview.numbers.iter_mut().for_each(|numbers| numbers.flux_ratio = flux_ratio);
+    preview
+}
+
+impl Preview {
+    /// The preview with its stages and notes.
+    fn concluded(mut self, notes: &[String], note: Option<String>, meter: &Meter) -> Self {
+        self.stages = meter.costs();
+        self.notes = notes.to_vec();
+        self.notes.extend(note);
+        let dark = notes_on_dark(self.caustics());
+        self.notes.extend(dark);
+        self.notes.extend(self.numbers.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
+        self
     }
 }
 
