@@ -13,7 +13,7 @@ use crate::matching::Method;
 use crate::photon::{Photons, Tracer};
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
-use crate::target::{PictureSampler, Points, load_points};
+use crate::targets::{PictureSampler, Points, load_points};
 use crate::{Error, Progress, Result};
 
 /// What a group shows at a key frame, resolved.
