@@ -12,7 +12,7 @@ const ORDER: [&str; 16] = [
     "math",
     "scene",
     "photon",
-    "target",
+    "targets",
     "constraint",
     "matching",
     "flow",
@@ -25,7 +25,7 @@ const ORDER: [&str; 16] = [
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.
-const SCENELESS: [&str; 4] = ["target", "constraint", "matching", "flow"];
+const SCENELESS: [&str; 4] = ["targets", "constraint", "matching", "flow"];
 
 const LONGEST_FILE: usize = 500;
 
@@ -33,7 +33,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        if path.is_dir() && !path.ends_with("target") {
+        if path.is_dir() {
             found.extend(sources(&path));
         } else if path.extension().is_some_and(|e| e == "rs") {
             found.push(path);

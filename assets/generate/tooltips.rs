@@ -16,7 +16,7 @@ use lightloom_core::export::FrameFormat;
 use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
 use lightloom_core::engine::Pipeline;
 use lightloom_core::project::{AssetFolder, Project, Shows};
-use lightloom_core::target::{ImageTarget, Placement};
+use lightloom_core::targets::{ImageTarget, Placement};
 
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [160, 100];

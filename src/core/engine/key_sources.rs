@@ -14,7 +14,7 @@ use crate::matching::Method;
 use crate::photon::Photons;
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
-use crate::target::{PictureSampler, Points, load_points};
+use crate::targets::{PictureSampler, Points, load_points};
 use crate::{Error, Result};
 
 /// The source of a group's light at a key frame.

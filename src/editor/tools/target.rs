@@ -3,7 +3,7 @@
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
 use lightloom_core::project::{KeyFrame, Project, Shows};
-use lightloom_core::target::{ImageTarget, Placement};
+use lightloom_core::targets::{ImageTarget, Placement};
 
 use super::snap::Snap;
 use super::{Gesture, Ghost, Look, Tool, icon};
