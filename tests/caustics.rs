@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use glam::{DVec3, Vec2, Vec3};
-use lightloom_core::engine::{CheckReport, Pipeline, Summary};
+use lightloom_core::engine::{CheckReport, Engine, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;
@@ -67,8 +67,8 @@ fn parted() -> Value {
         "left": { "shows": square(UPPER) }, "right": { "shows": square(LOWER) } } })
 }
 
-fn pipeline(stage: &Stage) -> Pipeline {
-    Pipeline::new(AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap())
+fn pipeline(stage: &Stage) -> Engine {
+    Engine::new(AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap())
 }
 
 fn parse(project: &Value) -> Result<Project> {

@@ -11,7 +11,7 @@ use std::path::Path;
 use crossing::crosses;
 use glam::{DVec3, Vec2, Vec3};
 use lightloom_core::Progress;
-use lightloom_core::engine::{Pipeline, Summary};
+use lightloom_core::engine::{Engine, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use proptest::prelude::*;
 use scenes::{Stage, glass, point, sphere_obj};
@@ -193,7 +193,7 @@ impl Run {
 
     fn of(stage: &Stage, project: &Project) -> Self {
         let assets = AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap();
-        let mut pipeline = Pipeline::new(assets);
+        let mut pipeline = Engine::new(assets);
         let [fitted, shown] = ["fitted", "shown"].map(|name| stage.folder.path().join(name));
         fs::create_dir_all(&fitted).unwrap();
         fs::create_dir_all(&shown).unwrap();

@@ -7,16 +7,16 @@ use std::path::Path;
 use std::process::Command;
 
 use lightloom_core::flow::FitKind;
-use lightloom_core::engine::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{GammaResponse, Response, gamma_response};
 use serde_json::Value;
 
 use letters::project;
 
 fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
     gamma_response(&mut pipeline, &Project::load(path).unwrap(), progress)
 }
 

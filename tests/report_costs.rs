@@ -6,14 +6,14 @@ mod letters;
 use std::path::Path;
 use std::time::Duration;
 
-use lightloom_core::engine::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
     let (project, scratch) = (Project::load(path).unwrap(), path.parent().unwrap());
     report(&mut pipeline, &project, Effort::Quick, &[section.to_owned()], scratch, progress)
 }

@@ -3,10 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use lightloom_core::engine::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Effort, Part, Picture, Report, Row, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Effort, Part, Picture, Report, Row, report};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -36,7 +36,7 @@ fn project(change: &Value) -> (TempDir, PathBuf) {
 }
 
 fn measure(path: &Path, effort: Effort, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
     let scratch = tempfile::tempdir().unwrap();
     let only = [section.to_owned()];
     report(&mut pipeline, &Project::load(path).unwrap(), effort, &only, scratch.path(), progress)
@@ -90,7 +90,7 @@ fn the_error_falls_with_the_passes_and_the_reference_has_the_least() {
     let noise = number(reference, RMS).unwrap();
     assert!(runs.iter().all(|row| number(row, RMS).unwrap() > noise), "the reference has {noise}");
     // One setting is the project's own.
-    let marked = runs.iter().filter(|row| row.tone == lightloom_core::report::Tone::Marked);
+    let marked = runs.iter().filter(|row| row.tone == lightloom_report::Tone::Marked);
     assert_eq!(marked.map(|row| number(row, PASSES)).collect::<Vec<_>>(), [Some(8.0)]);
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::Vec2;
 use lightloom_core::flow::Movement;
 use lightloom_core::photon::Tracer;
-use lightloom_core::engine::{Detail, Pipeline, Sketch, Sketcher};
+use lightloom_core::engine::{Quality, Engine, Preview, Engine};
 use lightloom_core::project::{AssetFolder, Ease, Project};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
@@ -89,7 +89,7 @@ fn a_picture_that_was_painted_over_is_read_again() {
 fn every_example_is_sketched_whole() {
     for name in EXAMPLES {
         let (project, mut sketcher) = example(name);
-        for detail in [Detail::Draft, Detail::Preview] {
+        for detail in [Quality::Draft, Quality::Preview] {
             let sketch = sketcher.sketch(&project, detail, 30, &Progress::new(), &mut |_| ()).unwrap();
             let frames = sketch.frames();
             let keys = [&project.keys[0], project.keys.last().unwrap()];
@@ -143,7 +143,7 @@ fn the_segment_under_the_playhead_comes_first() {
     let last = keys[keys.len() - 2]..keys[keys.len() - 1];
     let playhead = (last.start + last.end) / 2;
     let (mut alone, mut grew, mut before) = (None, true, 0);
-    let mut watch = |sketch: &Arc<Sketch>| {
+    let mut watch = |sketch: &Arc<Preview>| {
         let ready = |frames: std::ops::Range<i32>| frames.filter(|f| sketch.is_ready(*f)).count();
         // Nothing but the keys of the other segments was there when the frame came.
         if sketch.is_ready(playhead) && alone.is_none() {
@@ -154,7 +154,7 @@ fn the_segment_under_the_playhead_comes_first() {
         before = now;
     };
     let progress = Progress::new();
-    let sketch = sketcher.sketch(&project, Detail::Draft, playhead, &progress, &mut watch).unwrap();
+    let sketch = sketcher.sketch(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
     assert_eq!(alone, Some(true));
     assert!(grew);
     assert_eq!(before, sketch.frames().count());
@@ -234,8 +234,8 @@ fn rows_paired_as_given_stay_paired() {
     let key = |frame: i32, file: &str| json!({ "frame": frame, "shows": { "points": { "file": file } } });
     let project = json!({ "lightloom": 1, "matching": "given", "keys": [key(1, "a.csv"), key(5, "b.csv")] });
     let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
-    let mut sketcher = Sketcher::new(AssetFolder::new(&path, false).unwrap());
-    for (detail, count) in [(Detail::Draft, 4_000), (Detail::Preview, 9_000)] {
+    let mut sketcher = Engine::new(AssetFolder::new(&path, false).unwrap());
+    for (detail, count) in [(Quality::Draft, 4_000), (Quality::Preview, 9_000)] {
         let sketch = sketcher.sketch(&project, detail, 1, &Progress::new(), &mut |_| ()).unwrap();
         assert_eq!(sketch.photons(), count);
         let (a, b) = (sketch.positions(1).unwrap(), sketch.positions(5).unwrap());
@@ -248,19 +248,19 @@ fn rows_paired_as_given_stay_paired() {
 fn a_sketch_that_is_cancelled_stops_and_harms_none_after_it() {
     let (mut project, mut sketcher) = example("letters");
     let progress = Progress::new();
-    let stop = |sketch: &Arc<Sketch>| {
+    let stop = |sketch: &Arc<Preview>| {
         if sketch.is_ready(20) {
             progress.cancel();
         }
     };
-    let cancelled = sketcher.sketch(&project, Detail::Draft, 20, &progress, &mut { stop });
+    let cancelled = sketcher.sketch(&project, Quality::Draft, 20, &progress, &mut { stop });
     assert!(matches!(cancelled, Err(Error::Cancelled)));
     assert!(matches!(sketcher.shot(&project, [64, 36], 1, &progress), Err(Error::Cancelled)));
     project.flow.gamma = 0.6;
     let after = draft(&mut sketcher, &project);
     assert_eq!(bits(&after), bits(&draft(&mut example("letters").1, &project)));
     let (project, mut sketcher) = example("dark_glass");
-    let none = sketcher.sketch(&project, Detail::Draft, 1, &progress, &mut |_| ());
+    let none = sketcher.sketch(&project, Quality::Draft, 1, &progress, &mut |_| ());
     assert!(matches!(none, Err(Error::Cancelled)), "a scene is not even loaded");
 }
 
@@ -280,8 +280,8 @@ fn what_a_render_refuses_a_sketch_refuses_with_the_same_words() {
     for spoil in broken {
         let mut project = good.clone();
         spoil(&mut project);
-        let sketched = sketcher.sketch(&project, Detail::Draft, 1, &Progress::new(), &mut |_| ());
-        let checked = Pipeline::new(assets.clone()).check(&project);
+        let sketched = sketcher.sketch(&project, Quality::Draft, 1, &Progress::new(), &mut |_| ());
+        let checked = Engine::new(assets.clone()).check(&project);
         assert_eq!(sketched.err().unwrap().to_string(), checked.err().unwrap().to_string());
     }
 }
@@ -311,15 +311,15 @@ fn long_animations_keep_fewer_photons_and_say_so() {
 #[test]
 fn finer_photons_go_along_the_fields_of_the_preview() {
     let (mut project, mut sketcher) = example("letters_free");
-    let run = |sketcher: &mut Sketcher, project: &Project, detail| {
+    let run = |sketcher: &mut Engine, project: &Project, detail| {
         sketcher.sketch(project, detail, 30, &Progress::new(), &mut |_| ()).unwrap()
     };
-    let preview = run(&mut sketcher, &project, Detail::Preview);
-    let fine = run(&mut sketcher, &project, Detail::Fine);
-    assert_eq!(fine.photons(), Detail::Fine.photons());
+    let preview = run(&mut sketcher, &project, Quality::Preview);
+    let fine = run(&mut sketcher, &project, Quality::Fine);
+    assert_eq!(fine.photons(), Quality::Fine.photons());
     assert_eq!(stages(&fine), ["load", "match", "carry"]);
     let at = Vec2::new(0.4, 0.5);
     assert_eq!(fine.fields(20)[0].velocity(at), preview.fields(20)[0].velocity(at));
     project.flow.gamma = 0.5;
-    assert_eq!(stages(&run(&mut sketcher, &project, Detail::Fine)), ["load", "fit", "carry"]);
+    assert_eq!(stages(&run(&mut sketcher, &project, Quality::Fine)), ["load", "fit", "carry"]);
 }

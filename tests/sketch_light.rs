@@ -7,7 +7,7 @@ mod sketches;
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
 use lightloom_core::flow::{FlowSettings, GridSize};
-use lightloom_core::engine::{Detail, Exposure, Look, Pipeline};
+use lightloom_core::engine::{Quality, Exposure, Look, Engine};
 use lightloom_core::project::{AssetFolder, Ease};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
@@ -44,10 +44,10 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
     project.keys[0].ease = Ease::Linear;
     project.keys[1].frame = 41;
     project.render.photons = 20_000;
-    let preview = sketcher.sketch(&project, Detail::Preview, 1, &Progress::new(), &mut |_| ()).unwrap();
+    let preview = sketcher.sketch(&project, Quality::Preview, 1, &Progress::new(), &mut |_| ()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
-    Pipeline::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
+    Engine::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
     let bytes = std::fs::read(folder.path().join("tracks.npy")).unwrap();
     let tracks: Vec<f32> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
     let frame = |i: usize| -> Vec<Vec2> {

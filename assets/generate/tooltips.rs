@@ -14,7 +14,7 @@ use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::export::FrameFormat;
 use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
-use lightloom_core::engine::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project, Shows};
 use lightloom_core::targets::{ImageTarget, Placement};
 
@@ -90,7 +90,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let file = format!("../assets/targets/{name}.png");
         key.shows = Shows::Image(ImageTarget { placement, ..ImageTarget::new(file) });
     }
-    let mut pipeline = Pipeline::new(AssetFolder::new(&file, false)?);
+    let mut pipeline = Engine::new(AssetFolder::new(&file, false)?);
     let only: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &str| only.is_empty() || only.iter().any(|word| name.contains(word));
     for picture in PICTURES.iter().filter(|picture| wanted(picture.name)) {

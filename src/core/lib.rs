@@ -54,7 +54,5 @@ pub mod project;
 
 pub mod engine;
 
-pub mod report;
-
 pub use error::{Error, Result};
 pub use progress::Progress;

@@ -1,5 +1,5 @@
 //! The live preview: from an edit to the first picture of the frame under the playhead, and to all frames.
-//! Budget: 100 ms to the first picture at `Detail::Draft`; 1 s for all 60 frames at `Detail::Preview`. Two cores.
+//! Budget: 100 ms to the first picture at `Quality::Draft`; 1 s for all 60 frames at `Quality::Preview`. Two cores.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use divan::Bencher;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, Wall};
-use lightloom_core::engine::{Detail, Exposure, Sketch, Sketcher};
+use lightloom_core::engine::{Quality, Exposure, Preview, Engine};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn main() {
@@ -18,16 +18,16 @@ const PROJECTS: [&str; 3] = ["letters_free", "dark_glass", "bottles"];
 /// Texels along the receiver of the first picture.
 const TEXELS: usize = 384;
 
-fn open(name: &str) -> (Project, Sketcher) {
+fn open(name: &str) -> (Project, Engine) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(format!("{name}.json"));
     let project = Project::load(&path).expect("an example project");
-    (project, Sketcher::new(AssetFolder::new(&path, false).expect("its folder")))
+    (project, Engine::new(AssetFolder::new(&path, false).expect("its folder")))
 }
 
 /// A project that an edit was made to, over and over, each time another.
 struct Editing {
     project: Project,
-    sketcher: Sketcher,
+    sketcher: Engine,
     exposure: Exposure,
     playhead: i32,
     /// Constraints that the project came with.
@@ -40,22 +40,22 @@ impl Editing {
         let playhead = (project.keys[0].frame + project.keys[project.keys.len() - 1].frame) / 2;
         let drawn = project.constraints.len();
         let mut editing = Self { project, sketcher, exposure: Exposure::default(), playhead, drawn };
-        editing.all_frames(Detail::Draft);
+        editing.all_frames(Quality::Draft);
         editing
     }
 
     /// Until the frame under the playhead is on the receiver.
     fn first_picture(&mut self) {
         let progress = Progress::new();
-        let mut picture = |sketch: &Arc<Sketch>| {
+        let mut picture = |sketch: &Arc<Preview>| {
             if self.exposure.expose(sketch, self.playhead, TEXELS, &[]).is_some() {
                 progress.cancel();
             }
         };
-        let _ = self.sketcher.sketch(&self.project, Detail::Draft, self.playhead, &progress, &mut picture);
+        let _ = self.sketcher.sketch(&self.project, Quality::Draft, self.playhead, &progress, &mut picture);
     }
 
-    fn all_frames(&mut self, detail: Detail) {
+    fn all_frames(&mut self, detail: Quality) {
         let (playhead, progress) = (self.playhead, Progress::new());
         let _ = self.sketcher.sketch(&self.project, detail, playhead, &progress, &mut |_| ());
     }
@@ -96,10 +96,10 @@ fn first_picture_after_a_wall(bencher: Bencher, name: &str) {
 #[divan::bench(args = PROJECTS, sample_count = 10)]
 fn all_frames_after_gamma(bencher: Bencher, name: &str) {
     let mut editing = Editing::new(name);
-    editing.all_frames(Detail::Preview);
+    editing.all_frames(Quality::Preview);
     bencher.bench_local(|| {
         editing.new_gamma();
-        editing.all_frames(Detail::Preview);
+        editing.all_frames(Quality::Preview);
     });
 }
 
@@ -110,7 +110,7 @@ fn all_frames_after_a_wall(bencher: Bencher, name: &str) {
     bencher.bench_local(|| {
         length = (length + 0.001) % 0.2;
         editing.new_wall(length);
-        editing.all_frames(Detail::Preview);
+        editing.all_frames(Quality::Preview);
     });
 }
 
