@@ -7,8 +7,9 @@ use egui_kittest::kittest::Queryable;
 use lightloom::editor::action::Action;
 use lightloom::editor::canvas::{self, Under};
 use lightloom::editor::document::{Document, Edit};
+use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::panels::Desk;
-use lightloom::editor::preview::Preview;
+use lightloom::editor::preview::LivePreview;
 use lightloom::editor::session::Session;
 use lightloom::editor::tools::{Toolbox, bar};
 use lightloom_core::constraint::Constraint;
@@ -18,7 +19,7 @@ use lightloom_core::project::Project;
 struct Window {
     document: Document,
     session: Session,
-    preview: Preview,
+    preview: LivePreview,
     toolbox: Toolbox,
     asked: Vec<Action>,
 }
@@ -59,7 +60,7 @@ fn window() -> Harness<'static, Window> {
     let window = Window {
         document: Document::new(project, None),
         session: Session::default(),
-        preview: Preview::new(|| {}),
+        preview: LivePreview::new(SharedEngine::default(), || {}),
         toolbox: Toolbox::default(),
         asked: Vec::new(),
     };

@@ -67,7 +67,7 @@ fn parted() -> Value {
         "left": { "shows": square(UPPER) }, "right": { "shows": square(LOWER) } } })
 }
 
-fn pipeline(stage: &Stage) -> Engine {
+fn engine(stage: &Stage) -> Engine {
     Engine::new(AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap())
 }
 
@@ -76,7 +76,7 @@ fn parse(project: &Value) -> Result<Project> {
 }
 
 fn check(stage: &Stage, project: &Value) -> Result<CheckReport> {
-    pipeline(stage).check(&parse(project)?)
+    engine(stage).check(&parse(project)?)
 }
 
 /// What `fit` wrote.
@@ -92,7 +92,7 @@ impl Fit {
         let out = stage.folder.path().join("out");
         fs::create_dir_all(&out).unwrap();
         let summary =
-            pipeline(stage).fit(&parse(project).unwrap(), &out, &Progress::new(), &|_: &Path| {}).unwrap();
+            engine(stage).fit(&parse(project).unwrap(), &out, &Progress::new(), &|_: &Path| {}).unwrap();
         Self {
             summary,
             tracks: tracks::read(&out.join("tracks.npy")),
@@ -279,7 +279,7 @@ fn a_caustic_of_which_a_pass_has_no_photon_is_rendered() {
         let out = stage.folder.path().join("frames");
         fs::create_dir_all(&out).unwrap();
         let project = parse(&project).unwrap();
-        let summary = pipeline(&stage).render(&project, &out, &Progress::new(), &|_: &Path| {}).unwrap();
+        let summary = engine(&stage).render(&project, &out, &Progress::new(), &|_: &Path| {}).unwrap();
         assert_eq!(summary.passes, 4);
         assert!((summary.flow.unwrap().flux_ratio - 1.0).abs() < 1e-5);
     }

@@ -45,7 +45,7 @@ fn a_wall_is_drawn_seen_undone_saved_and_opened_again() {
     let path = project(&folder, "letters_free");
     let before = fs::read(&path).unwrap();
     let mut harness = window(&folder, "letters_free", Vec::new());
-    until(&mut harness, "the first light", |app| app.preview().sketch().is_some());
+    until(&mut harness, "the first light", |app| app.preview().preview().is_some());
     // Saving what was not changed writes the same bytes.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
     harness.run_steps(5);
@@ -118,7 +118,7 @@ fn a_wrong_value_of_the_project_is_told_and_the_light_stays() {
     until(&mut harness, "the problem", |app| app.preview().problem().is_some());
     let problem = harness.state().preview().problem().unwrap();
     assert!(problem.contains("keys[1].shows.image.file") && problem.contains("not_there.png"), "{problem}");
-    assert!(harness.state().preview().sketch().is_some());
+    assert!(harness.state().preview().preview().is_some());
     harness.run_steps(3);
 }
 

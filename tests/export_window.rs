@@ -14,6 +14,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::dialogs::{Picker, Scripted};
 use lightloom::editor::document::Document;
+use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::export::{ExportWindow, Exports, Job, Order, Stage};
 use lightloom_core::project::Project;
 
@@ -90,7 +91,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 fn exports() -> Exports {
-    Exports::new(|| ())
+    Exports::new(SharedEngine::default(), || ())
 }
 
 /// Begins an export that would take for ever, and waits for its first pass.

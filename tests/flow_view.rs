@@ -6,7 +6,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{Vec2, vec2};
-use lightloom::editor::preview::{FlowPicture, Preview, Subject, Wanted};
+use lightloom::editor::engine::SharedEngine;
+use lightloom::editor::preview::{FlowPicture, LivePreview, Subject, Wanted};
 use lightloom::editor::session::{FieldMap, Session};
 use lightloom_core::constraint::{Barriers, Constraint, Wall, Window};
 use lightloom_core::project::Project;
@@ -37,7 +38,7 @@ fn subject(gamma: f32, constraints: Vec<Constraint>) -> (TempDir, Subject) {
 
 /// What is seen once the workers are done.
 fn seen(subject: &Subject, session: &Session, ready: impl Fn(&FlowPicture) -> bool) -> Arc<FlowPicture> {
-    let mut preview = Preview::new(|| {});
+    let mut preview = LivePreview::new(SharedEngine::default(), || {});
     let begun = Instant::now();
     // They need seconds; minutes are for a busy machine.
     while begun.elapsed() < Duration::from_secs(300) {

@@ -193,13 +193,13 @@ impl Run {
 
     fn of(stage: &Stage, project: &Project) -> Self {
         let assets = AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap();
-        let mut pipeline = Engine::new(assets);
+        let engine = Engine::new(assets);
         let [fitted, shown] = ["fitted", "shown"].map(|name| stage.folder.path().join(name));
         fs::create_dir_all(&fitted).unwrap();
         fs::create_dir_all(&shown).unwrap();
         let progress = Progress::new();
-        let summary = pipeline.fit(project, &fitted, &progress, &|_| {}).unwrap();
-        let rendered = pipeline.render(project, &shown, &progress, &|_| {}).unwrap();
+        let summary = engine.fit(project, &fitted, &progress, &|_| {}).unwrap();
+        let rendered = engine.render(project, &shown, &progress, &|_| {}).unwrap();
         let files = fs::read_dir(&shown).unwrap().map(|entry| entry.unwrap().path());
         let mut frames: Vec<_> = files
             .filter(|path| path.extension().is_some_and(|extension| extension == "exr"))

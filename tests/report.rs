@@ -6,8 +6,8 @@ mod letters;
 use std::path::Path;
 use std::process::Command;
 
-use lightloom_core::flow::FitKind;
 use lightloom_core::engine::Engine;
+use lightloom_core::flow::FitKind;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress};
 use lightloom_report::{GammaResponse, Response, gamma_response};
@@ -16,8 +16,8 @@ use serde_json::Value;
 use letters::project;
 
 fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
-    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
-    gamma_response(&mut pipeline, &Project::load(path).unwrap(), progress)
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
+    gamma_response(&engine, &Project::load(path).unwrap(), progress)
 }
 
 fn rows(response: &GammaResponse, fit: FitKind) -> Vec<&Response> {

@@ -13,9 +13,9 @@ use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report}
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
     let (project, scratch) = (Project::load(path).unwrap(), path.parent().unwrap());
-    report(&mut pipeline, &project, Effort::Quick, &[section.to_owned()], scratch, progress)
+    report(&engine, &project, Effort::Quick, &[section.to_owned()], scratch, progress)
 }
 
 /// What a section says of a small project, changed before.

@@ -36,10 +36,10 @@ fn project(change: &Value) -> (TempDir, PathBuf) {
 }
 
 fn measure(path: &Path, effort: Effort, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Engine::new(AssetFolder::new(path, false).unwrap());
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
     let scratch = tempfile::tempdir().unwrap();
     let only = [section.to_owned()];
-    report(&mut pipeline, &Project::load(path).unwrap(), effort, &only, scratch.path(), progress)
+    report(&engine, &Project::load(path).unwrap(), effort, &only, scratch.path(), progress)
 }
 
 fn rows(report: &Report) -> Vec<&Row> {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lightloom_core::flow::Movement;
 use lightloom_core::engine::{Comparison, Engine, Summary, prepare_folder, write_report};
+use lightloom_core::flow::Movement;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Progress, Result};
 use lightloom_report::{Report, Stability};

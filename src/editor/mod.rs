@@ -8,6 +8,7 @@ pub mod clipboard;
 pub mod command;
 pub mod dialogs;
 pub mod document;
+pub mod engine;
 pub mod export;
 pub mod keys;
 pub mod menu;

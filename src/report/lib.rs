@@ -26,8 +26,8 @@ pub use section::gamma::{GammaResponse, Response, gamma_response};
 pub use stability::{Bound, EnergyOf, Limits, Measured, Size, Stability, StabilityRow, stability};
 pub use workbench::Effort;
 
-use lightloom_core::files::write_atomic;
 use lightloom_core::engine::Engine;
+use lightloom_core::files::write_atomic;
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 use section::SECTIONS;

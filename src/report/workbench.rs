@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use lightloom_core::engine::{MovingSegment, Engine, Quality, Summary};
+use lightloom_core::engine::{Engine, MovingSegment, Quality, Summary};
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 

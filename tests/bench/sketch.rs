@@ -7,7 +7,7 @@ use std::sync::Arc;
 use divan::Bencher;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, Wall};
-use lightloom_core::engine::{Quality, Exposure, Preview, Engine};
+use lightloom_core::engine::{Engine, Preview, PreviewExposure, Quality};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn main() {
@@ -27,8 +27,8 @@ fn open(name: &str) -> (Project, Engine) {
 /// A project that an edit was made to, over and over, each time another.
 struct Editing {
     project: Project,
-    sketcher: Engine,
-    exposure: Exposure,
+    engine: Engine,
+    exposure: PreviewExposure,
     playhead: i32,
     /// Constraints that the project came with.
     drawn: usize,
@@ -36,10 +36,10 @@ struct Editing {
 
 impl Editing {
     fn new(name: &str) -> Self {
-        let (project, sketcher) = open(name);
+        let (project, engine) = open(name);
         let playhead = (project.keys[0].frame + project.keys[project.keys.len() - 1].frame) / 2;
         let drawn = project.constraints.len();
-        let mut editing = Self { project, sketcher, exposure: Exposure::default(), playhead, drawn };
+        let mut editing = Self { project, engine, exposure: PreviewExposure::default(), playhead, drawn };
         editing.all_frames(Quality::Draft);
         editing
     }
@@ -47,17 +47,17 @@ impl Editing {
     /// Until the frame under the playhead is on the receiver.
     fn first_picture(&mut self) {
         let progress = Progress::new();
-        let mut picture = |sketch: &Arc<Preview>| {
-            if self.exposure.expose(sketch, self.playhead, TEXELS, &[]).is_some() {
+        let mut picture = |preview: &Arc<Preview>| {
+            if self.exposure.expose(preview, self.playhead, TEXELS, &[]).is_some() {
                 progress.cancel();
             }
         };
-        let _ = self.sketcher.sketch(&self.project, Quality::Draft, self.playhead, &progress, &mut picture);
+        let _ = self.engine.preview(&self.project, Quality::Draft, self.playhead, &progress, &mut picture);
     }
 
-    fn all_frames(&mut self, detail: Quality) {
+    fn all_frames(&mut self, quality: Quality) {
         let (playhead, progress) = (self.playhead, Progress::new());
-        let _ = self.sketcher.sketch(&self.project, detail, playhead, &progress, &mut |_| ());
+        let _ = self.engine.preview(&self.project, quality, playhead, &progress, &mut |_| ());
     }
 
     fn new_gamma(&mut self) {
@@ -116,7 +116,7 @@ fn all_frames_after_a_wall(bencher: Bencher, name: &str) {
 
 #[divan::bench(args = ["dark_glass", "bottles"], sample_count = 20)]
 fn a_look(bencher: Bencher, name: &str) {
-    let (project, mut sketcher) = open(name);
+    let (project, engine) = open(name);
     let camera = project.scene.as_ref().map(|scene| scene.camera.clone()).unwrap_or_default();
-    bencher.bench_local(|| sketcher.look(&project, &camera, [480, 270], None, &Progress::new()));
+    bencher.bench_local(|| engine.orbit_view(&project, &camera, [480, 270], None, &Progress::new()));
 }

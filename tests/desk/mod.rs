@@ -5,8 +5,9 @@ use std::path::Path;
 
 use lightloom::editor::action::Action;
 use lightloom::editor::document::Document;
+use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::panels::Desk;
-use lightloom::editor::preview::Preview;
+use lightloom::editor::preview::LivePreview;
 use lightloom::editor::session::Session;
 use lightloom::editor::{theme, timeline};
 use lightloom_core::project::Project;
@@ -15,7 +16,7 @@ use lightloom_core::project::Project;
 pub(crate) struct Table {
     pub(crate) document: Document,
     pub(crate) session: Session,
-    pub(crate) preview: Preview,
+    pub(crate) preview: LivePreview,
     /// All that was asked for, in order.
     pub(crate) asked: Vec<Action>,
     themed: bool,
@@ -32,7 +33,7 @@ impl Table {
         Self {
             document,
             session: Session::default(),
-            preview: Preview::new(|| ()),
+            preview: LivePreview::new(SharedEngine::default(), || ()),
             asked: Vec::new(),
             themed: false,
         }

@@ -8,8 +8,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::action::Action;
 use lightloom::editor::document::Document;
+use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::panels::{self, Desk};
-use lightloom::editor::preview::Preview;
+use lightloom::editor::preview::LivePreview;
 use lightloom::editor::session::{Focus, Panel, Session};
 use lightloom::editor::theme;
 use lightloom_core::project::Project;
@@ -21,7 +22,7 @@ pub(crate) type Bench = Harness<'static, Table>;
 pub(crate) struct Table {
     pub(crate) document: Document,
     pub(crate) session: Session,
-    pub(crate) preview: Preview,
+    pub(crate) preview: LivePreview,
     /// All that was asked for.
     pub(crate) asked: Vec<Action>,
     /// Whether edits are carried out.
@@ -74,7 +75,7 @@ pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench
     let table = Table {
         document: Document::new(project, None),
         session: Session { panel, ..Session::default() },
-        preview: Preview::new(|| ()),
+        preview: LivePreview::new(SharedEngine::default(), || ()),
         asked: Vec::new(),
         applies: true,
         refused: None,

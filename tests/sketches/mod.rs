@@ -1,4 +1,4 @@
-//! Projects to sketch, and what the tests ask of a sketch.
+//! Projects to preview, and what the tests ask of a preview.
 #![allow(dead_code, unreachable_pub, missing_docs)] // Each test uses its part.
 
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use lightloom_core::Progress;
-use lightloom_core::engine::{Quality, Preview, Engine};
+use lightloom_core::engine::{Engine, Preview, Quality};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;
@@ -23,23 +23,23 @@ pub fn example(name: &str) -> (Project, Engine) {
     (Project::load(&path).unwrap(), Engine::new(AssetFolder::new(&path, false).unwrap()))
 }
 
-pub fn draft(sketcher: &mut Engine, project: &Project) -> Arc<Preview> {
-    sketcher.sketch(project, Quality::Draft, 1, &Progress::new(), &mut |_| ()).unwrap()
+pub fn draft(engine: &Engine, project: &Project) -> Arc<Preview> {
+    engine.preview(project, Quality::Draft, 1, &Progress::new(), &mut |_| ()).unwrap()
 }
 
-pub fn stages(sketch: &Preview) -> Vec<&str> {
-    sketch.stages().iter().map(|cost| cost.stage).collect()
+pub fn stages(preview: &Preview) -> Vec<&str> {
+    preview.stages().iter().map(|cost| cost.stage).collect()
 }
 
 /// Positions at all frames, bit by bit.
-pub fn bits(sketch: &Preview) -> Vec<Vec<[u32; 2]>> {
-    let frame = |frame| sketch.positions(frame).unwrap().iter().map(|p| p.to_array().map(f32::to_bits));
-    sketch.frames().map(|number| frame(number).collect()).collect()
+pub fn bits(preview: &Preview) -> Vec<Vec<[u32; 2]>> {
+    let frame = |frame| preview.positions(frame).unwrap().iter().map(|p| p.to_array().map(f32::to_bits));
+    preview.frames().map(|number| frame(number).collect()).collect()
 }
 
-pub fn flux(sketch: &Preview, frame: i32) -> Vec<Vec3> {
+pub fn flux(preview: &Preview, frame: i32) -> Vec<Vec3> {
     let mut flux = Vec::new();
-    sketch.flux(frame, &mut flux);
+    preview.flux(frame, &mut flux);
     flux
 }
 
@@ -74,6 +74,6 @@ pub fn two_balls() -> (Stage, Project, Engine) {
     });
     let path = stage.folder.path().join("project.json");
     let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
-    let sketcher = Engine::new(AssetFolder::new(&path, false).unwrap());
-    (stage, project, sketcher)
+    let engine = Engine::new(AssetFolder::new(&path, false).unwrap());
+    (stage, project, engine)
 }

@@ -208,8 +208,9 @@ impl Compared {
             summary.stages.iter().find(|cost| cost.stage == stage).map_or(0.0, |cost| cost.seconds)
         };
         // All methods pair the same points, so that what one knows of their optimum holds for all.
-        let bound =
-            |segment: usize| all.iter().find_map(|(_, other)| other.fitted.flow.segments.get(segment)?.cost.bound);
+        let bound = |segment: usize| {
+            all.iter().find_map(|(_, other)| other.fitted.flow.segments.get(segment)?.cost.bound)
+        };
         let segments = rendered.fitted.flow.segments.iter().enumerate();
         let ratios = segments.filter_map(|(i, segment)| segment.cost.ratio(bound(i)));
         Self {

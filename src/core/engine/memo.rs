@@ -246,7 +246,9 @@ mod tests {
         };
         std::thread::scope(|scope| {
             let workers = [(); 4].map(|()| scope.spawn(|| get(false)));
-            workers.into_iter().for_each(|worker| assert_eq!(worker.join().ok().and_then(Result::ok), Some(7)));
+            workers
+                .into_iter()
+                .for_each(|worker| assert_eq!(worker.join().ok().and_then(Result::ok), Some(7)));
         });
         assert_eq!(runs.load(Relaxed), 1);
         let memo = Memo::<i32, i32>::default();

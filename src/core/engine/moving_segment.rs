@@ -11,8 +11,8 @@ use super::meter::{Meter, StageCost};
 use super::pairing::takes_part;
 use super::walk::{MapsFrom, SegmentPhotons, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
-use crate::flow::{Course, FlowReport, FlowSettings, flux};
 use crate::flow::guidance::mean_straight;
+use crate::flow::{Course, FlowReport, FlowSettings, flux};
 use crate::project::Project;
 use crate::render::Paper;
 use crate::{Error, Progress, Result};
@@ -113,8 +113,7 @@ impl MovingSegment {
 
     /// RGB flux of the photons of all groups at the middle of the segment, watts.
     pub fn flux(&self) -> Vec<Vec3> {
-        let [from, to] =
-            [&self.photons.from, &self.photons.to].map(|at| all_flux(at).collect::<Vec<_>>());
+        let [from, to] = [&self.photons.from, &self.photons.to].map(|at| all_flux(at).collect::<Vec<_>>());
         let mut halfway = vec![Vec3::ZERO; from.len()];
         flux::blend(&from, &to, 0.5, &mut halfway);
         halfway

@@ -68,7 +68,12 @@ impl Stages {
     ///
     /// # Errors
     /// The first value of the scene that cannot be used; a mesh that cannot be read; cancelled.
-    pub(super) fn scene(&self, client: Client, desc: &SceneDesc, progress: &Progress) -> Result<Noted<Scene>> {
+    pub(super) fn scene(
+        &self,
+        client: Client,
+        desc: &SceneDesc,
+        progress: &Progress,
+    ) -> Result<Noted<Scene>> {
         desc.check("scene")?;
         // A scene without meshes is the bare plane of a project that has no scene; it takes no slot from the others.
         let slot = Slot { client, quality: Quality::Final, index: usize::from(desc.meshes.is_empty()) };

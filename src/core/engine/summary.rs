@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::grouping::{CausticFlux, notes_on_dark};
-use super::prepare::Prepared;
-use super::meter::{Meter, StageCost};
-use super::flow::FittedFlow;
 use super::exposure::EnergyBalance;
+use super::flow::FittedFlow;
+use super::grouping::{CausticFlux, notes_on_dark};
+use super::meter::{Meter, StageCost};
 use super::pairing::TransportCost;
 use super::plan::LeftOut;
+use super::prepare::Prepared;
 use crate::constraint::Constraint;
 use crate::export::Repairs;
 use crate::flow::FlowReport;

@@ -80,7 +80,10 @@ fn stops(job: &Job, flow: &FittedFlow) -> Result<Vec<Stop>> {
     let mut stops = vec![Stop { at: walk.at().clone(), requested: walk.requested() }];
     for segment in &flow.segments {
         let photons = walk.next(MapsFrom::Own { bounded: true })?;
-        debug_assert!(photons.is_some_and(|p| Arc::ptr_eq(&p.matched.maps, &segment.maps)), "it is remembered");
+        debug_assert!(
+            photons.is_some_and(|p| Arc::ptr_eq(&p.matched.maps, &segment.maps)),
+            "it is remembered"
+        );
         stops.push(Stop { at: walk.at().clone(), requested: walk.requested() });
     }
     Ok(stops)

@@ -5,8 +5,8 @@ use std::ops::Range;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::key_photons::KeyPhotons;
 use super::flow::FittedSegment;
+use super::key_photons::KeyPhotons;
 use crate::flow::{Astray, Carriage, flux};
 use crate::{Progress, Result};
 

@@ -16,9 +16,10 @@ use eframe::egui;
 use super::action::Action;
 use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
+use super::engine::SharedEngine;
 use super::export::Exports;
 use super::playback::{self, Playback};
-use super::preview::{Preview, Subject};
+use super::preview::{LivePreview, Subject};
 use super::session::Session;
 use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
@@ -33,7 +34,7 @@ use windows::Windows;
 pub struct App {
     document: Document,
     session: Session,
-    preview: Preview,
+    preview: LivePreview,
     toolbox: Toolbox,
     timeline: Timeline,
     playback: Playback,
@@ -90,15 +91,16 @@ impl App {
             let ctx = ctx.clone();
             move || ctx.request_repaint()
         };
+        let engine = SharedEngine::default();
         let first_start = !setup.preferences.first_start_seen;
         let mut app = Self {
             session: Session { snapping: setup.preferences.snapping, ..begin(&setup.document) },
-            preview: Preview::new(wake()),
+            preview: LivePreview::new(engine.clone(), wake()),
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),
             views: Views::default(),
-            exports: Exports::new(wake()),
+            exports: Exports::new(engine, wake()),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),
@@ -131,7 +133,7 @@ impl App {
     }
 
     /// What was worked out, to look at.
-    pub fn preview(&self) -> &Preview {
+    pub fn preview(&self) -> &LivePreview {
         &self.preview
     }
 

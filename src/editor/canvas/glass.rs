@@ -34,8 +34,8 @@ pub fn over(
         input.gestures.extend(input::keys(ui, response));
     }
     let project = desk.document.project().clone();
-    let sketch = desk.preview.sketch().cloned();
-    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
+    let preview = desk.preview.preview().cloned();
+    let photons = preview.as_ref().and_then(|preview| preview.positions(desk.session.playhead));
     let look = Look {
         project: &project,
         session: desk.session,

@@ -9,6 +9,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
+use super::engine::SharedEngine;
+
 pub use job::{Cost, Growing, Job, Order, Outcome, Stage};
 pub use strip::strip;
 pub use window::ExportWindow;
@@ -16,6 +18,7 @@ pub use wish::Wish;
 
 /// The exports of this run of the program, oldest first.
 pub struct Exports {
+    engine: SharedEngine,
     jobs: Vec<Arc<Job>>,
     queue: Option<Sender<Arc<Job>>>,
     worker: Option<JoinHandle<()>>,
@@ -23,16 +26,16 @@ pub struct Exports {
 
 impl Exports {
     /// No export yet. `wake` is called whenever something may have changed, from other threads.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+    pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let (queue, orders) = channel::<Arc<Job>>();
         let work = move || orders.into_iter().for_each(|job| job.run(&wake));
         let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
-        Self { jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
+        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
     }
 
     /// Puts an export at the end of the queue.
     pub fn add(&mut self, order: Order) -> Arc<Job> {
-        let job = Arc::new(Job::new(order));
+        let job = Arc::new(Job::new(order, self.engine.clone()));
         if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
             job.fail("the system starts no thread for it");
         }

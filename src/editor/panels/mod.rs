@@ -27,7 +27,7 @@ use widgets::{add_button, aside, fold, icon_button, menu, remove_button, section
 
 use super::action::Action;
 use super::document::Document;
-use super::preview::Preview;
+use super::preview::LivePreview;
 use super::session::{Panel, Session};
 
 /// What a panel sees, and where it puts what it asks for.
@@ -37,7 +37,7 @@ pub struct Desk<'a> {
     /// The state of the window, to change.
     pub session: &'a mut Session,
     /// What the worker found out last.
-    pub preview: &'a Preview,
+    pub preview: &'a LivePreview,
     /// What is asked for.
     pub actions: &'a mut Vec<Action>,
 }

@@ -10,7 +10,7 @@ use super::{Views, wipe};
 use crate::editor::canvas::space::Space;
 use crate::editor::canvas::{self, Under};
 use crate::editor::panels::Desk;
-use crate::editor::preview::gpu::{Drawing, Swarm};
+use crate::editor::preview::gpu::{Drawing, PhotonColumns};
 use crate::editor::tools::Toolbox;
 
 /// The whole of a texture.
@@ -22,13 +22,14 @@ impl Views {
         let view = ui.available_rect_before_wrap();
         let project = desk.document.project().clone();
         let (extent, compare) = (project.extent(), desk.session.compare);
-        let (swarms, paper) = (desk.preview.painted().swarm, desk.preview.paper());
+        let (photons_of_sides, paper) = (desk.preview.painted().photons, desk.preview.paper());
         let by_card = desk.preview.draws_photons();
         let light = |painter: &Painter, space: &Space| {
             let sides = wipe::sides(view, compare).into_iter().enumerate();
             for (side, clip) in sides.filter_map(|(side, clip)| Some((side, clip?))) {
-                if let Some(swarm) = swarms[side].as_ref().filter(|_| by_card) {
-                    let drawing = drawing(painter, clip, space, (extent, paper), &project.render.view, swarm);
+                if let Some(columns) = photons_of_sides[side].as_ref().filter(|_| by_card) {
+                    let drawing =
+                        drawing(painter, clip, space, (extent, paper), &project.render.view, columns);
                     painter.add(egui_wgpu::Callback::new_paint_callback(clip, drawing));
                 } else if let Some(texture) = self.pictures.plane[side].texture() {
                     let painter = painter.with_clip_rect(clip.intersect(painter.clip_rect()));
@@ -36,8 +37,8 @@ impl Views {
                 }
             }
         };
-        let sketch = desk.preview.sketch().cloned();
-        let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
+        let preview = desk.preview.preview().cloned();
+        let photons = preview.as_ref().and_then(|preview| preview.positions(desk.session.playhead));
         let under = Under {
             light: Some(&light),
             target: self.pictures.target(),
@@ -57,13 +58,13 @@ fn drawing(
     space: &Space,
     (extent, paper): (Vec2, Paper),
     view: &ViewSettings,
-    swarm: &Arc<Swarm>,
+    photons: &Arc<PhotonColumns>,
 ) -> Drawing {
     let pixels = painter.ctx().pixels_per_point();
     let corner = clip.min * pixels;
     let origin = space.screen_from_plane(Vec2::ZERO) * pixels - corner;
     Drawing {
-        swarm: swarm.clone(),
+        photons: photons.clone(),
         corner: corner.into(),
         size: [clip.width() * pixels, clip.height() * pixels].map(|n| n.round().max(1.0) as u32),
         origin: vec2(origin.x, origin.y),

@@ -6,8 +6,8 @@ use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
 use super::super::plot::{Axis, Line, Panel, Plot, Style};
 use super::super::workbench::Workbench;
 use super::{Section, nothing_moves};
+use lightloom_core::engine::{Engine, MovingSegment, Quality};
 use lightloom_core::flow::{FitKind, FlowSettings, Movement, fit_segment, metric};
-use lightloom_core::engine::{MovingSegment, Engine, Quality};
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
@@ -58,11 +58,7 @@ pub struct GammaResponse {
 ///
 /// # Errors
 /// Anything wrong with the project or its files; nothing that moves; a fit that fails; cancelled.
-pub fn gamma_response(
-    engine: &Engine,
-    project: &Project,
-    progress: &Progress,
-) -> Result<GammaResponse> {
+pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -> Result<GammaResponse> {
     let mut project = Quality::Preview.apply(project);
     project.method = Movement::Flow;
     progress.set_road(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);

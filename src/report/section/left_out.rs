@@ -7,8 +7,8 @@ use super::super::workbench::Workbench;
 use super::stage::fit_seconds;
 use super::{Section, nothing_moves};
 use lightloom_core::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
-use lightloom_core::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
 use lightloom_core::engine::MovingSegment;
+use lightloom_core::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
 use lightloom_core::{Progress, Result};
 
 pub(crate) const SECTION: Section =

@@ -15,9 +15,9 @@ use super::super::chapter::{Chapter, Part, Table, Tone};
 use super::super::workbench::{Workbench, fastest};
 use super::stage::{ENOUGH, carry_seconds, coupled, splat_seconds, ways, without_walls};
 use super::{Section, nothing_moves};
+use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::flow::fit::Fitter;
 use lightloom_core::flow::{Course, FlowSettings, fit_segment};
-use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::render::{ProgressiveRender, TextureLayout, Workspace};
 use lightloom_core::{Progress, Result};
 
@@ -132,7 +132,12 @@ fn operations_per_second() -> f64 {
     operations / start.elapsed().as_secs_f64().max(1e-9)
 }
 
-fn tracing(bench: &mut Workbench, _: &Machine, _: &MovingSegment, progress: &Progress) -> Result<Option<Gauged>> {
+fn tracing(
+    bench: &mut Workbench,
+    _: &Machine,
+    _: &MovingSegment,
+    progress: &Progress,
+) -> Result<Option<Gauged>> {
     let count = bench.pick(200_000, 1_000_000);
     let gauge = bench.engine.gauge_tracing(&bench.project, &[count], &progress.inner())?;
     let traced = gauge.and_then(|gauge| Some((*gauge.traced.first()?, gauge.bare_rays_per_second)));

@@ -3,10 +3,10 @@
 use glam::{Vec2, Vec3};
 
 use super::super::workbench::fastest;
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::field::Grid;
 use lightloom_core::flow::fit::{Blend, FitSettings};
 use lightloom_core::flow::{Carrier, Course, Fields, FlowSettings, fit_segment};
-use lightloom_core::engine::MovingSegment;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{ReceiverTexture, TextureLayout};
 use lightloom_core::{Progress, Result};
@@ -53,7 +53,11 @@ pub(super) fn carry_seconds(fields: &Fields, photons: &MovingSegment, progress: 
 }
 
 /// Seconds in which all photons are counted into a texture.
-pub(super) fn splat_seconds(layout: TextureLayout, photons: &MovingSegment, progress: &Progress) -> Result<f64> {
+pub(super) fn splat_seconds(
+    layout: TextureLayout,
+    photons: &MovingSegment,
+    progress: &Progress,
+) -> Result<f64> {
     let flux = vec![Vec3::ONE; photons.source.len()];
     let (mut texture, mut splatter) = (ReceiverTexture::new(layout), Splatter::default());
     let splat = || {

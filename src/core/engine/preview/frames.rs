@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::engine::Quality;
 use super::field::FieldAt;
-use crate::flow::{Fields, flux};
+use crate::engine::Quality;
+use crate::engine::exposure::{between, total};
+use crate::engine::flow::FittedSegment;
 use crate::engine::grouping::CausticFlux;
 use crate::engine::key_photons::{KeyPhotons, all_flux, all_positions};
 use crate::engine::meter::StageCost;
-use crate::engine::flow::FittedSegment;
-use crate::engine::exposure::{between, total};
 use crate::engine::plan::LeftOut;
 use crate::engine::summary::FlowNumbers;
+use crate::flow::{Fields, flux};
 use crate::project::Moment;
 use crate::{Progress, Result};
 
@@ -240,7 +240,8 @@ impl Preview {
     /// Flux of all photons over that of the source, times the colour and brightness requested for, at the key where it is
     /// farthest from 1; between two keys it is between theirs.
     pub(super) fn flux_ratio(&self) -> f64 {
-        let ratios = self.keys.lights.iter().filter(|s| s.requested > 0.0).map(|stop| stop.watts / stop.requested);
+        let ratios =
+            self.keys.lights.iter().filter(|s| s.requested > 0.0).map(|stop| stop.watts / stop.requested);
         ratios.reduce(|a, b| if (b - 1.0).abs() > (a - 1.0).abs() { b } else { a }).unwrap_or(1.0)
     }
 

@@ -22,7 +22,7 @@ use super::walk::{MapsFrom, SegmentPhotons, Walk};
 use super::{flow::FittedSegment, grouping::CausticFlux};
 use crate::project::{OutputSettings, Project};
 use crate::{Progress, Result};
-use frames::{Keys, KeyLight};
+use frames::{KeyLight, Keys};
 use growing::Growing;
 
 pub use field::FieldAt;
@@ -105,12 +105,7 @@ impl Run<'_> {
     }
 
     /// Pairs photons as those of `guides` are, and carries them along the fields of those.
-    fn carried(
-        &self,
-        guides: &Job,
-        first: i32,
-        ready: &mut dyn FnMut(&Arc<Preview>),
-    ) -> Result<Preview> {
+    fn carried(&self, guides: &Job, first: i32, ready: &mut dyn FnMut(&Arc<Preview>)) -> Result<Preview> {
         let guides = Run { whole: self.whole, job: guides };
         let (_, led) = guides.walk(|_| MapsFrom::Own { bounded: false })?;
         let (keys, segments) = self.walk(|number| MapsFrom::Others(&led[number].matched.maps))?;

@@ -55,8 +55,7 @@ impl Growing<'_> {
         known: Option<Frames>,
     ) -> Result<()> {
         let (slots, times) = self.between_keys(photons.number);
-        let input =
-            PositionsInput { fitted: Same::of(fitted), matched: Same::of(&photons.matched), times };
+        let input = PositionsInput { fitted: Same::of(fitted), matched: Same::of(&photons.matched), times };
         let memo = &job.stages.positions;
         let frames = memo.get(job.slot(photons.number), input, job.progress, |input| match known {
             Some(frames) => Ok(Arc::new(frames)),

@@ -8,9 +8,7 @@ use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
 use crate::project::Project;
-use crate::render::{
-    Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, Visible, layout_for,
-};
+use crate::render::{Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, Visible, layout_for};
 use crate::{Progress, Result};
 
 /// The picture of the project's camera without caustics, and the points of the receiver that its pixels see.

@@ -2,8 +2,8 @@
 
 use glam::Vec2;
 
-use lightloom_core::flow::{Carrier, Fields};
 use lightloom_core::engine::MovingSegment;
+use lightloom_core::flow::{Carrier, Fields};
 use lightloom_core::{Progress, Result};
 
 /// Photons looked at, at most.

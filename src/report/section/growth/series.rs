@@ -6,10 +6,10 @@ use super::super::stage::{ENOUGH, carry_seconds, coupled, fit_seconds, splat_sec
 use super::Point;
 use crate::workbench::{Workbench, fastest};
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
+use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::flow::fit::Fitter;
 use lightloom_core::flow::{Course, FlowSettings, fit_segment};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::render::TextureLayout;
 use lightloom_core::{Error, Progress, Result};
 

@@ -11,9 +11,9 @@ use glam::Vec2;
 use super::{Section, nothing_moves};
 use crate::chapter::Chapter;
 use crate::workbench::Workbench;
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::matching::{MapSettings, Matching, dual_bound, transport_map_with};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::engine::MovingSegment;
 use lightloom_core::{Progress, Result};
 use ways::{Matched, Way, Ways};
 

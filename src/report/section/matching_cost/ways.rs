@@ -7,12 +7,12 @@ use glam::Vec2;
 use super::Points;
 use crate::workbench::fastest;
 use lightloom_core::constraint::Detour;
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::Movement;
 use lightloom_core::matching::{
     AroundMap, ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap,
     mean_square_distance, transport_map, transport_map_with,
 };
-use lightloom_core::engine::MovingSegment;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::crop::{Crop, shrunk};
 use crate::ssim::ssim;
 use lightloom_core::Result;
-use lightloom_core::engine::{PlaneLight, FittedProject};
+use lightloom_core::engine::{FittedProject, PlaneLight};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::{Image, ReceiverTexture, View, plane_picture};
 

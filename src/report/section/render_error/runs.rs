@@ -3,8 +3,8 @@
 use super::reference::{Distance, Reference, SHARPEST, Seen, Shown, light};
 use crate::workbench::Workbench;
 use lightloom_core::constraint::Constraint;
+use lightloom_core::engine::{FittedProject, PlaneLight, PlanePasses};
 use lightloom_core::export::evenly_chosen;
-use lightloom_core::engine::{PlaneLight, FittedProject, PlanePasses};
 use lightloom_core::project::Project;
 use lightloom_core::render::density::radius_of_pass;
 use lightloom_core::render::{Image, ReceiverTexture, RenderSettings, TextureLayout, first_radius};

@@ -4,20 +4,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::ColorImage;
 use lightloom_core::Result;
-use lightloom_core::engine::{Exposure, Look};
+use lightloom_core::engine::{OrbitView, PreviewExposure};
 use lightloom_core::render::{Mark, PlaneView, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 
-use super::painter::{Moment, shown};
-use super::subject::{Studio, Subject};
+use super::picture_worker::{Moment, shown};
+use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
+use crate::editor::engine::SharedEngine;
 
 /// Texels of the light along the receiver's longer side.
 const TEXELS: usize = 512;
 
 /// From where the scene shall be seen.
 #[derive(Clone)]
-pub(super) struct Stand {
+pub(super) struct OrbitRequest {
     pub(super) subject: Subject,
     pub(super) camera: CameraDesc,
     /// Pixels.
@@ -41,27 +42,27 @@ pub struct Seen {
 }
 
 /// Looks from the newest place.
-pub(super) struct Looker {
-    worker: Worker<Stand>,
+pub(super) struct OrbitWorker {
+    worker: Worker<OrbitRequest>,
     seen: Arc<Mutex<Seen>>,
 }
 
-impl Looker {
+impl OrbitWorker {
     /// `wake` is called when a picture is done.
-    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub(super) fn new(engine: SharedEngine, wake: impl Fn() + Clone + Send + 'static) -> Self {
         let seen: Arc<Mutex<Seen>> = Arc::default();
         let theirs = seen.clone();
         let tell = wake.clone();
         let worker = Worker::new("free look", Share::Whole, wake, move || {
-            let (seen, tell) = (theirs.clone(), tell.clone());
-            let (mut studio, mut exposure) = (Studio::default(), Exposure::default());
-            move |stand: Stand, turn: &Turn| {
+            let (engine, seen, tell) = (engine.clone(), theirs.clone(), tell.clone());
+            let mut exposure = PreviewExposure::default();
+            move |request: OrbitRequest, turn: &Turn| {
                 // What is wrong with the scene is told by the animation, which loads it too.
-                let look = turn.shielded(|_| look(&mut studio, &mut exposure, &stand, turn));
+                let look = turn.shielded(|_| look(&engine, &mut exposure, &request, turn));
                 let Ok(look) = look else { return };
                 let mut seen = seen.lock().unwrap_or_else(PoisonError::into_inner);
                 let number = seen.number + 1;
-                let picture = Some(Arc::new(shown(&look.image, &stand.view.view())));
+                let picture = Some(Arc::new(shown(&look.image, &request.view.view())));
                 *seen = Seen { number, picture, marks: look.marks, plane: Some(look.plane) };
                 drop(seen);
                 tell();
@@ -70,7 +71,7 @@ impl Looker {
         Self { worker, seen }
     }
 
-    pub(super) fn ask(&self, stand: Stand) {
+    pub(super) fn ask(&self, stand: OrbitRequest) {
         self.worker.ask(stand);
     }
 
@@ -84,10 +85,15 @@ impl Looker {
     }
 }
 
-fn look(studio: &mut Studio, exposure: &mut Exposure, stand: &Stand, turn: &Turn) -> Result<Look> {
-    let Stand { subject, camera, size, moment, .. } = stand;
+fn look(
+    engine: &SharedEngine,
+    exposure: &mut PreviewExposure,
+    request: &OrbitRequest,
+    turn: &Turn,
+) -> Result<OrbitView> {
+    let OrbitRequest { subject, camera, size, moment, .. } = request;
     let light = moment
         .as_ref()
-        .and_then(|Moment { sketch, frame, shown }| exposure.expose(sketch, *frame, TEXELS, shown));
-    studio.sketcher(subject)?.look(&subject.project, camera, *size, light, &turn.progress)
+        .and_then(|Moment { preview, frame, shown }| exposure.expose(preview, *frame, TEXELS, shown));
+    subject.engine(engine)?.orbit_view(&subject.project, camera, *size, light, &turn.progress)
 }

@@ -4,17 +4,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Color32, ColorImage};
 use glam::Vec3;
-use lightloom_core::engine::{Detail, Exposure, Shot, Sketch};
+use lightloom_core::engine::{Preview, PreviewExposure, Quality, Shot};
 use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
 use rayon::prelude::*;
 
-use super::gpu::Swarm;
+use super::gpu::PhotonColumns;
 use super::worker::{Share, Turn, Worker};
 
 /// The light of one moment, and how it is shown.
 #[derive(Clone)]
 pub(super) struct Moment {
-    pub(super) sketch: Arc<Sketch>,
+    pub(super) preview: Arc<Preview>,
     pub(super) frame: i32,
     /// Which groups of photons are shown.
     pub(super) shown: Vec<bool>,
@@ -22,7 +22,7 @@ pub(super) struct Moment {
 
 /// What shall be painted.
 #[derive(Clone)]
-pub(super) struct Wish {
+pub(super) struct PictureRequest {
     pub(super) moment: Moment,
     /// The other side of the wipe.
     pub(super) other: Option<Moment>,
@@ -55,18 +55,18 @@ pub struct Painted {
     /// The plane: this flow, and what it is compared with.
     pub plane: [Option<Arc<ColorImage>>; 2],
     /// Its photons, where the graphics card draws them.
-    pub swarm: [Option<Arc<Swarm>>; 2],
+    pub photons: [Option<Arc<PhotonColumns>>; 2],
     /// The shot.
     pub shot: [Option<Arc<ColorImage>>; 2],
 }
 
 /// Paints the newest moment that was asked for.
-pub(super) struct Painter {
-    worker: Worker<Wish>,
+pub(super) struct PictureWorker {
+    worker: Worker<PictureRequest>,
     painted: Arc<Mutex<Painted>>,
 }
 
-impl Painter {
+impl PictureWorker {
     /// `wake` is called when a picture is done.
     pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
         let painted: Arc<Mutex<Painted>> = Arc::default();
@@ -75,11 +75,11 @@ impl Painter {
         let worker = Worker::new("pictures", Share::Whole, wake, move || {
             let (painted, seen) = (theirs.clone(), seen.clone());
             let mut easel = Easel::default();
-            move |wish: Wish, turn: &Turn| {
+            move |request: PictureRequest, turn: &Turn| {
                 // A picture takes less than the patience of a viewer, and while one scrubs a newer moment always waits:
                 // each is finished, or none would ever be seen.
                 turn.shielded(|_| {
-                    easel.paint(&wish, &mut |picture| {
+                    easel.paint(&request, &mut |picture| {
                         let mut painted = painted.lock().unwrap_or_else(PoisonError::into_inner);
                         *painted = Painted { number: painted.number + 1, ..picture.clone() };
                         drop(painted);
@@ -91,8 +91,8 @@ impl Painter {
         Self { worker, painted }
     }
 
-    pub(super) fn ask(&self, wish: Wish) {
-        self.worker.ask(wish);
+    pub(super) fn ask(&self, request: PictureRequest) {
+        self.worker.ask(request);
     }
 
     /// The newest pictures.
@@ -109,27 +109,27 @@ impl Painter {
 /// Buffers kept from picture to picture.
 #[derive(Default)]
 struct Easel {
-    exposure: Exposure,
+    exposure: PreviewExposure,
 }
 
 impl Easel {
     /// Paints the plane, shows it, then the shot.
-    fn paint(&mut self, wish: &Wish, show: &mut dyn FnMut(&Painted)) {
-        let view = wish.view.view();
-        let mut painted = Painted { frame: wish.moment.frame, ..Painted::default() };
-        let moments = || [Some(&wish.moment), wish.other.as_ref()].into_iter().enumerate();
+    fn paint(&mut self, request: &PictureRequest, show: &mut dyn FnMut(&Painted)) {
+        let view = request.view.view();
+        let mut painted = Painted { frame: request.moment.frame, ..Painted::default() };
+        let moments = || [Some(&request.moment), request.other.as_ref()].into_iter().enumerate();
         for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
-            match wish.plane {
+            match request.plane {
                 Plane::Hidden => {}
                 Plane::Picture(pixels) => {
-                    let image = self.plane(moment, pixels, wish.paper);
+                    let image = self.plane(moment, pixels, request.paper);
                     painted.plane[side] = image.map(|image| Arc::new(shown(&image, &view)));
                 }
-                Plane::Photons => painted.swarm[side] = swarm(moment).map(Arc::new),
+                Plane::Photons => painted.photons[side] = photons(moment).map(Arc::new),
             }
         }
         show(&painted);
-        let Some(shot) = &wish.shot else { return };
+        let Some(shot) = &request.shot else { return };
         for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
             let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
             painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
@@ -138,32 +138,32 @@ impl Easel {
     }
 
     fn expose(&mut self, moment: &Moment, resolution: usize) -> Option<&ReceiverTexture> {
-        self.exposure.expose(&moment.sketch, moment.frame, resolution, &moment.shown)
+        self.exposure.expose(&moment.preview, moment.frame, resolution, &moment.shown)
     }
 
     fn plane(&mut self, moment: &Moment, pixels: usize, paper: Paper) -> Option<Image> {
         // Few photons are spread so wide that more pixels would show nothing more.
-        let most = match moment.sketch.detail() {
-            Detail::Draft => 384,
-            Detail::Preview => 768,
-            Detail::Fine => 1024,
+        let most = match moment.preview.quality() {
+            Quality::Draft => 384,
+            Quality::Preview => 768,
+            Quality::Fine | Quality::Final => 1024,
         };
         let light = self.expose(moment, pixels.min(most))?;
-        Some(plane_picture(light, moment.sketch.extent(), paper))
+        Some(plane_picture(light, moment.preview.extent(), paper))
     }
 }
 
 /// The photons of a moment that are shown.
-fn swarm(Moment { sketch, frame, shown }: &Moment) -> Option<Swarm> {
-    let positions = sketch.positions(*frame)?;
+fn photons(Moment { preview, frame, shown }: &Moment) -> Option<PhotonColumns> {
+    let positions = preview.positions(*frame)?;
     let mut flux = Vec::new();
-    sketch.flux(*frame, &mut flux);
-    for (group, (_, rows)) in sketch.groups().iter().enumerate() {
+    preview.flux(*frame, &mut flux);
+    for (group, (_, rows)) in preview.groups().iter().enumerate() {
         if shown.get(group) == Some(&false) {
             flux[rows.clone()].fill(Vec3::ZERO);
         }
     }
-    Some(Swarm::new(positions, &flux, Exposure::radius(sketch)))
+    Some(PhotonColumns::new(positions, &flux, PreviewExposure::radius(preview)))
 }
 
 /// The picture as the screen shows it.

@@ -1,16 +1,16 @@
-//! What is wanted of the painters, asked once for each change.
+//! Requests to the workers, sent once for each change.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightloom_core::engine::{Shot, Sketch};
+use lightloom_core::engine::{Preview, Shot};
 use lightloom_core::project::Project;
 use lightloom_core::render::{Paper, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
-use super::looker::Stand;
-use super::painter::{Moment, Plane, Wish};
-use super::{Preview, Subject};
+use super::orbit_worker::OrbitRequest;
+use super::picture_worker::{Moment, PictureRequest, Plane};
+use super::{LivePreview, Subject};
 use crate::editor::session::Session;
 
 /// Which pictures the views want.
@@ -32,7 +32,7 @@ impl Default for Wanted {
 
 /// What was asked for last.
 #[derive(Default)]
-pub(super) struct Wishes {
+pub(super) struct Requests {
     painted: Option<Painting>,
     staged: Option<Staging>,
     looked: Option<(Painting, Same<Project>, CameraDesc, [u32; 2])>,
@@ -54,7 +54,7 @@ impl<T> PartialEq for Same<T> {
 /// All that a picture of a moment depends on.
 #[derive(PartialEq)]
 struct Painting {
-    sketches: [Same<Sketch>; 2],
+    previews: [Same<Preview>; 2],
     shot: Same<Shot>,
     frame: i32,
     shown: Vec<bool>,
@@ -74,22 +74,22 @@ struct Staging {
     files: (PathBuf, bool),
 }
 
-impl Preview {
-    /// Asks the painters for what is wanted and not asked for yet.
-    pub(super) fn wish(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
-        self.wish_stage(subject, wanted);
-        let sketch = self.sketch().cloned();
-        let moment = |sketch: Arc<Sketch>| {
-            let shown = (0..sketch.groups().len()).map(|group| session.shows_group(group)).collect();
-            Moment { sketch, frame: session.playhead, shown }
+impl LivePreview {
+    /// Sends the requests that were not sent yet.
+    pub(super) fn request(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
+        self.request_shot(subject, wanted);
+        let preview = self.preview().cloned();
+        let moment = |preview: Arc<Preview>| {
+            let shown = (0..preview.groups().len()).map(|group| session.shows_group(group)).collect();
+            Moment { preview, frame: session.playhead, shown }
         };
-        let other = self.other_sketch();
+        let other = self.other_preview();
         let shot = wanted.shot.and_then(|_| self.shot());
         let painting = Painting {
-            sketches: [Same(sketch.clone()), Same(other.clone())],
+            previews: [Same(preview.clone()), Same(other.clone())],
             shot: Same(shot.clone()),
             frame: session.playhead,
-            shown: sketch
+            shown: preview
                 .iter()
                 .flat_map(|s| (0..s.groups().len()).map(|g| session.shows_group(g)))
                 .collect(),
@@ -99,39 +99,39 @@ impl Preview {
         };
         if let Some((camera, size)) = &wanted.look {
             let asked = (painting, Same(Some(subject.project.clone())), camera.clone(), *size);
-            if self.wishes.looked.as_ref() != Some(&asked) {
-                self.looker.ask(Stand {
+            if self.requests.looked.as_ref() != Some(&asked) {
+                self.orbit.ask(OrbitRequest {
                     subject: subject.clone(),
                     camera: camera.clone(),
                     size: *size,
-                    moment: sketch.map(moment),
+                    moment: preview.map(moment),
                     view: subject.project.render.view.clone(),
                 });
-                self.wishes.looked = Some(asked);
+                self.requests.looked = Some(asked);
             }
-        } else if let Some(sketch) = sketch
-            && self.wishes.painted.as_ref() != Some(&painting)
+        } else if let Some(preview) = preview
+            && self.requests.painted.as_ref() != Some(&painting)
         {
-            self.painter.ask(Wish {
-                moment: moment(sketch),
+            self.pictures.ask(PictureRequest {
+                moment: moment(preview),
                 other: other.map(moment),
                 view: subject.project.render.view.clone(),
                 paper: paper(&subject.project),
                 plane: wanted.plane,
                 shot,
             });
-            self.wishes.painted = Some(painting);
+            self.requests.painted = Some(painting);
         }
     }
 
-    fn wish_stage(&mut self, subject: &Subject, wanted: &Wanted) {
+    fn request_shot(&mut self, subject: &Subject, wanted: &Wanted) {
         let Some(size) = wanted.shot else { return };
         let Project { scene, plane, seed, .. } = &*subject.project;
         let files = (subject.base.clone(), subject.external);
         let asked = Staging { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed, files };
-        if self.wishes.staged.as_ref() != Some(&asked) {
-            self.stager.ask(subject.clone(), size);
-            self.wishes.staged = Some(asked);
+        if self.requests.staged.as_ref() != Some(&asked) {
+            self.background.ask(subject.clone(), size);
+            self.requests.staged = Some(asked);
         }
     }
 }
@@ -142,7 +142,7 @@ pub(super) fn paper(project: &Project) -> Paper {
     receiver.map_or(Paper::WHITE, |(_, receiver)| Paper::of(&receiver))
 }
 
-impl Preview {
+impl LivePreview {
     /// How light on the plane becomes visible.
     pub fn paper(&self) -> Paper {
         self.subject.as_ref().map_or(Paper::WHITE, |subject| paper(&subject.project))

@@ -5,14 +5,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use lightloom_core::engine::Shot;
 use lightloom_core::{Error, Result};
 
-use super::subject::{Studio, Subject};
+use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
+use crate::editor::engine::SharedEngine;
 
 /// Paths per pixel of the picture without caustics, one after the other: a first look, and what suffices to draw on.
 const SAMPLES: [u32; 3] = [1, 4, 24];
 
 /// Looks through the camera of the newest scene.
-pub(super) struct Stager {
+pub(super) struct BackgroundWorker {
     worker: Worker<Request>,
     found: Arc<Mutex<Found>>,
 }
@@ -29,15 +30,14 @@ struct Found {
     problem: Option<String>,
 }
 
-impl Stager {
+impl BackgroundWorker {
     /// `wake` is called whenever there is a better picture.
-    pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub(super) fn new(engine: SharedEngine, wake: impl Fn() + Clone + Send + 'static) -> Self {
         let found: Arc<Mutex<Found>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
         let worker = Worker::new("background", Share::Half, wake, move || {
-            let (found, seen) = (theirs.clone(), seen.clone());
-            let mut studio = Studio::default();
+            let (engine, found, seen) = (engine.clone(), theirs.clone(), seen.clone());
             move |request: Request, turn: &Turn| {
                 let tell = |shot: Result<Shot>| {
                     let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -51,9 +51,9 @@ impl Stager {
                     true
                 };
                 for samples in SAMPLES {
-                    let sketcher = studio.sketcher(&request.subject);
                     let (project, size) = (&request.subject.project, request.size);
-                    let shot = sketcher.and_then(|s| s.shot(project, size, samples, &turn.progress));
+                    let engine = request.subject.engine(&engine);
+                    let shot = engine.and_then(|e| e.shot(project, size, samples, &turn.progress));
                     if !tell(shot) {
                         return;
                     }

@@ -1,13 +1,14 @@
-//! The worker that sketches the animation: coarse at once, then better.
+//! The worker that previews the animation: coarse at once, then better.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lightloom_core::engine::{Detail, Sketch};
+use lightloom_core::engine::{Client, Engine, Preview, Quality};
 use lightloom_core::progress::Snapshot;
 use lightloom_core::{Error, Progress, Result};
 
-use super::subject::{Studio, Subject};
+use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
+use crate::editor::engine::SharedEngine;
 
 /// What the worker found out about one version of a project.
 #[derive(Clone, Default)]
@@ -15,21 +16,21 @@ pub(super) struct Found {
     /// Counts the versions; those of older ones are forgotten.
     pub(super) version: u64,
     /// By detail.
-    pub(super) sketches: [Option<Arc<Sketch>>; 3],
+    pub(super) previews: [Option<Arc<Preview>>; 3],
     /// What is wrong with the project or its files.
     pub(super) problem: Option<String>,
 }
 
 impl Found {
     /// The best light there is at a frame.
-    pub(super) fn best(&self, frame: i32) -> Option<&Arc<Sketch>> {
-        let ready = |sketch: &&Arc<Sketch>| sketch.frames().contains(&frame) && sketch.is_ready(frame);
-        self.sketches.iter().rev().flatten().find(ready)
+    pub(super) fn best(&self, frame: i32) -> Option<&Arc<Preview>> {
+        let ready = |preview: &&Arc<Preview>| preview.frames().contains(&frame) && preview.is_ready(frame);
+        self.previews.iter().rev().flatten().find(ready)
     }
 }
 
 /// Sketches the newest version of a project.
-pub(super) struct Animator {
+pub(super) struct PreviewWorker {
     worker: Worker<Request>,
     found: Arc<Mutex<Found>>,
     version: u64,
@@ -41,16 +42,23 @@ struct Request {
     first: i32,
 }
 
-impl Animator {
-    /// `wake` is called whenever there is something new to see.
-    pub(super) fn new(share: Share, wake: impl Fn() + Clone + Send + 'static) -> Self {
+impl PreviewWorker {
+    /// A worker that asks the shared engine on behalf of `client`. `wake` is called whenever there is something new to see.
+    pub(super) fn new(
+        engine: SharedEngine,
+        client: Client,
+        share: Share,
+        wake: impl Fn() + Clone + Send + 'static,
+    ) -> Self {
         let found: Arc<Mutex<Found>> = Arc::default();
         let theirs = found.clone();
         let seen = wake.clone();
         let worker = Worker::new("animation", share, wake, move || {
-            let (found, seen) = (theirs.clone(), seen.clone());
-            let mut studio = Studio::default();
-            move |request: Request, turn: &Turn| answer(&mut studio, &request, turn, &found, &seen)
+            let (engine, found, seen) = (engine.clone(), theirs.clone(), seen.clone());
+            move |request: Request, turn: &Turn| {
+                let engine = request.subject.engine(&engine).map(|engine| engine.on_behalf_of(client));
+                answer(engine, &request, turn, &found, &seen);
+            }
         });
         Self { worker, found, version: 0 }
     }
@@ -83,7 +91,7 @@ impl Animator {
 }
 
 /// Sketches at every detail, coarse first, and tells what there is to see.
-fn answer(studio: &mut Studio, request: &Request, turn: &Turn, found: &Mutex<Found>, seen: &impl Fn()) {
+fn answer(engine: Result<Engine>, request: &Request, turn: &Turn, found: &Mutex<Found>, seen: &impl Fn()) {
     let tell = |change: &dyn Fn(&mut Found)| {
         let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
         if found.version != request.version {
@@ -93,34 +101,27 @@ fn answer(studio: &mut Studio, request: &Request, turn: &Turn, found: &Mutex<Fou
         drop(found);
         seen();
     };
-    for detail in [Detail::Draft, Detail::Preview, Detail::Fine] {
-        let ready = |sketch: &Arc<Sketch>| {
+    let engine = match engine {
+        Ok(engine) => engine,
+        Err(error) => return tell(&|found| found.problem = Some(error.to_string())),
+    };
+    for (level, quality) in Quality::LIVE.into_iter().enumerate() {
+        let mut ready = |preview: &Arc<Preview>| {
             // The old light stays on the screen until there is new one to see.
-            if sketch.is_ready(request.first) {
-                tell(&|found| found.sketches[detail as usize] = Some(sketch.clone()));
+            if preview.is_ready(request.first) {
+                tell(&|found| found.previews[level] = Some(preview.clone()));
             }
         };
-        match sketch(studio, request, detail, turn, ready) {
-            Ok(sketch) => tell(&|found| found.sketches[detail as usize] = Some(sketch.clone())),
+        let (project, first) = (&request.subject.project, request.first);
+        let mut preview = |progress: &Progress| engine.preview(project, quality, first, progress, &mut ready);
+        let preview = match quality {
+            Quality::Draft => turn.shielded(preview),
+            _ => preview(&turn.progress),
+        };
+        match preview {
+            Ok(preview) => tell(&|found| found.previews[level] = Some(preview.clone())),
             Err(Error::Cancelled) => return,
             Err(error) => return tell(&|found| found.problem = Some(error.to_string())),
         }
-    }
-}
-
-fn sketch(
-    studio: &mut Studio,
-    request: &Request,
-    detail: Detail,
-    turn: &Turn,
-    mut ready: impl FnMut(&Arc<Sketch>),
-) -> Result<Arc<Sketch>> {
-    let Request { subject, first, .. } = request;
-    let sketcher = studio.sketcher(subject)?;
-    let mut sketch =
-        |progress: &Progress| sketcher.sketch(&subject.project, detail, *first, progress, &mut ready);
-    match detail {
-        Detail::Draft => turn.shielded(sketch),
-        Detail::Preview | Detail::Fine => sketch(&turn.progress),
     }
 }
