@@ -19,7 +19,7 @@ const PROJECTS: [&str; 3] = ["letters_free", "dark_glass", "bottles"];
 const TEXELS: usize = 384;
 
 fn open(name: &str) -> (Project, Sketcher) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(format!("{name}.json"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../projects").join(format!("{name}.json"));
     let project = Project::load(&path).expect("an example project");
     (project, Sketcher::new(AssetFolder::new(&path, false).expect("its folder")))
 }

@@ -1,5 +1,4 @@
 //! Photons along fitted fields: where they end, how exactly they get there, and that every pass moves alike.
-#![allow(clippy::unwrap_used)]
 
 use std::f32::consts::TAU;
 

@@ -1,7 +1,5 @@
 //! The background and the camera's view of the receiver, against what can be calculated.
 
-#![allow(clippy::unwrap_used)]
-
 use std::f32::consts::PI;
 use std::fmt::Write;
 

@@ -1,13 +1,11 @@
 //! Several caustics in one project: each goes to its own target with its own light, and is left alone where it shall be.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod scenes;
-mod tracks;
 
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
+use crate::scenes::{Stage, box_obj, glass, sphere_obj};
+use crate::tracks;
 use glam::{DVec3, Vec2, Vec3};
 use lightloom_core::pipeline::{CheckReport, Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
@@ -15,7 +13,6 @@ use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;
 use lightloom_core::scene::material::{Diffuse, Material};
 use lightloom_core::{Progress, Result};
-use scenes::{Stage, box_obj, glass, sphere_obj};
 use serde_json::{Value, json};
 
 const PHOTONS: usize = 3000;

@@ -1,5 +1,4 @@
 //! What is odd about drawn lines and walls is said, and never stops the program.
-#![allow(clippy::unwrap_used)]
 
 use std::path::Path;
 

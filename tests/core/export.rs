@@ -1,7 +1,5 @@
 //! Picture files read back.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use std::path::Path;
 

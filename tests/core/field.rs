@@ -1,5 +1,4 @@
 //! The field: splines, derivatives, and what lies beyond the border.
-#![allow(clippy::unwrap_used)]
 
 use glam::{Mat2, Vec2};
 use lightloom_core::flow::field::{Field, Grid};

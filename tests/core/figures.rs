@@ -1,11 +1,8 @@
 //! The example projects that show the paper's figures, judged by the tracks they store.
-#![allow(clippy::unwrap_used)]
-
-mod crossing;
 
 use std::path::{Path, PathBuf};
 
-use crossing::crosses;
+use crate::crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::Constraint;
@@ -13,7 +10,7 @@ use lightloom_core::pipeline::{Pipeline, Quality, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(name)
+    crate::root().join("projects").join(name)
 }
 
 fn all_projects() -> Vec<String> {

@@ -1,5 +1,4 @@
 //! The fit: against a dense-row sparse Cholesky reference, the energy's differences, and in extreme cases.
-#![allow(clippy::unwrap_used)]
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};

@@ -1,5 +1,4 @@
 //! Directed lines: the field follows them the more, the larger beta, and light away from them hardly notices.
-#![allow(clippy::unwrap_used)]
 
 use glam::Vec2;
 use lightloom_core::Progress;

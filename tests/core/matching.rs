@@ -1,5 +1,4 @@
 //! The matching is a bijection, near the optimum, coherent over passes, and survives what files may hold.
-#![allow(clippy::unwrap_used)]
 
 use glam::{DVec2, Vec2, vec2};
 use lightloom_core::matching::{Matching, TransportMap, dual_bound, transport_map};

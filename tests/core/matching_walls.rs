@@ -1,5 +1,4 @@
 //! Matching where walls stand: the cost of a pair is its way around them.
-#![allow(clippy::unwrap_used)]
 
 use glam::Vec2;
 use lightloom_core::Progress;

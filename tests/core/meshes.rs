@@ -1,15 +1,12 @@
 //! Mesh files come from anywhere: whatever stands in them, the answer is a scene or an error that names the place.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod scenes;
 
 use std::cell::RefCell;
 
+use crate::scenes::{Stage, box_obj, glass, icosphere, obj, sphere_obj};
 use glam::Vec3;
 use lightloom_core::Error;
 use lightloom_core::scene::material::Material;
 use lightloom_core::scene::{Ray, Scene, SurfaceId};
-use scenes::{Stage, box_obj, glass, icosphere, obj, sphere_obj};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 0 -1\n";
 

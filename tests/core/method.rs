@@ -1,5 +1,4 @@
 //! The methods to compare with: their pairs, their ways, and that the vector field is the better one.
-#![allow(clippy::unwrap_used)]
 
 use glam::{Vec2, vec2};
 use lightloom_core::flow::{Course, FlowReport, FlowSettings, GridSize, Paths, fit_segment, watch_paths};

@@ -1,10 +1,8 @@
 //! Light follows the textbooks.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod scenes;
 
 use std::f64::consts::PI;
 
+use crate::scenes::{Stage, box_obj, glass, obj, point, sphere_obj};
 use glam::{Vec3, vec2};
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
@@ -13,7 +11,6 @@ use lightloom_core::scene::light::DirectionalLight;
 use lightloom_core::scene::material::fresnel::{fresnel, reflect, refract};
 use lightloom_core::scene::material::{Beam, Glass, Material, Mirror, VISIBLE_NM, rgb_of_wavelength};
 use lightloom_core::scene::{LightDesc, Media, Ray, Scene, SurfaceId};
-use scenes::{Stage, box_obj, glass, obj, point, sphere_obj};
 
 fn trace(scene: &Scene, count: usize) -> (Photons, TraceReport) {
     let tracer = Tracer::new(scene, 7, &Progress::new()).unwrap();

@@ -1,10 +1,8 @@
 //! Photons: as many as asked for, the right flux, the same on any machine.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod scenes;
 
 use std::f32::consts::PI;
 
+use crate::scenes::{Stage, box_obj, glass, mirror, point, sphere_obj, wine_glass_obj};
 use glam::{DVec3, Vec3};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::photon::{Aim, Photons, Tracer};
@@ -14,7 +12,6 @@ use lightloom_core::scene::light::{
 use lightloom_core::scene::material::{Diffuse, Glass, Material};
 use lightloom_core::scene::{LightDesc, Ray, Scene};
 use lightloom_core::{Error, Progress};
-use scenes::{Stage, box_obj, glass, mirror, point, sphere_obj, wine_glass_obj};
 
 /// Two casters, three lights of different colour and kind.
 fn crowded() -> Scene {

@@ -1,11 +1,8 @@
 //! The live preview: what it remembers from edit to edit, and where its photons are.
-#![allow(clippy::unwrap_used)]
-
-mod scenes;
-mod sketches;
 
 use std::sync::Arc;
 
+use crate::previews::{bits, draft, example, example_path, flux, stages, two_balls};
 use glam::Vec2;
 use lightloom_core::flow::Movement;
 use lightloom_core::photon::Tracer;
@@ -14,7 +11,6 @@ use lightloom_core::project::{AssetFolder, Ease, Project};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
 use serde_json::json;
-use sketches::{bits, draft, example, example_path, flux, stages, two_balls};
 
 const EXAMPLES: [&str; 7] =
     ["letters_free", "letters", "dark_glass", "bottles", "loop", "rabbit", "rabbit_fine"];

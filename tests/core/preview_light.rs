@@ -1,9 +1,6 @@
 //! The light of a sketch: on the receiver, in the shot, in a free look, and beside the final flow's.
-#![allow(clippy::unwrap_used)]
 
-mod scenes;
-mod sketches;
-
+use crate::previews::{draft, example, example_path, flux, two_balls};
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
 use lightloom_core::flow::{FlowSettings, GridSize};
@@ -13,7 +10,6 @@ use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{MarkKind, ReceiverTexture};
 use lightloom_core::scene::CameraDesc;
-use sketches::{draft, example, example_path, flux, two_balls};
 
 #[test]
 fn hidden_caustics_give_no_light_and_the_others_all_of_theirs() {

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use crate::scenes::{Stage, glass, sphere_obj};
 
 pub fn example_path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("projects").join(format!("{name}.json"))
+    crate::root().join("projects").join(format!("{name}.json"))
 }
 
 pub fn example(name: &str) -> (Project, Sketcher) {

@@ -1,5 +1,4 @@
 //! The project file: what is saved comes back, and what is wrong is named with its place.
-#![allow(clippy::unwrap_used)]
 
 use std::path::Path;
 

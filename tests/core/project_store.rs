@@ -1,5 +1,4 @@
 //! The project file as the editor keeps it: unchanged it is the same bytes, changed it keeps what the program does not know.
-#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 
@@ -65,7 +64,7 @@ fn after(text: &str, change: impl FnOnce(&mut Project)) -> String {
 }
 
 fn examples() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects");
+    let folder = crate::root().join("projects");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     paths.filter(|path| path.extension().is_some_and(|e| e == "json")).collect()
 }

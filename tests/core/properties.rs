@@ -1,20 +1,16 @@
 //! Random projects, whatever an artist may set and draw: what must hold for all of them.
-#![allow(clippy::unwrap_used)]
-
-mod crossing;
-mod scenes;
-mod tracks;
 
 use std::fs;
 use std::path::Path;
 
-use crossing::crosses;
+use crate::crossing::crosses;
+use crate::scenes::{Stage, glass, point, sphere_obj};
+use crate::tracks;
 use glam::{DVec3, Vec2, Vec3};
 use lightloom_core::Progress;
 use lightloom_core::pipeline::{Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use proptest::prelude::*;
-use scenes::{Stage, glass, point, sphere_obj};
 use serde_json::{Value, json};
 
 const PHOTONS: usize = 300;

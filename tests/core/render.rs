@@ -1,7 +1,5 @@
 //! Density estimation, frame store and view transform.
 
-#![allow(clippy::unwrap_used)]
-
 use glam::{DVec3, Vec2, Vec3, Vec3Swizzles, vec2};
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};

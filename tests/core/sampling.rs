@@ -1,5 +1,4 @@
 //! Points drawn from pictures follow their brightness, and no picture file stops the program.
-#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 

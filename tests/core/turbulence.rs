@@ -1,6 +1,5 @@
 //! Turbulence: swirls that neither make nor swallow light, keep their strength, follow the law asked for, and let every
 //! photon arrive.
-#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
 

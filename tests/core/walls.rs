@@ -1,9 +1,6 @@
 //! Walls: no photon crosses one that a way leads around, whatever is drawn; judged by the stored tracks alone.
-#![allow(clippy::unwrap_used)]
 
-mod crossing;
-
-use crossing::crosses;
+use crate::crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{ActiveWall, Wall, Window};

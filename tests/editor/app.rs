@@ -1,10 +1,8 @@
 //! The whole window without a screen: real keys and pointers in, documents and files out.
-#![allow(clippy::unwrap_used)]
-
-mod window;
 
 use std::fs;
 
+use crate::window::{examples, project, until, window};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::Harness;
@@ -15,7 +13,6 @@ use lightloom::editor::dialogs::PickResult;
 use lightloom::editor::document::Edit;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::{Project, Shows};
-use window::{examples, project, until, window};
 
 /// Drags over the plane view, from and to shares of its width and height.
 fn drag(harness: &mut Harness<App>, from: [f32; 2], to: [f32; 2]) {

@@ -1,5 +1,4 @@
 //! The plane view with its tools, driven like the window drives them, without a window.
-#![allow(clippy::unwrap_used)]
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;

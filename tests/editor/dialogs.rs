@@ -1,5 +1,4 @@
 //! Dialogs: the system's, ours where there is none, and questions.
-#![allow(clippy::unwrap_used)]
 
 use std::path::PathBuf;
 use std::sync::Arc;

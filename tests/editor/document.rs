@@ -1,7 +1,6 @@
 //! The document: whatever was done can be undone, to the byte.
-#![allow(clippy::unwrap_used)]
 
-mod window;
+use crate::window;
 
 use std::fs;
 

@@ -1,14 +1,11 @@
 //! Exports from the window: the same bytes as the command line, and they can be paused, stopped and broken off.
-#![allow(clippy::unwrap_used)]
-
-mod desk;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
-use desk::Table;
+use crate::desk::Table;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

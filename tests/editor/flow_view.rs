@@ -1,5 +1,4 @@
 //! What is shown of the flow is what the field does.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Write as _;
 use std::sync::Arc;

@@ -1,11 +1,8 @@
 //! Menus, keys, the palette and the sheet of shortcuts: each knows every command.
-#![allow(clippy::unwrap_used)]
-
-mod desk;
 
 use std::path::Path;
 
-use desk::Table;
+use crate::desk::Table;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;

@@ -1,9 +1,6 @@
 //! The panels: all projects are shown, edits are asked for and never made, and every setting says what the core says.
-#![allow(clippy::unwrap_used)]
 
-#[path = "panels/desk.rs"]
 mod desk;
-#[path = "panels/settings.rs"]
 mod settings;
 
 use desk::{Bench, bench, examples};

@@ -1,5 +1,4 @@
 //! The graphics card draws the same light as the core's own estimate.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::Arc;
 

@@ -1,5 +1,4 @@
 //! The editor's store: journal, recovery, and the thread that opens and saves.
-#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

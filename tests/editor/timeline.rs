@@ -1,9 +1,6 @@
 //! The time line in a window without a screen: retiming, adding, scrubbing, spans.
-#![allow(clippy::unwrap_used)]
 
-mod desk;
-
-use desk::Table;
+use crate::desk::Table;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;

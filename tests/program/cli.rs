@@ -1,5 +1,4 @@
 //! The command line as a farm or a script meets it.
-#![allow(clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

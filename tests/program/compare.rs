@@ -1,7 +1,4 @@
 //! `lightloom compare` and the methods in projects, as a script meets them.
-#![allow(clippy::unwrap_used)]
-
-mod scenes;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -187,7 +184,7 @@ fn a_comparison_never_overwrites_what_it_is_made_from() {
 
 #[test]
 fn a_plane_point_is_seen_where_the_ray_through_its_pixel_meets_the_plane() {
-    let scene = scenes::Stage::new().load();
+    let scene = crate::scenes::Stage::new().load();
     let view = PlaneView::new(Some(&scene), scene.receiver().extent());
     let (width, height) = (320, 200);
     let mut met = 0;

@@ -2,7 +2,6 @@
 //! it is offered for recovery.
 //!
 //! The test starts itself again as the victim: [`victim_edits_and_saves`] does nothing unless a folder is named to it.
-#![allow(clippy::unwrap_used)]
 
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher as _, Hasher as _};
@@ -119,7 +118,7 @@ struct Said {
 /// Lets a victim live for `life` after its first change. Returns the time of the kill, milliseconds since 1970.
 fn live_and_die(folder: &Path, start: u64, saves: bool, life: Duration, said: &Arc<Mutex<Said>>) -> u128 {
     let mut victim = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "victim_edits_and_saves", "--nocapture"])
+        .args(["--exact", "crash::victim_edits_and_saves", "--nocapture"])
         .env(FOLDER, folder)
         .env(SAVES, if saves { "yes" } else { "no" })
         .env(START, start.to_string())

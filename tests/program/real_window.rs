@@ -2,9 +2,8 @@
 //! draws is missing, there is no window to test, and the test says so.
 //!
 //! The same window without a screen tells where everything stands.
-#![allow(clippy::unwrap_used)]
 
-mod window;
+use crate::window;
 
 use std::fs;
 use std::path::{Path, PathBuf};

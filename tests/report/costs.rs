@@ -1,7 +1,4 @@
 //! The report: what exactness of the flow and of the matching costs, read from its tables.
-#![allow(clippy::unwrap_used)]
-
-mod letters;
 
 use std::path::Path;
 use std::time::Duration;

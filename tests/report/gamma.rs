@@ -1,7 +1,4 @@
 //! The report: what gamma does, measured through the whole road.
-#![allow(clippy::unwrap_used)]
-
-mod letters;
 
 use std::path::Path;
 use std::process::Command;
@@ -13,7 +10,7 @@ use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};
 use serde_json::Value;
 
-use letters::project;
+use crate::letters::project;
 
 fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
     let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());

@@ -1,5 +1,4 @@
 //! The report's sections of the light: what passes and photons buy, and the sheet of grids and gammas.
-#![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +12,7 @@ use tempfile::TempDir;
 /// C becomes S, small; `change` is laid over it.
 fn project(change: &Value) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
-    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
+    let targets = crate::root().join("assets/targets");
     for name in ["letter_c.png", "letter_s.png"] {
         std::fs::copy(targets.join(name), folder.path().join(name)).unwrap();
     }

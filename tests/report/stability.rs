@@ -1,5 +1,4 @@
 //! The stiff and the extreme, at reduced size: every row holds the bound that it states beforehand.
-#![allow(clippy::unwrap_used)]
 
 use std::process::Command;
 use std::sync::OnceLock;

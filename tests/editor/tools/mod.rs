@@ -1,5 +1,4 @@
 //! Every tool, given gestures as the plane view gives them: without a window and without a GPU.
-#![allow(clippy::unwrap_used)]
 
 use std::sync::Arc;
 
