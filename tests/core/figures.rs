@@ -1,6 +1,6 @@
 //! The example projects that show the paper's figures, judged by the tracks they store.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::crossing::crosses;
 use glam::Vec2;

@@ -1,7 +1,7 @@
 //! Projects to sketch, and what the tests ask of a sketch.
 #![allow(dead_code, unreachable_pub, missing_docs)] // Each test uses its part.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec3;

@@ -17,7 +17,7 @@ fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, E
 
 /// What a section says of a small project, changed before.
 fn changed(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Report {
-    let (folder, path) = letters::project(&["c", "s"]);
+    let (folder, path) = crate::letters::project(&["c", "s"]);
     let mut project: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
     change(&mut project, folder.path());
     std::fs::write(&path, project.to_string()).unwrap();
@@ -209,7 +209,7 @@ fn a_method_without_fields_has_no_flow_to_measure() {
 
 #[test]
 fn a_measurement_can_be_stopped() {
-    let (_folder, path) = letters::project(&["c", "s"]);
+    let (_folder, path) = crate::letters::project(&["c", "s"]);
     for section in ["flow", "matching"] {
         let progress = Progress::new();
         let watched = progress.clone();

@@ -1,6 +1,6 @@
 //! A small project of letters, for the tests that measure one.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
