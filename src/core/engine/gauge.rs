@@ -27,17 +27,17 @@ pub struct Traced {
     pub seconds: f64,
 }
 
-/// How fast light is traced in a scene.
+/// Tracing speed in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceGauge {
-    /// For each number of photons that was asked for.
+    /// By requested number of photons.
     pub traced: Vec<Traced>,
     /// Rays between random places around the glass that the hierarchy answers in a second, nothing else done.
     pub bare_rays_per_second: f64,
 }
 
 impl Engine {
-    /// Traces so many photons of pass 0, number by number, and times bare rays; nothing where the project traces none.
+    /// Traces each of these numbers of photons of pass 0, and times bare rays; none where the project traces none.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.

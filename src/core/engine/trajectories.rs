@@ -78,7 +78,7 @@ impl<'a> SegmentTrajectories<'a> {
     }
 }
 
-/// Written so that what rests does so exactly.
+/// Straight lines, written so that a photon at rest stays exactly in place.
 fn straight(from: &[Vec2], to: &[Vec2], t: f32, out: &mut [Vec2]) {
     let ends = from.par_iter().zip(to);
     out.par_iter_mut().zip(ends).for_each(|(out, (&a, &b))| *out = if t < 1.0 { a + (b - a) * t } else { b });
