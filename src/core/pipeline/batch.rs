@@ -139,7 +139,7 @@ impl<'a> Batch<'a> {
         };
         let Some(map) = map.or(own.as_ref()) else { return Ok(Partners::default()) };
         let paired = map.pair(&at.positions, points, self.supplies.seed(), self.pass, progress)?;
-        Ok(Partners { order: Some(paired.matching.target_of), bows: paired.bows })
+        Ok(Partners { order: Some(paired.matching.target_of), bows: paired.midpoint_offsets })
     }
 
     /// Moves on: the photons stand at the next key now.

@@ -15,7 +15,9 @@ use super::mover;
 use super::summary::FlowNumbers;
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
-use crate::flow::{Course, Fields, FlowReport, FlowSettings, Moments, Movement, Mover};
+use crate::flow::{
+    Fields, FlowReport, FlowSettings, Movement, Segment as FlowSegment, SegmentFlow, Snapshots,
+};
 use crate::matching::{ContinuousMap, Method, mean_square_distance};
 use crate::project::{CausticDesc, CausticKey, KeyFrame, PlaneSettings, Project};
 use crate::scene::SceneDesc;
@@ -35,7 +37,7 @@ pub(super) struct Segment {
 pub(super) struct Layer {
     pub(super) groups: Vec<usize>,
     /// What moves their photons.
-    pub(super) mover: Mover,
+    pub(super) mover: SegmentFlow,
 }
 
 /// How the light of a project moves; no segments where there is one key.
@@ -49,7 +51,7 @@ pub(super) struct Motion {
 
 impl Segment {
     /// What moves a group; nothing where it rests, or where there was no photon of it.
-    pub(super) fn mover_of(&self, group: usize) -> Option<&Mover> {
+    pub(super) fn mover_of(&self, group: usize) -> Option<&SegmentFlow> {
         self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.mover)
     }
 
@@ -170,12 +172,13 @@ impl Leg<'_> {
             let source = &*column(at, &groups, |at| &at.positions);
             let target = &*column(next, &groups, |next| &next.positions);
             let bows = &*column(next, &groups, |next| &next.bows);
-            let course = Course { source, target, extent, settings: &project.flow, lines, walls, number };
+            let course =
+                FlowSegment { source, target, extent, settings: &project.flow, lines, walls, number };
             let (mover, report) = match &mut moments {
                 None => mover::mover(project.method, &course, bows, None, meter, progress)?,
                 Some(LayerMoments { times, show }) => {
                     let show = &mut |i: usize, positions: &[Vec2]| show(&groups, i, positions);
-                    let moments = Some(Moments { times, show });
+                    let moments = Some(Snapshots { times, show });
                     mover::mover(project.method, &course, bows, moments, meter, progress)?
                 }
             };
@@ -206,9 +209,9 @@ pub struct FirstMove {
 
 impl FirstMove {
     /// How they flow with these settings.
-    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
+    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> FlowSegment<'a> {
         let Self { source, target, extent, lines, walls, number, .. } = self;
-        Course { source, target, extent: *extent, settings, lines, walls, number: *number }
+        FlowSegment { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
 
     /// Seconds of the matching, over all segments up to this one.

@@ -6,9 +6,11 @@ use glam::Vec2;
 
 use super::acting::{Acting, acting};
 use super::meter::Meter;
-use crate::constraint::{ActiveWall, Detour};
-use crate::flow::{Course, FlowReport, Moments, Movement, Mover, Paths, fit_moments, watch_paths};
-use crate::matching::{AroundMap, ContinuousMap, Method, StylizedMap, transport_map};
+use crate::constraint::{ActiveWall, VisibilityGraph};
+use crate::flow::{
+    FlowReport, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots, fit_with_snapshots, path_report,
+};
+use crate::matching::{ContinuousMap, Method, StylizedMap, WallMap, transport_map};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -60,9 +62,9 @@ impl Kind {
             Self::Straight => Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?)),
             Self::Around(walls) => {
                 let walls: Vec<&ActiveWall> = walls.iter().collect();
-                let detour = Arc::new(Detour::new(&walls, extent, progress)?);
-                let map = AroundMap::with_anchors(anchors, from, to, &detour, progress)?;
-                Some(ContinuousMap::Around(map, detour))
+                let detour = Arc::new(VisibilityGraph::new(&walls, extent, progress)?);
+                let map = WallMap::with_anchors(anchors, from, to, &detour, progress)?;
+                Some(ContinuousMap::Walls(map, detour))
             }
             Self::Stylized => Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?)),
         })
@@ -73,22 +75,22 @@ impl Kind {
 /// shown the photons that the method looks at.
 pub(super) fn mover(
     method: Movement,
-    course: &Course,
+    course: &Segment,
     bows: &[Vec2],
-    moments: Option<Moments>,
+    moments: Option<Snapshots>,
     meter: &mut Meter,
     progress: &Progress,
-) -> Result<(Mover, FlowReport)> {
+) -> Result<(SegmentFlow, FlowReport)> {
     match method {
         Movement::Flow => meter.measure("fit", || {
-            let (fields, report) = fit_moments(course, progress, None, moments)?;
-            Ok((Mover::Fields(fields), report))
+            let (fields, report) = fit_with_snapshots(course, moments, progress)?;
+            Ok((SegmentFlow::Fields(fields), report))
         }),
         Movement::Stylized | Movement::Linear => meter.measure("watch", || {
-            let Course { source, target, extent, settings, .. } = *course;
+            let Segment { source, target, extent, settings, .. } = *course;
             let (guides, steps) = (settings.guides as usize, settings.steps as usize);
-            let paths = Paths::new(source, target, bows);
-            if let Some(Moments { times, show }) = moments {
+            let paths = PathTrajectories::new(source, target, bows);
+            if let Some(Snapshots { times, show }) = moments {
                 let mut positions = vec![Vec2::ZERO; source.len()];
                 for (i, &time) in times.iter().enumerate() {
                     progress.check()?;
@@ -96,8 +98,8 @@ pub(super) fn mover(
                     show(i, &positions);
                 }
             }
-            let report = watch_paths(&paths, extent, guides, steps, progress)?;
-            Ok((Mover::Paths, report))
+            let report = path_report(&paths, extent, guides, steps, progress)?;
+            Ok((SegmentFlow::Paths, report))
         }),
     }
 }

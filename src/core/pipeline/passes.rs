@@ -9,7 +9,7 @@ use super::batch::Batch;
 use super::motion::Segment;
 use super::ride::Ride;
 use super::slots::Slots;
-use crate::flow::{Astray, flux};
+use crate::flow::{WallViolations, flux};
 use crate::render::splat::Outside;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Progress, Result};
@@ -130,7 +130,7 @@ impl<'a> Exposer<'a> {
 
 impl Account {
     /// Notes the photons of one segment that walls did not keep.
-    pub(super) fn keep_astray(&mut self, astray: Astray) {
+    pub(super) fn keep_astray(&mut self, astray: WallViolations) {
         self.crossings += astray.crossings;
         self.unreachable = self.unreachable.max(astray.unreachable);
     }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::light::KeyPhotons;
 use super::motion::Segment;
-use crate::flow::{Astray, Carriage, flux};
+use crate::flow::{Trajectories, WallViolations, flux};
 use crate::{Progress, Result};
 
 /// All groups from one key to the next. Their rows follow each other in the columns that are filled.
@@ -20,7 +20,7 @@ struct Group<'a> {
     to: &'a KeyPhotons,
     rows: Range<usize>,
     /// Absent where the group rests, or where the fit saw no photon of it: then all go straight.
-    carriage: Option<Carriage<'a>>,
+    carriage: Option<Box<dyn Trajectories + 'a>>,
 }
 
 impl<'a> Ride<'a> {
@@ -31,7 +31,7 @@ impl<'a> Ride<'a> {
             let rows = end..end + from.positions.len();
             end = rows.end;
             let mover = segment.mover_of(group).filter(|_| !rows.is_empty());
-            let carriage = mover.map(|mover| mover.carry(&from.positions, &to.positions, &to.bows));
+            let carriage = mover.map(|mover| mover.trajectories(&from.positions, &to.positions, &to.bows));
             Group { from, to, rows, carriage }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }
@@ -61,9 +61,9 @@ impl<'a> Ride<'a> {
     }
 
     /// Photons that walls did not keep, so far.
-    pub(super) fn astray(&self) -> Astray {
+    pub(super) fn astray(&self) -> WallViolations {
         let carriages = self.groups.iter().filter_map(|group| group.carriage.as_ref());
-        carriages.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
+        carriages.map(|carriage| carriage.wall_violations()).fold(WallViolations::default(), |a, b| a.plus(b))
     }
 
     /// RGB flux of all photons at time `t`, 0..=1, watts.

@@ -7,7 +7,7 @@ use super::super::workbench::Workbench;
 use super::stage::fit_seconds;
 use super::{Section, nothing_moves};
 use crate::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
-use crate::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
+use crate::flow::{FitKind, FlowSettings, Segment, TurbulenceSettings};
 use crate::pipeline::FirstMove;
 use crate::{Progress, Result};
 
@@ -75,7 +75,7 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     progress.begin("left_out", 1 + PARTS.len() as u64);
     let photons = bench.first_move(progress)?;
     let settings = &bench.project.flow;
-    let seconds = |course: &Course| fit_seconds(bench.pick(2, 3), course, progress);
+    let seconds = |course: &Segment| fit_seconds(bench.pick(2, 3), course, progress);
     let plain = seconds(&photons.course(settings))?;
     progress.advance(1);
     let caption = format!(
@@ -88,7 +88,7 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     for part in &PARTS {
         if (part.absent)(&photons, settings) {
             let Changed { settings, lines, walls } = (part.with)(&photons, settings.clone());
-            let with = seconds(&Course { lines: &lines, walls: &walls, ..photons.course(&settings) })?;
+            let with = seconds(&Segment { lines: &lines, walls: &walls, ..photons.course(&settings) })?;
             let ratio = with / plain;
             table.push(
                 Tone::Plain,

@@ -6,7 +6,7 @@ use super::super::stage::{ENOUGH, carry_seconds, coupled, fit_seconds, splat_sec
 use super::Point;
 use crate::constraint::{ActiveWall, Wall, Window};
 use crate::flow::fit::Fitter;
-use crate::flow::{Course, FlowSettings, fit_segment};
+use crate::flow::{FlowSettings, Segment, fit_segment};
 use crate::math::rng::{Purpose, Stream};
 use crate::pipeline::{FirstMove, Traced};
 use crate::render::TextureLayout;
@@ -96,7 +96,7 @@ fn fit(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
 fn advection(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let settings = FlowSettings { steps: 10, ..bench.project.flow.clone() };
     let few = bench.first_move(progress)?;
-    let (fields, _) = fit_segment(&without_walls(&few, &settings), &progress.inner(), None)?;
+    let (fields, _) = fit_segment(&without_walls(&few, &settings), &progress.inner())?;
     let mut points = Vec::new();
     for count in counts(bench) {
         let photons = first_move(bench, count, progress)?;
@@ -144,7 +144,7 @@ fn walls(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let all: Vec<ActiveWall> = (0..20).filter_map(|i| random_wall(i, photons.extent)).collect();
     let mut points = Vec::new();
     for count in [0, 1, 2, 5, 10, 20] {
-        let course = Course { walls: &all[..count.min(all.len())], ..photons.course(&settings) };
+        let course = Segment { walls: &all[..count.min(all.len())], ..photons.course(&settings) };
         points.push(timed(count as f64, fit_seconds(1, &course, progress)?));
     }
     Ok(points)

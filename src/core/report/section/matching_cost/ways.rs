@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::Points;
-use crate::constraint::Detour;
+use crate::constraint::VisibilityGraph;
 use crate::flow::Movement;
 use crate::matching::{
-    AroundMap, ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap,
+    ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap, WallMap,
     mean_square_distance, transport_map, transport_map_with,
 };
 use crate::pipeline::FirstMove;
@@ -126,9 +126,9 @@ impl<'a> Ways<'a> {
         let walls = photons.leading_walls();
         let around = || {
             fastest(2, AGAIN, || {
-                let detour = Arc::new(Detour::new(&walls, *extent, &progress)?);
-                let map = AroundMap::new(source, target, &detour, &progress)?;
-                Ok(ContinuousMap::Around(map, detour))
+                let detour = Arc::new(VisibilityGraph::new(&walls, *extent, &progress)?);
+                let map = WallMap::new(source, target, &detour, &progress)?;
+                Ok(ContinuousMap::Walls(map, detour))
             })
         };
         let around = if walls.is_empty() { None } else { Some(around()?) };
