@@ -8,10 +8,10 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::flow::assembly::{Assembly, Rows};
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::fit::{Blend, FitSettings, Fitter};
-use lightloom_core::math::operator::{Operator, Weights};
+use lightloom_core::flow::fit::{Assembly, Blend, FitSettings, Fitter, Rows};
+use lightloom_core::math::normal_blocks::Weights;
+use lightloom_core::math::operator::Operator;
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn main() {
@@ -106,7 +106,8 @@ fn reference_cholesky(bencher: Bencher, n: usize) {
     let mut assembly = Assembly::new(grid(n), true);
     assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1e-5 });
     let mut operator = Operator::<f64>::zero(assembly.right.layout, 2);
-    operator.set(&assembly.parts, Weights { psi: 0.5, phi: 0.5, cross: 0.5, smooth: 1e-3, tilt: -1.0 });
+    operator
+        .set(&assembly.blocks, Weights { psi: 0.5, phi: 0.5, cross: 0.5, alpha: 1e-3, no_penetration: -1.0 });
     let [nx, ny] = grid(n).nodes();
     let mut triplets = Vec::new();
     for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {

@@ -101,7 +101,7 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
     let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
     let size = [96, 54];
-    let mut look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
+    let look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
     let (dark, lit) = (look(None), look(Some(light)));
     let at = |look: &OrbitView, p: Vec2| {
         let [x, y] = look.plane.pixel_from_plane(p, [96, 54]).unwrap().to_array().map(|v| v as usize);

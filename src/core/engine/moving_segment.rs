@@ -12,7 +12,7 @@ use super::pairing::takes_part;
 use super::walk::{MapsFrom, SegmentPhotons, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
-use crate::flow::{Course, FlowReport, FlowSettings, flux};
+use crate::flow::{FlowReport, FlowSettings, Segment, flux};
 use crate::project::Project;
 use crate::render::Paper;
 use crate::{Error, Progress, Result};
@@ -101,9 +101,9 @@ impl MovingSegment {
     }
 
     /// The segment with these flow settings.
-    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
+    pub fn segment<'a>(&'a self, settings: &'a FlowSettings) -> Segment<'a> {
         let Self { source, target, extent, number, lines, walls, .. } = self;
-        Course { source, target, extent: *extent, settings, lines, walls, number: *number }
+        Segment { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
 
     /// Seconds of the matching, over all segments up to this one.

@@ -285,6 +285,6 @@ impl<'a> Walk<'a> {
         let Some(map) = map.or(own.as_ref()) else { return Ok(Pairing::default()) };
         let seed = self.job.sources.seed();
         let paired = map.pair(&at.positions, &points.positions, seed, self.pass, progress)?;
-        Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.bows })
+        Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.midpoint_offsets })
     }
 }

@@ -76,7 +76,7 @@ pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -
 }
 
 fn respond(photons: &MovingSegment, settings: &FlowSettings, progress: &Progress) -> Result<Response> {
-    let (fields, report) = fit_segment(&photons.course(settings), progress, None)?;
+    let (fields, report) = fit_segment(&photons.segment(settings), progress)?;
     let first =
         fields.nodes().first().map(|field| metric::divergence_and_curl_rms(&[field], &photons.source));
     let [divergence_first, curl_first] = first.unwrap_or_default();

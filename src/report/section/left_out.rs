@@ -8,7 +8,7 @@ use super::stage::fit_seconds;
 use super::{Section, nothing_moves};
 use lightloom_core::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
 use lightloom_core::engine::MovingSegment;
-use lightloom_core::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
+use lightloom_core::flow::{FitKind, FlowSettings, Segment, TurbulenceSettings};
 use lightloom_core::{Progress, Result};
 
 pub(crate) const SECTION: Section =
@@ -75,8 +75,8 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     progress.begin("left_out", 1 + PARTS.len() as u64);
     let photons = bench.first_move(progress)?;
     let settings = &bench.project.flow;
-    let seconds = |course: &Course| fit_seconds(bench.pick(2, 3), course, progress);
-    let plain = seconds(&photons.course(settings))?;
+    let seconds = |course: &Segment| fit_seconds(bench.pick(2, 3), course, progress);
+    let plain = seconds(&photons.segment(settings))?;
     progress.advance(1);
     let caption = format!(
         "Seconds of the flow from the first key ({} photons at most guide it): as the project has it, and with one part \
@@ -88,7 +88,7 @@ fn measure(bench: &mut Workbench, progress: &Progress) -> Result<Chapter> {
     for part in &PARTS {
         if (part.absent)(&photons, settings) {
             let Changed { settings, lines, walls } = (part.with)(&photons, settings.clone());
-            let with = seconds(&Course { lines: &lines, walls: &walls, ..photons.course(&settings) })?;
+            let with = seconds(&Segment { lines: &lines, walls: &walls, ..photons.segment(&settings) })?;
             let ratio = with / plain;
             table.push(
                 Tone::Plain,

@@ -17,7 +17,7 @@ use super::stage::{ENOUGH, carry_seconds, coupled, splat_seconds, ways, without_
 use super::{Section, nothing_moves};
 use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::flow::fit::Fitter;
-use lightloom_core::flow::{Course, FlowSettings, fit_segment};
+use lightloom_core::flow::{FlowSettings, Segment, fit_segment};
 use lightloom_core::render::{ProgressiveRender, TextureLayout, Workspace};
 use lightloom_core::{Progress, Result};
 
@@ -218,8 +218,8 @@ fn advection(
     const OPERATIONS: f64 = 4.0 * (16.0 * 2.0 * 2.0 * 2.0 + 40.0);
     const BYTES: f64 = 2.0 * 36.0;
     let settings = FlowSettings { steps: STEPS as u32, turbulence: None, ..bench.project.flow.clone() };
-    let course = Course { lines: &[], ..without_walls(photons, &settings) };
-    let (fields, _) = fit_segment(&course, &progress.inner(), None)?;
+    let course = Segment { lines: &[], ..without_walls(photons, &settings) };
+    let (fields, _) = fit_segment(&course, &progress.inner())?;
     let seconds = carry_seconds(&fields, photons, progress)?;
     let steps = (STEPS * photons.source.len()) as f64;
     let (limit, by) = machine.seconds(steps * BYTES, steps * OPERATIONS);

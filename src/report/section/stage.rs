@@ -6,7 +6,7 @@ use super::super::workbench::fastest;
 use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::field::Grid;
 use lightloom_core::flow::fit::{Blend, FitSettings};
-use lightloom_core::flow::{Carrier, Course, Fields, FlowSettings, fit_segment};
+use lightloom_core::flow::{FieldTrajectories, Fields, FlowSettings, Segment, fit_segment};
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{ReceiverTexture, TextureLayout};
 use lightloom_core::{Progress, Result};
@@ -36,19 +36,21 @@ pub(super) fn ways(photons: &MovingSegment, most: usize) -> (&[Vec2], Vec<Vec2>)
 }
 
 /// The first move where no wall stands: walls are measured by themselves.
-pub(super) fn without_walls<'a>(photons: &'a MovingSegment, settings: &'a FlowSettings) -> Course<'a> {
-    Course { walls: &[], ..photons.course(settings) }
+pub(super) fn without_walls<'a>(photons: &'a MovingSegment, settings: &'a FlowSettings) -> Segment<'a> {
+    Segment { walls: &[], ..photons.segment(settings) }
 }
 
 /// Seconds of a fit.
-pub(super) fn fit_seconds(runs: usize, course: &Course, progress: &Progress) -> Result<f64> {
-    fastest(runs, ENOUGH, || fit_segment(course, &progress.inner(), None)).map(|(_, seconds)| seconds)
+pub(super) fn fit_seconds(runs: usize, course: &Segment, progress: &Progress) -> Result<f64> {
+    fastest(runs, ENOUGH, || fit_segment(course, &progress.inner())).map(|(_, seconds)| seconds)
 }
 
 /// Seconds in which all photons are carried to the end.
 pub(super) fn carry_seconds(fields: &Fields, photons: &MovingSegment, progress: &Progress) -> Result<f64> {
-    let carry =
-        || Carrier::new(fields, &photons.source, &photons.target).advance_to(fields.steps() - 1, progress);
+    let carry = || {
+        FieldTrajectories::new(fields, &photons.source, &photons.target)
+            .advance_to(fields.steps() - 1, progress)
+    };
     fastest(3, ENOUGH, carry).map(|(_, seconds)| seconds)
 }
 

@@ -6,7 +6,10 @@ use rayon::prelude::*;
 use super::Size;
 use super::case::{EnergyOf, Limits, Measured};
 use lightloom_core::constraint::{ActiveLine, ActiveWall};
-use lightloom_core::flow::{Carrier, Course, FitKind, FlowReport, FlowSettings, GridSize, fit_segment};
+use lightloom_core::flow::{
+    FieldTrajectories, FitKind, FlowReport, FlowSettings, GridSize, GuideTracks, Segment, Trajectories as _,
+    fit_tracks,
+};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::{Progress, Result};
 
@@ -63,22 +66,22 @@ impl Walk {
     /// Fits, follows the guides and as many photons of a later pass, and looks where they went.
     pub(super) fn run(&self, progress: &Progress) -> Result<Measured> {
         let Self { source, target, extent, settings, lines, walls } = self;
-        let course = Course { lines, walls, ..Course::new(source, target, *extent, settings) };
+        let course = Segment { lines, walls, ..Segment::new(source, target, *extent, settings) };
         let mut guides = Watch::new(walls);
-        let (fields, report) =
-            fit_segment(&course, progress, Some(&mut |_, positions: &[Vec2]| guides.see(positions)))?;
+        let GuideTracks { fields, report, positions, .. } = fit_tracks(&course, progress)?;
+        positions.iter().for_each(|positions| guides.see(positions));
         let mut later = Watch::new(walls);
         let beside =
             |points: &[Vec2]| points.iter().map(|p| *p + Vec2::new(0.003, -0.002)).collect::<Vec<_>>();
         let (source, target) = (beside(source), beside(target));
-        let mut carrier = Carrier::new(&fields, &source, &target);
+        let mut carrier = FieldTrajectories::new(&fields, &source, &target);
         let mut positions = vec![Vec2::ZERO; source.len()];
         for n in 0..=fields.steps() {
             carrier.positions_at(n as f64 / fields.steps() as f64, &mut positions, progress)?;
             later.see(&positions);
         }
         let arrived = positions.iter().zip(&target).map(|(c, b)| f64::from(c.distance(*b)));
-        let astray = carrier.astray();
+        let astray = carrier.wall_violations();
         let measured = Measured {
             finite: guides.finite && later.finite,
             endpoint_error: Some(arrived.fold(report.endpoint_error, f64::max)),

@@ -149,7 +149,7 @@ impl Trial<'_> {
     /// Tracks of the probes, and the seconds of the fit.
     fn fit(&self, setting: Setting) -> Result<(Vec<Vec2>, f64)> {
         let (flow, progress) = (setting.apply(self.flow), self.progress.inner());
-        let fit = || fit_segment(&self.photons.course(&flow), &progress, None);
+        let fit = || fit_segment(&self.photons.segment(&flow), &progress);
         let ((fields, _), seconds) = fastest(2, self.again, fit)?;
         let tracks = self.probes.tracks(&fields, &progress)?;
         self.progress.advance(setting.work());

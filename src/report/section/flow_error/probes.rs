@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use lightloom_core::engine::MovingSegment;
-use lightloom_core::flow::{Carrier, Fields};
+use lightloom_core::flow::{FieldTrajectories, Fields, Trajectories as _};
 use lightloom_core::{Progress, Result};
 
 /// Photons looked at, at most.
@@ -47,7 +47,7 @@ impl Probes {
     /// # Errors
     /// `Numeric` when photons are no longer finite, `Cancelled`.
     pub(super) fn tracks(&self, fields: &Fields, progress: &Progress) -> Result<Vec<Vec2>> {
-        let mut carrier = Carrier::new(fields, &self.source, &self.targets);
+        let mut carrier = FieldTrajectories::new(fields, &self.source, &self.targets);
         let mut tracks = Vec::with_capacity(self.count() * TENTHS.count());
         let mut positions = vec![Vec2::ZERO; self.count()];
         for tenth in TENTHS {

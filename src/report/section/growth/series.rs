@@ -8,7 +8,7 @@ use crate::workbench::{Workbench, fastest};
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
 use lightloom_core::engine::{MovingSegment, Traced};
 use lightloom_core::flow::fit::Fitter;
-use lightloom_core::flow::{Course, FlowSettings, fit_segment};
+use lightloom_core::flow::{FlowSettings, Segment, fit_segment};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::TextureLayout;
 use lightloom_core::{Error, Progress, Result};
@@ -96,7 +96,7 @@ fn fit(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
 fn advection(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let settings = FlowSettings { steps: 10, ..bench.project.flow.clone() };
     let few = bench.first_move(progress)?;
-    let (fields, _) = fit_segment(&without_walls(&few, &settings), &progress.inner(), None)?;
+    let (fields, _) = fit_segment(&without_walls(&few, &settings), &progress.inner())?;
     let mut points = Vec::new();
     for count in counts(bench) {
         let photons = first_move(bench, count, progress)?;
@@ -144,7 +144,7 @@ fn walls(bench: &mut Workbench, progress: &Progress) -> Result<Vec<Point>> {
     let all: Vec<ActiveWall> = (0..20).filter_map(|i| random_wall(i, photons.extent)).collect();
     let mut points = Vec::new();
     for count in [0, 1, 2, 5, 10, 20] {
-        let course = Course { walls: &all[..count.min(all.len())], ..photons.course(&settings) };
+        let course = Segment { walls: &all[..count.min(all.len())], ..photons.segment(&settings) };
         points.push(timed(count as f64, fit_seconds(1, &course, progress)?));
     }
     Ok(points)

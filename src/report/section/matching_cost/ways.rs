@@ -6,11 +6,11 @@ use glam::Vec2;
 
 use super::Points;
 use crate::workbench::fastest;
-use lightloom_core::constraint::Detour;
+use lightloom_core::constraint::VisibilityGraph;
 use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::Movement;
 use lightloom_core::matching::{
-    AroundMap, ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap,
+    ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap, WallMap,
     mean_square_distance, transport_map, transport_map_with,
 };
 use lightloom_core::project::Project;
@@ -126,9 +126,9 @@ impl<'a> Ways<'a> {
         let walls = photons.matched_walls();
         let around = || {
             fastest(2, AGAIN, || {
-                let detour = Arc::new(Detour::new(&walls, *extent, &progress)?);
-                let map = AroundMap::new(source, target, &detour, &progress)?;
-                Ok(ContinuousMap::Around(map, detour))
+                let detour = Arc::new(VisibilityGraph::new(&walls, *extent, &progress)?);
+                let map = WallMap::new(source, target, &detour, &progress)?;
+                Ok(ContinuousMap::Walls(map, detour))
             })
         };
         let around = if walls.is_empty() { None } else { Some(around()?) };
