@@ -124,7 +124,7 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
         |ui, state: &mut State| {
             let ctx = ui.ctx().clone();
             let State { table, window, exports, picker } = state;
-            table.frame(&ctx, |desk| window.show(&ctx, desk, exports, picker));
+            table.frame(&ctx, |editor| window.show(&ctx, editor, exports, picker));
         },
         state,
     );

@@ -56,7 +56,7 @@ fn the_palette_finds_and_runs_every_command() {
     let mut harness = harness(state, |ui, (table, palette, chosen): &mut State| {
         let ctx = ui.ctx().clone();
         let tools = tool_keys();
-        if let Some(action) = table.frame(&ctx, |desk| palette.show(&ctx, || items(desk, &tools, &[]))) {
+        if let Some(action) = table.frame(&ctx, |editor| palette.show(&ctx, || items(editor, &tools, &[]))) {
             *chosen = Some(action);
         }
     });
@@ -99,7 +99,7 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
         let recent = recent.clone();
         let mut harness = harness(busy_table(), move |ui, table: &mut Table| {
             let ctx = ui.ctx().clone();
-            table.frame(&ctx, |desk| menu::show(ui, desk, &recent));
+            table.frame(&ctx, |editor| menu::show(ui, editor, &recent));
         });
         harness.get_by_role_and_label(Role::Button, shortcuts::group(*menu)).click();
         harness.run_ok();
@@ -149,7 +149,7 @@ fn space_plays_and_pauses_but_not_while_text_is_typed() {
     let mut harness = harness((busy_table(), String::new()), |ui, (table, text): &mut State| {
         let ctx = ui.ctx().clone();
         let pressed = keys::pressed(&ctx, &tool_keys(), false);
-        table.frame(&ctx, |desk| desk.actions.extend(pressed));
+        table.frame(&ctx, |editor| editor.actions.extend(pressed));
         ui.text_edit_singleline(text).accessible_name("Text");
     });
     for playing in [true, false] {

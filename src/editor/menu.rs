@@ -7,10 +7,10 @@ use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
 use super::action::Action;
 use super::command::{COMMANDS, Command, Entry, Menu};
 use super::document::Document;
-use super::panels::Desk;
 use super::session::{FieldMap, Session, Views};
 use super::shortcuts;
 use super::templates::TEMPLATES;
+use crate::editor::context::EditorContext;
 
 /// The menus in their order.
 const MENUS: [Menu; 5] = [Menu::File, Menu::Edit, Menu::Play, Menu::View, Menu::Help];
@@ -43,7 +43,7 @@ pub struct Recent {
 }
 
 /// Shows the menu bar and asks for what is chosen.
-pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
             ui.menu_button(shortcuts::group(menu), |ui| {
@@ -52,10 +52,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
                     if PARTED.contains(&entry.command) {
                         ui.separator();
                     }
-                    item(ui, desk, entry);
+                    item(ui, editor, entry);
                     match entry.command {
-                        Command::New => templates(ui, desk),
-                        Command::Open => recents(ui, desk, recent),
+                        Command::New => templates(ui, editor),
+                        Command::Open => recents(ui, editor, recent),
                         _ => (),
                     }
                 }
@@ -64,12 +64,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
     });
 }
 
-fn item(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
-    let on = is_on(entry.command, desk.session);
-    let enabled = is_enabled(entry.command, desk.document, desk.session);
+fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &Entry) {
+    let on = is_on(entry.command, editor.session);
+    let enabled = is_enabled(entry.command, editor.document, editor.session);
     let place = IdSalt::new("check");
     let mut button =
-        Button::selectable(false, (Atom::custom(place, vec2(14.0, 14.0)), title(entry, desk.document)));
+        Button::selectable(false, (Atom::custom(place, vec2(14.0, 14.0)), title(entry, editor.document)));
     if let Some(shortcut) = &entry.shortcut {
         button = button.shortcut_text(shortcuts::words(shortcut));
     }
@@ -85,7 +85,7 @@ fn item(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
             .widget_info(|| egui::WidgetInfo::selected(egui::Role::MenuItemCheckBox, enabled, on, name));
     }
     if shown.response.clicked() {
-        desk.ask(entry.command);
+        editor.ask(entry.command);
         ui.close();
     }
 }
@@ -105,18 +105,18 @@ fn check_mark(ui: &Ui, square: Rect, stroke: Stroke) {
     ui.painter().line(vec![at(0.15, 0.55), at(0.4, 0.8), at(0.85, 0.25)], stroke);
 }
 
-fn templates(ui: &mut Ui, desk: &mut Desk) {
+fn templates(ui: &mut Ui, editor: &mut EditorContext) {
     ui.menu_button("      New from an example", |ui| {
         for (index, template) in TEMPLATES.iter().enumerate() {
             if ui.button(template.name).on_hover_text(template.line).clicked() {
-                desk.ask(Action::New(index));
+                editor.ask(Action::New(index));
                 ui.close();
             }
         }
     });
 }
 
-fn recents(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     let list = |ui: &mut Ui| {
         for Recent { path, is_there } in recent {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -126,7 +126,7 @@ fn recents(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
                 .on_hover_text(folder.as_ref())
                 .on_disabled_hover_text(format!("{folder}: not there now"));
             if shown.clicked() {
-                desk.ask(Action::Open(path.clone()));
+                editor.ask(Action::Open(path.clone()));
                 ui.close();
             }
         }

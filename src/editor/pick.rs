@@ -62,7 +62,7 @@ impl Pick {
                 let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
                 let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
                 let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
-                let name = super::panels::free_name(&name, taken);
+                let name = super::unique_name::unique_name(&name, taken);
                 scene.meshes.push(MeshDesc {
                     name,
                     file,

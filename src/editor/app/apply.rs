@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::App;
-use super::files::Leave;
+use super::file_state::Leave;
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;

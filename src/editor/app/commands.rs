@@ -2,11 +2,11 @@
 
 use eframe::egui;
 
-use super::files::Leave;
+use super::file_state::Leave;
 use super::{App, Card};
 use crate::editor::clipboard;
 use crate::editor::command::Command;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::selection::Selection;
 use crate::editor::session::{FieldMap, Other, Panel, PlaneEye, ShotEye, Views, Wipe};
 use crate::editor::store::PhotonRenderer;
@@ -22,14 +22,14 @@ impl App {
     pub(super) fn command(&mut self, ctx: &egui::Context, command: Command) {
         let mut actions = Vec::new();
         let drawn = !self.session.selection.is_empty();
-        let mut desk = Desk {
+        let mut editor = EditorContext {
             document: &self.document,
             session: &mut self.session,
             preview: &self.preview,
             actions: &mut actions,
         };
         // What is drawn and selected goes before the key frame in focus.
-        let done = !(drawn && command == Command::Delete) && timeline::carry_out(command, &mut desk);
+        let done = !(drawn && command == Command::Delete) && timeline::carry_out(command, &mut editor);
         for action in actions {
             self.apply(ctx, action);
         }

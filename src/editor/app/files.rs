@@ -6,76 +6,13 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::App;
-use super::remember::Noted;
+use super::file_state::{Asked, Leave};
 use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
 use crate::editor::document::Document;
 use crate::editor::pick::{At, Pick};
 use crate::editor::places;
-use crate::editor::store::{Answer, Fingerprint, Folders, Journal, Recovery, Request, Save, Saver};
+use crate::editor::store::{Answer, Fingerprint, Journal, Recovery, Request, Save, Saver};
 use crate::editor::templates::{self, TEMPLATES};
-
-/// The threads that read and write, and what is waited for.
-pub(super) struct Files {
-    saver: Option<Saver>,
-    pub(super) journal: Option<Journal>,
-    /// The question that is open, and what its answer decides.
-    asked: Option<(Question, Asked)>,
-    /// What shall be done once the document is saved.
-    after_save: Option<Leave>,
-    /// The example that is being read.
-    template: Option<PathBuf>,
-    /// Work of earlier runs that is still to be asked for.
-    lost: Vec<Recovery>,
-    /// What was handed to the threads last, and the window's title.
-    pub(super) noted: Noted,
-    pub(super) title: String,
-    closing: bool,
-}
-
-/// What an answer decides.
-enum Asked {
-    Leave(Leave),
-    Recover(Box<Recovery>),
-    Changed(Box<Save>),
-    Nothing,
-}
-
-/// Why the document is left.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Leave {
-    Quit,
-    Open(PathBuf),
-    New(usize),
-}
-
-impl Files {
-    /// Starts the threads and looks for work that a crash left. Without folders the documents can be shown, not saved.
-    pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
-        let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
-        if let Some(saver) = &saver {
-            saver.ask(Request::LookForLost);
-        }
-        let journal = folders.as_ref().map(|folders| Journal::start(folders.recovery()));
-        Self {
-            saver,
-            journal,
-            asked: None,
-            after_save: None,
-            template: None,
-            lost: Vec::new(),
-            noted: Noted::default(),
-            title: String::new(),
-            closing: false,
-        }
-    }
-}
-
-impl Files {
-    /// Asks the saver; false where there is none.
-    pub(super) fn request(&self, request: Request) -> bool {
-        self.saver.as_ref().map(|saver| saver.ask(request)).is_some()
-    }
-}
 
 impl App {
     /// Takes the answers of the threads, of dialogs and of questions.

@@ -2,8 +2,10 @@
 
 mod apply;
 mod commands;
+mod file_state;
 mod files;
 mod layout;
+mod open_windows;
 mod recents;
 mod remember;
 mod windows;
@@ -25,9 +27,9 @@ use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
 use super::{keys, preferences, templates, theme};
-use files::Files;
+use file_state::Files;
+use open_windows::Windows;
 use recents::Recents;
-use windows::Windows;
 
 /// The window's state.
 pub struct App {

@@ -3,18 +3,10 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use lightloom_core::project::Project;
 
 use super::App;
 use crate::editor::preferences;
-use crate::editor::store::{Note, Preferences, Request};
-
-/// What was handed to the threads last.
-#[derive(Default)]
-pub(super) struct Noted {
-    project: Option<Arc<Project>>,
-    preferences: Option<Preferences>,
-}
+use crate::editor::store::{Note, Request};
 
 impl App {
     /// Notes what changed since the last frame of the window. Costs pointers.

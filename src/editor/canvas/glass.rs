@@ -6,7 +6,7 @@ use glam::Vec2;
 use super::ghosts;
 use super::input::{self, Move};
 use super::overlay::Overlay;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::tools::{Look, Toolbox};
 
 /// How a view shows the plane.
@@ -25,7 +25,7 @@ pub struct Glass<'a> {
 pub fn over(
     ui: &Ui,
     response: &Response,
-    desk: &mut Desk,
+    editor: &mut EditorContext,
     toolbox: &mut Toolbox,
     glass: &Glass,
 ) -> Vec<Move> {
@@ -33,12 +33,12 @@ pub fn over(
     if response.has_focus() || response.hovered() {
         input.gestures.extend(input::keys(ui, response));
     }
-    let project = desk.document.project().clone();
-    let sketch = desk.preview.sketch().cloned();
-    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
+    let project = editor.document.project().clone();
+    let sketch = editor.preview.sketch().cloned();
+    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
     let look = Look {
         project: &project,
-        session: desk.session,
+        session: editor.session,
         extent: project.extent(),
         per_point: per_point(response, glass),
         held: input::held(ui),
@@ -46,12 +46,12 @@ pub fn over(
         photons: photons.unwrap_or_default(),
     };
     for gesture in input.gestures {
-        desk.actions.extend(toolbox.gesture(gesture, &look));
+        editor.actions.extend(toolbox.gesture(gesture, &look));
     }
     let ghosts = ghosts(response, toolbox, &look);
     let painter = ui.painter_at(response.rect);
     let overlay = Overlay { painter: &painter, screen: glass.screen };
-    overlay.all(&look, glass.target.map(|(texture, _)| texture), &desk.preview.flow(), &ghosts);
+    overlay.all(&look, glass.target.map(|(texture, _)| texture), &editor.preview.flow(), &ghosts);
     input.moves
 }
 

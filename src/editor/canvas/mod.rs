@@ -15,11 +15,11 @@ pub use self::glass::{Glass, over};
 use self::input::Move;
 use self::overlay::{Overlay, hovered};
 use self::space::Space;
-use super::panels::Desk;
 use super::preview::FlowPicture;
 use super::session::PlaneEye;
 use super::theme;
 use super::tools::{Ghost, Grip, Look, Toolbox};
+use crate::editor::context::EditorContext;
 
 /// Draws something where the plane stands on the screen.
 pub type Light<'a> = &'a dyn Fn(&Painter, &Space);
@@ -36,22 +36,22 @@ pub struct Under<'a> {
 }
 
 /// Shows the plane and lets the tool in hand work on it.
-pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) -> Response {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox, under: &Under) -> Response {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Plane"));
-    for action in toolbox.take(desk.session.tool) {
-        desk.ask(action);
+    for action in toolbox.take(editor.session.tool) {
+        editor.ask(action);
     }
-    let extent = desk.document.project().extent();
-    let space = Space::new(rect, extent, &desk.session.plane);
+    let extent = editor.document.project().extent();
+    let space = Space::new(rect, extent, &editor.session.plane);
     let plane = |p| Some(space.plane_from_screen(p));
     let mut input = input::pointer(ui, &response, toolbox.grip(), &plane);
     input.gestures.extend(input::keys(ui, &response));
-    desk.session.plane = moved(desk.session.plane, &input.moves, |eye| Space::new(rect, extent, eye));
-    let project = desk.document.project().clone();
+    editor.session.plane = moved(editor.session.plane, &input.moves, |eye| Space::new(rect, extent, eye));
+    let project = editor.document.project().clone();
     let look = Look {
         project: &project,
-        session: desk.session,
+        session: editor.session,
         extent,
         per_point: space.scale().recip(),
         held: input::held(ui),
@@ -59,11 +59,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) 
         photons: under.photons,
     };
     for gesture in input.gestures {
-        desk.actions.extend(toolbox.gesture(gesture, &look));
+        editor.actions.extend(toolbox.gesture(gesture, &look));
     }
-    let space = Space::new(rect, extent, &desk.session.plane);
+    let space = Space::new(rect, extent, &editor.session.plane);
     let ghosts = ghosts(&response, toolbox, &look);
-    paint(&ui.painter_at(rect), &look, &space, under, &desk.preview.flow(), &ghosts);
+    paint(&ui.painter_at(rect), &look, &space, under, &editor.preview.flow(), &ghosts);
     let space_held = ui.input(|input| input.key_down(egui::Key::Space)) && !ui.ctx().text_edit_focused();
     let cursor = match (input.dragging, space_held || toolbox.grip() == Grip::Pan) {
         (true, _) => CursorIcon::Grabbing,

@@ -6,7 +6,8 @@ use std::thread;
 
 use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{PickRequest, Purpose, modal};
+use super::modal::modal;
+use super::request::{PickRequest, Purpose, with_ending};
 use crate::editor::theme;
 
 /// Most entries that are listed of one folder.
@@ -265,7 +266,7 @@ fn look(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose) -> Read {
         // A folder that was typed is gone to, unless it is what is wanted.
         Some(path) if path.is_dir() && !wants_folder => list(path, purpose),
         Some(path) if wants_folder || path.is_file() || purpose.saves() => {
-            let saved = super::with_ending(&purpose, path.clone());
+            let saved = with_ending(&purpose, path.clone());
             let exists = purpose.saves() && saved.exists();
             Read { taken: Some(path), exists, ..list(folder, purpose) }
         }

@@ -14,8 +14,8 @@ use lightloom_core::render::Image;
 
 use super::strip::{colour, controls, words};
 use super::{Exports, Growing, Job, Order, Wish};
+use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
-use crate::editor::panels::Desk;
 use crate::editor::{playback, templates, theme};
 
 /// Width of the settings, points.
@@ -52,12 +52,18 @@ impl ExportWindow {
     }
 
     /// Shows the window where it is open.
-    pub fn show(&mut self, ctx: &Context, desk: &mut Desk, exports: &mut Exports, picker: &mut Picker) {
+    pub fn show(
+        &mut self,
+        ctx: &Context,
+        editor: &mut EditorContext,
+        exports: &mut Exports,
+        picker: &mut Picker,
+    ) {
         if !self.open {
             return;
         }
-        let project = desk.document.project().clone();
-        let file = desk.document.path().map(ToOwned::to_owned);
+        let project = editor.document.project().clone();
+        let file = editor.document.path().map(ToOwned::to_owned);
         self.follow(Wish::of(&project, file.as_deref()), file);
         let mut open = true;
         let middle = ctx.content_rect().center() - vec2(390.0, 260.0);
@@ -67,13 +73,13 @@ impl ExportWindow {
                 ui.vertical(|ui| {
                     ui.set_width(LEFT);
                     ui.set_min_height(450.0);
-                    self.settings(ui, desk, &project, picker);
-                    self.begin(ui, desk, &project, exports);
+                    self.settings(ui, editor, &project, picker);
+                    self.begin(ui, editor, &project, exports);
                 });
                 ui.separator();
                 ui.vertical(|ui| {
                     ui.set_min_width(380.0);
-                    self.jobs(ui, desk, exports);
+                    self.jobs(ui, editor, exports);
                 });
             });
         });
@@ -89,7 +95,7 @@ impl ExportWindow {
         self.own = Some((own, file));
     }
 
-    fn settings(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, picker: &mut Picker) {
+    fn settings(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, picker: &mut Picker) {
         let (Some(wish), Some((own, _))) = (&mut self.wish, &self.own) else { return };
         Grid::new("export settings").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
             name(
@@ -102,8 +108,8 @@ impl ExportWindow {
             ui.horizontal(|ui| {
                 let field = TextEdit::singleline(&mut wish.frames).desired_width(120.0);
                 ui.add(field).accessible_name("Frames");
-                let played = playback::played(project, desk.session);
-                let marked = desk.session.marks != [None; 2];
+                let played = playback::played(project, editor.session);
+                let marked = editor.session.marks != [None; 2];
                 let button = ui.add_enabled(marked, Button::new("Marked"));
                 if button.on_hover_text("From the in mark to the out mark of the time line.").clicked() {
                     wish.frames = format!("{}-{}", played.start(), played.end());
@@ -189,7 +195,7 @@ impl ExportWindow {
     }
 
     /// The button that begins, and the command line that does the same.
-    fn begin(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, exports: &mut Exports) {
+    fn begin(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, exports: &mut Exports) {
         let Some(wish) = &self.wish else { return };
         let applied = wish.apply(project);
         let frames = applied.as_ref().ok().and_then(|project| project.frames().ok()).unwrap_or_default();
@@ -207,10 +213,10 @@ impl ExportWindow {
             && begin.clicked()
         {
             let shown =
-                if frames.contains(&desk.session.playhead) { Some(desk.session.playhead) } else { None };
+                if frames.contains(&editor.session.playhead) { Some(editor.session.playhead) } else { None };
             exports.add(Order {
                 project: Arc::new(project.clone()),
-                file: templates::file_of(desk.document),
+                file: templates::file_of(editor.document),
                 external: self.external,
                 folder: wish.folder.clone(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
@@ -218,10 +224,10 @@ impl ExportWindow {
             });
         }
         ui.add_space(10.0);
-        command_line(ui, desk, project, wish, self.external);
+        command_line(ui, editor, project, wish, self.external);
     }
 
-    fn jobs(&mut self, ui: &mut Ui, desk: &Desk, exports: &mut Exports) {
+    fn jobs(&mut self, ui: &mut Ui, editor: &EditorContext, exports: &mut Exports) {
         let jobs = exports.jobs().to_vec();
         if jobs.is_empty() {
             ui.weak("Exports run beside your work, from the project as it is when they begin. Each pass makes all frames better, so that you can stop at any time.");
@@ -239,7 +245,7 @@ impl ExportWindow {
             });
         });
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
-        jobs[active].show(desk.session.playhead);
+        jobs[active].show(editor.session.playhead);
         ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
             // The one at work first, then the newest.
             let others = (0..jobs.len()).rev().filter(|index| *index != active);
@@ -307,9 +313,9 @@ fn formats(ui: &mut Ui, chosen: &mut Vec<FrameFormat>) {
     }
 }
 
-fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish, external: bool) {
+fn command_line(ui: &mut Ui, editor: &EditorContext, project: &Project, wish: &Wish, external: bool) {
     ui.label("The same from the command line");
-    let Some(file) = desk.document.path() else {
+    let Some(file) = editor.document.path() else {
         ui.weak("Once the project is saved, its command line stands here.");
         return;
     };
@@ -324,7 +330,7 @@ fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish, extern
         if ui.small_button("Copy").clicked() {
             ui.ctx().copy_text(line.clone());
         }
-        if desk.document.is_unsaved() {
+        if editor.document.is_unsaved() {
             ui.weak("It renders the file as last saved.");
         }
     });

@@ -25,6 +25,7 @@ pub use target::TargetPicture;
 pub use wishes::Wanted;
 
 use super::session::{Other, Session};
+use super::target_image::TargetImage;
 use animator::{Animator, Found};
 use flow::FlowViewer;
 use looker::Looker;
@@ -113,7 +114,7 @@ impl Preview {
         }
         self.compare(subject, session);
         self.receive();
-        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        let shown = TargetImage::at_playhead(&subject.project, session).map(|target| target.image);
         self.targets.follow(subject, shown);
         let sketch = self.sketch().cloned();
         self.flow.follow(sketch.as_ref(), &subject.project, session);

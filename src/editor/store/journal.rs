@@ -8,8 +8,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use lightloom_core::project::{Project, ProjectFile};
 use lightloom_core::{Error, Result};
-use serde::{Deserialize, Serialize};
 
+use super::record::Record;
 use super::slot::Slot;
 use super::{Fingerprint, Recovery, disk};
 
@@ -31,18 +31,6 @@ pub struct Note {
     pub project: Arc<Project>,
     /// The content of the document's file when it was last read or saved; none where it was never saved.
     pub seen: Option<Fingerprint>,
-}
-
-/// A journal's file.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Entry {
-    pub(super) path: Option<PathBuf>,
-    pub(super) title: String,
-    /// When the change was made, seconds since 1970.
-    pub(super) time: u64,
-    pub(super) seen: Option<Fingerprint>,
-    /// The project file as it would have been saved.
-    pub(super) text: String,
 }
 
 /// The journal of one open document. Dropped without [`clean`](Self::clean), it writes what it still has and leaves its
@@ -192,7 +180,7 @@ impl Writer {
     }
 
     fn write(&mut self, Pending { note, time, .. }: &Pending) -> Result<()> {
-        let entry = Entry {
+        let record = Record {
             // JSON knows no path that is not UTF-8: such a document is offered as one without file.
             path: note.path.as_ref().filter(|path| path.to_str().is_some()).map(|path| absolute(path)),
             title: note.title.clone(),
@@ -200,7 +188,7 @@ impl Writer {
             seen: note.seen,
             text: note.file.text_of(&note.project)?,
         };
-        let bytes = serde_json::to_vec(&entry)
+        let bytes = serde_json::to_vec(&record)
             .map_err(|e| Error::value("journal", format!("cannot be written as JSON: {e}")))?;
         let slot = match self.slot.take() {
             Some(slot) => slot,

@@ -15,6 +15,7 @@ pub mod recovery;
 pub mod saver;
 
 mod disk;
+mod record;
 mod slot;
 
 pub use disk::Fingerprint;

@@ -3,8 +3,9 @@
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, DirectedLine};
 
+use super::icon;
 use super::pen::{Pen, add};
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Look, Tool};
 use crate::editor::action::Action;
 
 /// Draws directed lines: flow here, this way.

@@ -4,7 +4,8 @@ use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::{Gesture, Ghost, Look, Tool, arrange, cut, icon};
+use super::tool::{Gesture, Ghost, Look, Tool};
+use super::{arrange, cut, icon};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;

@@ -2,7 +2,8 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{Grip, Tool};
 
 /// Moves the view; so does the middle button, and Space, with any tool.
 pub(super) struct Pan;

@@ -4,8 +4,9 @@ use egui::Key;
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
 
+use super::curve;
 use super::snap::Snap;
-use super::{Gesture, Ghost, Look, curve};
+use super::tool::{Gesture, Ghost, Look};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;

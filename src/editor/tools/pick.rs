@@ -3,7 +3,7 @@
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::Look;
+use super::tool::Look;
 use crate::editor::selection::Selection;
 
 /// How near a line catches, points of the screen.

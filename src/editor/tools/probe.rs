@@ -3,7 +3,8 @@
 use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 
-use super::{Gesture, Look, Tool, icon};
+use super::icon;
+use super::tool::{Gesture, Look, Tool};
 use crate::editor::action::Action;
 
 /// How far from the pointer the photon may be, points of the screen.

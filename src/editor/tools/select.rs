@@ -6,7 +6,8 @@ use lightloom_core::constraint::Constraint;
 
 use super::pick::{self, Hit};
 use super::snap::Snap;
-use super::{Gesture, Ghost, Look, Tool, arrange, icon};
+use super::tool::{Gesture, Ghost, Look, Tool};
+use super::{arrange, icon};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;

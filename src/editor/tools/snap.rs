@@ -3,7 +3,7 @@
 use glam::{Vec2, vec2};
 use lightloom_core::constraint::stroke;
 
-use super::Look;
+use super::tool::Look;
 
 /// How near catches, points of the screen.
 const REACH: f32 = 5.0;

@@ -2,14 +2,14 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
-use lightloom_core::project::{KeyFrame, Project, Shows};
-use lightloom_core::target::{ImageTarget, Placement};
+use lightloom_core::target::Placement;
 
+use super::icon;
 use super::snap::Snap;
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Look, Tool};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
-use crate::editor::session::Session;
+use crate::editor::target_image::TargetImage;
 
 /// How near a handle catches, points of the screen.
 const HANDLE: f32 = 9.0;
@@ -20,50 +20,9 @@ const NEAR: f32 = 2.0;
 /// Smallest and largest width of a picture, plane units.
 const WIDTH: [f32; 2] = [0.005, 10.0];
 
-/// The picture that is placed: whose it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown<'a> {
-    /// Its key frame, by index.
-    pub key: usize,
-    /// The caustic that shows it alone; none where the key does.
-    pub caustic: Option<&'a str>,
-    /// The picture.
-    pub image: &'a ImageTarget,
-}
-
-/// The picture towards which the light flows at the playhead: of the first key that is not before it, and there of the
-/// caustic in focus if it shows one of its own.
-pub fn shown<'a>(project: &'a Project, session: &Session) -> Option<Shown<'a>> {
-    let after = project.keys.iter().position(|key| key.frame >= session.playhead);
-    let key = after.or_else(|| project.keys.len().checked_sub(1))?;
-    let name =
-        session.focus.caustic.and_then(|i| project.caustics.get(i)).map(|caustic| caustic.name.as_str());
-    let own =
-        name.filter(|name| project.keys[key].caustics.get(*name).is_some_and(|own| own.shows.is_some()));
-    match project.keys[key].shown_by(own) {
-        Shows::Image(image) => Some(Shown { key, caustic: own, image }),
-        Shows::PhysicalCaustic | Shows::Points(_) => None,
-    }
-}
-
 /// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
 pub fn target_corners(look: &Look) -> Option<[Vec2; 4]> {
-    Some(Frame::new(&shown(look.project, look.session)?.image.placement, look).corners())
-}
-
-impl Shown<'_> {
-    /// The keys of the project with this picture placed otherwise.
-    fn placed(&self, project: &Project, placement: &Placement) -> Vec<KeyFrame> {
-        let mut keys = project.keys.clone();
-        let shows = match self.caustic {
-            Some(name) => keys[self.key].caustics.get_mut(name).and_then(|own| own.shows.as_mut()),
-            None => Some(&mut keys[self.key].shows),
-        };
-        if let Some(Shows::Image(image)) = shows {
-            image.placement = placement.clone();
-        }
-        keys
-    }
+    Some(Frame::new(&TargetImage::at_playhead(look.project, look.session)?.image.placement, look).corners())
 }
 
 /// A picture on the plane.
@@ -211,14 +170,14 @@ impl Tool for Place {
     }
 
     fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        let Some(shown) = shown(look.project, look.session) else {
+        let Some(target) = TargetImage::at_playhead(look.project, look.session) else {
             self.put_down();
             let here = matches!(gesture, Gesture::Press(_));
             let say = "The next key frame shows no picture that could be placed".to_owned();
             return if here { vec![Action::Say(say)] } else { Vec::new() };
         };
-        let frame = Frame::new(&shown.image.placement, look);
-        let ask = |placement: Placement| Action::from(Edit::Keys(shown.placed(look.project, &placement)));
+        let frame = Frame::new(&target.image.placement, look);
+        let ask = |placement: Placement| Action::from(Edit::Keys(target.placed(look.project, &placement)));
         match gesture {
             Gesture::Hover(p) => self.over = Self::handle(p, &frame, look),
             Gesture::Press(p) => self.taken = Self::handle(p, &frame, look).map(|handle| (handle, p, frame)),
@@ -239,8 +198,8 @@ impl Tool for Place {
     }
 
     fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        let shown = shown(look.project, look.session);
-        let frame = shown.map(|shown| Frame::new(&shown.image.placement, look));
+        let target = TargetImage::at_playhead(look.project, look.session);
+        let frame = target.map(|target| Frame::new(&target.image.placement, look));
         frame.map(|frame| Ghost::Frame(frame.corners(), frame.stalk(look))).into_iter().collect()
     }
 

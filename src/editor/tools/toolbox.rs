@@ -1,7 +1,22 @@
 //! The tools, and the one in hand.
 
-use super::{Gesture, Ghost, Grip, Look, Tool, all};
+use super::tool::{Gesture, Ghost, Grip, Look, Tool};
+use super::{directed_line, erase, pan, probe, select, target, wall, zoom};
 use crate::editor::action::Action;
+
+/// All tools, as they stand in the bar: a new one is a file and a line here.
+pub fn all() -> Vec<Box<dyn Tool>> {
+    vec![
+        Box::<select::Select>::default(),
+        Box::<directed_line::DrawLine>::default(),
+        Box::<wall::DrawWall>::default(),
+        Box::<erase::Erase>::default(),
+        Box::<target::Place>::default(),
+        Box::<probe::Probe>::default(),
+        Box::new(pan::Pan),
+        Box::new(zoom::Zoom),
+    ]
+}
 
 /// The tools, and the one in hand.
 pub struct Toolbox {

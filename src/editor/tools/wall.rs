@@ -3,8 +3,9 @@
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, Wall};
 
+use super::icon;
 use super::pen::{Pen, add};
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Look, Tool};
 use crate::editor::action::Action;
 
 /// Draws walls: not through here.

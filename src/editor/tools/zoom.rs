@@ -2,7 +2,8 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{Grip, Tool};
 
 /// Brings the view nearer; so does the wheel, with any tool.
 pub(super) struct Zoom;

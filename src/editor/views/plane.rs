@@ -2,28 +2,26 @@
 
 use std::sync::Arc;
 
-use egui::{Color32, Painter, Rect, Ui, pos2};
+use egui::{Color32, Painter, Rect, Ui};
 use glam::{Vec2, vec2};
 use lightloom_core::render::{Paper, ViewSettings};
 
+use super::fit::WHOLE;
 use super::{Views, wipe};
 use crate::editor::canvas::space::Space;
 use crate::editor::canvas::{self, Under};
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::preview::gpu::{Drawing, Swarm};
 use crate::editor::tools::Toolbox;
 
-/// The whole of a texture.
-pub(super) const WHOLE: Rect = Rect { min: pos2(0.0, 0.0), max: pos2(1.0, 1.0) };
-
 impl Views {
     /// The plane view: light, what was drawn, and the tool in hand.
-    pub(super) fn plane_view(&self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
+    pub(super) fn plane_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
-        let project = desk.document.project().clone();
-        let (extent, compare) = (project.extent(), desk.session.compare);
-        let (swarms, paper) = (desk.preview.painted().swarm, desk.preview.paper());
-        let by_card = desk.preview.draws_photons();
+        let project = editor.document.project().clone();
+        let (extent, compare) = (project.extent(), editor.session.compare);
+        let (swarms, paper) = (editor.preview.painted().swarm, editor.preview.paper());
+        let by_card = editor.preview.draws_photons();
         let light = |painter: &Painter, space: &Space| {
             let sides = wipe::sides(view, compare).into_iter().enumerate();
             for (side, clip) in sides.filter_map(|(side, clip)| Some((side, clip?))) {
@@ -36,15 +34,15 @@ impl Views {
                 }
             }
         };
-        let sketch = desk.preview.sketch().cloned();
-        let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
+        let sketch = editor.preview.sketch().cloned();
+        let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
         let under = Under {
             light: Some(&light),
             target: self.pictures.target(),
             photons: photons.unwrap_or_default(),
         };
-        canvas::show(ui, desk, toolbox, &under);
-        if let Some(wipe) = &mut desk.session.compare {
+        canvas::show(ui, editor, toolbox, &under);
+        if let Some(wipe) = &mut editor.session.compare {
             wipe::handle(ui, view, wipe);
         }
     }
