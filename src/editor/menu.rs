@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
 
 use super::action::Action;
-use super::command::{COMMANDS, Command, Entry, Menu};
+use super::command::{COMMANDS, Command, CommandInfo, Menu};
 use super::document::Document;
-use super::session::{FieldMap, Session, Views};
+use super::session::{FieldMap, Session, ViewLayout};
 use super::shortcuts;
 use super::templates::TEMPLATES;
 use crate::editor::context::EditorContext;
@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     });
 }
 
-fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &Entry) {
+fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &CommandInfo) {
     let on = is_on(entry.command, editor.session);
     let enabled = is_enabled(entry.command, editor.document, editor.session);
     let place = IdSalt::new("check");
@@ -91,7 +91,7 @@ fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &Entry) {
 }
 
 /// Undo and redo say what they would take back.
-fn title(entry: &Entry, document: &Document) -> String {
+fn title(entry: &CommandInfo, document: &Document) -> String {
     let what = match entry.command {
         Command::Undo => document.history().undoes(),
         Command::Redo => document.history().redoes(),
@@ -136,14 +136,14 @@ fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
 
 /// Whether what a command switches is on; none for commands that switch nothing.
 pub fn is_on(command: Command, session: &Session) -> Option<bool> {
-    let show = &session.show;
+    let show = &session.overlays;
     Some(match command {
         Command::Snapping => session.snapping,
         Command::ToggleLoop => session.looping,
-        Command::BothViews => session.views == Views::Both,
-        Command::PlaneView => session.views == Views::Plane,
-        Command::ShotView => session.views == Views::Shot,
-        Command::LookView => session.views == Views::Look,
+        Command::BothViews => session.layout == ViewLayout::PlaneAndShot,
+        Command::PlaneView => session.layout == ViewLayout::Plane,
+        Command::ShotView => session.layout == ViewLayout::Shot,
+        Command::OrbitView => session.layout == ViewLayout::Orbit,
         Command::ShowDrawn => show.drawn,
         Command::ShowTarget => show.target,
         Command::ShowArrows => show.arrows,
@@ -169,7 +169,7 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> b
         Command::Reverse | Command::Join | Command::Split => chosen,
         Command::SelectAll => !document.project().constraints.is_empty(),
         Command::ClearMarks => session.marks != [None; 2],
-        Command::LookView => document.project().scene.is_some(),
+        Command::OrbitView => document.project().scene.is_some(),
         _ => true,
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod action;
 mod app;
+pub mod asset;
 pub mod canvas;
 pub mod clipboard;
 pub mod command;
@@ -10,15 +11,14 @@ pub mod context;
 pub mod dialogs;
 pub mod document;
 pub mod export;
-pub mod keys;
+pub mod keyboard;
 pub mod menu;
 pub mod palette;
 pub mod panels;
-pub mod pick;
-mod places;
 pub mod playback;
 pub mod preferences;
 pub mod preview;
+mod relative_path;
 pub mod selection;
 pub mod session;
 pub mod shortcuts;
@@ -34,5 +34,5 @@ mod unique_name;
 mod views;
 pub mod welcome;
 
-pub use app::{App, Card, Setup};
+pub use app::{App, Gpu, Setup};
 pub use start::run;

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use lightloom_core::project::Project;
 
 use crate::editor::dialogs::Question;
-use crate::editor::store::{Folders, Journal, Preferences, Recovery, Request, Save, Saver};
+use crate::editor::store::{Folders, Journal, Preferences, Recovery, SaveRequest, Saver, StoreRequest};
 
 /// The threads that read and write, and what is waited for.
 pub(super) struct Files {
     pub(super) saver: Option<Saver>,
     pub(super) journal: Option<Journal>,
     /// The question that is open, and what its answer decides.
-    pub(super) asked: Option<(Question, Asked)>,
+    pub(super) question: Option<(Question, PendingQuestion)>,
     /// What shall be done once the document is saved.
     pub(super) after_save: Option<Leave>,
     /// The example that is being read.
@@ -21,16 +21,16 @@ pub(super) struct Files {
     /// Work of earlier runs that is still to be asked for.
     pub(super) lost: Vec<Recovery>,
     /// What was handed to the threads last, and the window's title.
-    pub(super) noted: Noted,
+    pub(super) last_sent: LastSent,
     pub(super) title: String,
     pub(super) closing: bool,
 }
 
 /// What an answer decides.
-pub(super) enum Asked {
+pub(super) enum PendingQuestion {
     Leave(Leave),
     Recover(Box<Recovery>),
-    Changed(Box<Save>),
+    Changed(Box<SaveRequest>),
     Nothing,
 }
 
@@ -47,31 +47,31 @@ impl Files {
     pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
         let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
         if let Some(saver) = &saver {
-            saver.ask(Request::LookForLost);
+            saver.ask(StoreRequest::LookForLost);
         }
         let journal = folders.as_ref().map(|folders| Journal::start(folders.recovery()));
         Self {
             saver,
             journal,
-            asked: None,
+            question: None,
             after_save: None,
             template: None,
             lost: Vec::new(),
-            noted: Noted::default(),
+            last_sent: LastSent::default(),
             title: String::new(),
             closing: false,
         }
     }
 
     /// Asks the saver; false where there is none.
-    pub(super) fn request(&self, request: Request) -> bool {
+    pub(super) fn request(&self, request: StoreRequest) -> bool {
         self.saver.as_ref().map(|saver| saver.ask(request)).is_some()
     }
 }
 
 /// What was handed to the threads last.
 #[derive(Default)]
-pub(super) struct Noted {
+pub(super) struct LastSent {
     pub(super) project: Option<Arc<Project>>,
     pub(super) preferences: Option<Preferences>,
 }

@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
 
-use super::{App, Card};
+use super::{App, Gpu};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
@@ -11,7 +11,7 @@ use crate::editor::export;
 use crate::editor::panels;
 use crate::editor::store::PhotonRenderer;
 use crate::editor::timeline::Timeline;
-use crate::editor::tools::bar;
+use crate::editor::tools::toolbar;
 use crate::editor::tour::Anchors;
 use crate::editor::{menu, theme};
 
@@ -35,7 +35,7 @@ impl App {
             });
         }
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-            if status(ui, editor, &self.word, self.card, self.preferences.photon_renderer, &self.exports) {
+            if status(ui, editor, &self.status, self.gpu, self.preferences.photon_renderer, &self.exports) {
                 editor.ask(Command::Export);
             }
         });
@@ -44,8 +44,8 @@ impl App {
         self.timeline.external = self.external;
         let play = timeline.show(ui, |ui| self.timeline.show(ui, editor)).inner;
         let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2));
-        let tools = Panel::left("tools").exact_size(bar::WIDTH).resizable(false).frame(frame);
-        let [line, wall] = tools.show(ui, |ui| bar::show(ui, editor, &self.toolbox)).inner;
+        let tools = Panel::left("tools").exact_size(toolbar::WIDTH).resizable(false).frame(frame);
+        let [line, wall] = tools.show(ui, |ui| toolbar::show(ui, editor, &self.toolbox)).inner;
         Panel::right("panels")
             .resizable(true)
             .default_size(PANEL[0])
@@ -84,8 +84,8 @@ fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
-    word: &str,
-    card: Card,
+    status_text: &str,
+    gpu: Gpu,
     renderer: PhotonRenderer,
     exports: &export::Exports,
 ) -> bool {
@@ -99,14 +99,14 @@ fn status(
         ui.add_sized([120.0, 18.0], egui::Label::new(RichText::new(doing).weak()).halign(Align::Min));
         ui.separator();
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (name, help) = drawn_by(card, renderer);
+            let (name, help) = drawn_by(gpu, renderer);
             ui.weak(name).on_hover_text(help);
             ui.separator();
-            panels::readouts::strip(ui, editor);
+            panels::readouts::status_line(ui, editor);
             ui.separator();
-            clicked = export::strip(ui, exports);
+            clicked = export::status_line(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(egui::Label::new(word).truncate());
+                ui.add(egui::Label::new(status_text).truncate());
             });
         });
     });
@@ -125,19 +125,19 @@ fn doing(stage: &str) -> &'static str {
     }
 }
 
-fn drawn_by(card: Card, renderer: PhotonRenderer) -> (&'static str, &'static str) {
-    match (card, renderer) {
-        (Card::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
+fn drawn_by(gpu: Gpu, renderer: PhotonRenderer) -> (&'static str, &'static str) {
+    match (gpu, renderer) {
+        (Gpu::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
             ("Graphics card", "The graphics card draws the light of the plane view.")
         }
-        (Card::Software, PhotonRenderer::Gpu) => (
+        (Gpu::Software, PhotonRenderer::Gpu) => (
             "Software graphics",
             "There is no graphics card; a program that behaves like one draws the light.",
         ),
-        (Card::Hardware, PhotonRenderer::Cpu) => {
+        (Gpu::Hardware, PhotonRenderer::Cpu) => {
             ("Processor", "The processor works the light out, as the preferences say.")
         }
-        (Card::Software | Card::None, _) => (
+        (Gpu::Software | Gpu::None, _) => (
             "No graphics card",
             "The processor works the light out: the same picture, some frames per second less. All else is as with a card.",
         ),

@@ -2,7 +2,7 @@
 
 use crate::editor::export::ExportWindow;
 use crate::editor::palette::Palette;
-use crate::editor::shortcuts::Sheet;
+use crate::editor::shortcuts::ShortcutSheet;
 use crate::editor::tour::{Anchors, Tour};
 use crate::editor::welcome::Welcome;
 
@@ -11,7 +11,7 @@ use crate::editor::welcome::Welcome;
 pub(super) struct Windows {
     pub(super) export: ExportWindow,
     pub(super) palette: Palette,
-    pub(super) shortcuts: Sheet,
+    pub(super) shortcuts: ShortcutSheet,
     pub(super) preferences: bool,
     pub(super) welcome: Welcome,
     pub(super) tour: Tour,

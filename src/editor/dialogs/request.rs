@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use egui::Context;
 
-use crate::editor::pick::Pick;
+use crate::editor::asset::AssetUse;
 
 /// What a file is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub enum Purpose {
     /// The folder to which frames are written.
     ExportFolder,
     /// A file that the project is to use.
-    Asset(Pick),
+    Asset(AssetUse),
 }
 
 /// What to ask for.
@@ -94,9 +94,9 @@ impl Purpose {
             Self::OpenProject => "Open a project",
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
-            Self::Asset(Pick::Mesh | Pick::MeshFile(_)) => "Choose a mesh",
-            Self::Asset(Pick::Picture(_)) => "Choose a picture",
-            Self::Asset(Pick::Points(_)) => "Choose a file of points",
+            Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
+            Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
+            Self::Asset(AssetUse::Points(_)) => "Choose a file of points",
         }
     }
 

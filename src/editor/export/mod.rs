@@ -1,13 +1,13 @@
 //! Exports beside editing: each renders a frozen project on threads of its own, one after the other.
 
 mod job;
+mod options;
 mod queue;
-mod strip;
+mod status_line;
 mod window;
-mod wish;
 
-pub use job::{Cost, Growing, Job, Order, Outcome, Stage};
+pub use job::{Cost, ExportJob, ExportSettings, Growing, Outcome, Status};
+pub use options::ExportOptions;
 pub use queue::Exports;
-pub use strip::strip;
+pub use status_line::status_line;
 pub use window::ExportWindow;
-pub use wish::Wish;

@@ -4,27 +4,27 @@ use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
-use super::job::{Job, Order};
+use super::job::{ExportJob, ExportSettings};
 
 /// The exports of this run of the program, oldest first.
 pub struct Exports {
-    jobs: Vec<Arc<Job>>,
-    queue: Option<Sender<Arc<Job>>>,
+    jobs: Vec<Arc<ExportJob>>,
+    queue: Option<Sender<Arc<ExportJob>>>,
     worker: Option<JoinHandle<()>>,
 }
 
 impl Exports {
     /// No export yet. `wake` is called whenever something may have changed, from other threads.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (queue, orders) = channel::<Arc<Job>>();
+        let (queue, orders) = channel::<Arc<ExportJob>>();
         let work = move || orders.into_iter().for_each(|job| job.run(&wake));
         let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
         Self { jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
     }
 
     /// Puts an export at the end of the queue.
-    pub fn add(&mut self, order: Order) -> Arc<Job> {
-        let job = Arc::new(Job::new(order));
+    pub fn add(&mut self, order: ExportSettings) -> Arc<ExportJob> {
+        let job = Arc::new(ExportJob::new(order));
         if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
             job.fail("the system starts no thread for it");
         }
@@ -33,7 +33,7 @@ impl Exports {
     }
 
     /// All exports, oldest first.
-    pub fn jobs(&self) -> &[Arc<Job>] {
+    pub fn jobs(&self) -> &[Arc<ExportJob>] {
         &self.jobs
     }
 

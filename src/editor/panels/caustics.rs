@@ -8,9 +8,9 @@ use lightloom_core::scene::LightDesc;
 
 use super::setting::Setting;
 use super::{add_button, keys, remove_button, section, shows};
+use crate::editor::asset::TargetSlot;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::pick::At;
 use crate::editor::unique_name::unique_name;
 
 const NAME: Setting =
@@ -94,7 +94,7 @@ fn values(
     let Some(key) = project.keys.get(at) else { return };
     let before = key.caustics.get(&caustic.name).cloned().unwrap_or_default();
     let mut own = before.clone();
-    let place = At { key: at, caustic: Some(caustic.name.clone()) };
+    let place = TargetSlot { key: at, caustic: Some(caustic.name.clone()) };
     if let Some(shows) = shows::show(ui, editor, &place, before.shows.as_ref()) {
         own.shows = shows;
     }

@@ -6,10 +6,10 @@ use lightloom_core::project::{Ease, KeyFrame};
 use super::setting::{Choice, Setting};
 use super::{aside, remove_button, shows};
 use crate::editor::action::Action;
+use crate::editor::asset::TargetSlot;
 use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::pick::At;
 
 const FRAME: Setting = Setting::whole("Frame", "keys[].frame", [-1e6, 1e6], &[])
     .help("When the light shows this. Key frames can also be dragged in the timeline.");
@@ -77,7 +77,9 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     let mut changed = key.clone();
     frame(ui, keys, index, &mut changed);
     EASE.choose(ui, &mut changed.ease, &[Ease::Smooth, Ease::Linear, Ease::In, Ease::Out]);
-    if let Some(Some(shows)) = shows::show(ui, editor, &At { key: index, caustic: None }, Some(&key.shows)) {
+    if let Some(Some(shows)) =
+        shows::show(ui, editor, &TargetSlot { key: index, caustic: None }, Some(&key.shows))
+    {
         changed.shows = shows;
     }
     if !key.caustics.is_empty() {

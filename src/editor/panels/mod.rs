@@ -30,7 +30,7 @@ use super::session::Panel;
 
 /// A panel on the right of the window.
 #[derive(Clone, Copy)]
-pub struct Entry {
+pub struct PanelInfo {
     /// Which.
     pub panel: Panel,
     /// What it is called.
@@ -43,14 +43,14 @@ pub struct Entry {
 
 /// All panels, in the order of their tabs.
 #[rustfmt::skip]
-pub const PANELS: &[Entry] = &[
-    Entry { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, settings: &[flow::SETTINGS, turbulence::SETTINGS, fade::SETTINGS] },
-    Entry { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, settings: &[drawn::SETTINGS] },
-    Entry { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, settings: &[caustics::SETTINGS] },
-    Entry { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, settings: &[keys::SETTINGS, shows::SETTINGS] },
-    Entry { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, settings: scene::SETTINGS },
-    Entry { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, settings: &[render::SETTINGS] },
-    Entry { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, settings: &[] },
+pub const PANELS: &[PanelInfo] = &[
+    PanelInfo { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, settings: &[flow::SETTINGS, turbulence::SETTINGS, fade::SETTINGS] },
+    PanelInfo { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, settings: &[drawn::SETTINGS] },
+    PanelInfo { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, settings: &[caustics::SETTINGS] },
+    PanelInfo { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, settings: &[keys::SETTINGS, shows::SETTINGS] },
+    PanelInfo { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, settings: scene::SETTINGS },
+    PanelInfo { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, settings: &[render::SETTINGS] },
+    PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, settings: &[] },
 ];
 
 /// All settings of the panels.

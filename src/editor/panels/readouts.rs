@@ -182,7 +182,7 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
 }
 
 /// The most important of it for the status bar, from right to left.
-pub(in crate::editor) fn strip(ui: &mut Ui, editor: &EditorContext) {
+pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
     let Some(sketch) = editor.preview.sketch() else { return };
     for readout in in_short(sketch, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);

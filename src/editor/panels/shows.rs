@@ -6,8 +6,8 @@ use lightloom_core::target::{Channel, ImageTarget};
 
 use super::setting::{Choice, Setting};
 use crate::editor::action::Action;
+use crate::editor::asset::{AssetUse, TargetSlot};
 use crate::editor::context::EditorContext;
-use crate::editor::pick::{At, Pick};
 
 const SHOWS: Setting = Setting::choice(
     "Shows",
@@ -62,7 +62,7 @@ const AS_ALL: usize = 3;
 pub(super) fn show(
     ui: &mut Ui,
     editor: &mut EditorContext,
-    at: &At,
+    at: &TargetSlot,
     shows: Option<&Shows>,
 ) -> Option<Option<Shows>> {
     let kind = match shows {
@@ -77,8 +77,8 @@ pub(super) fn show(
     }
     let mut new = match setting.pick_another(ui, kind) {
         Some(0) => Some(Some(Shows::PhysicalCaustic)),
-        Some(1) => pick(editor, Pick::Picture(at.clone())),
-        Some(2) => pick(editor, Pick::Points(at.clone())),
+        Some(1) => pick(editor, AssetUse::Picture(at.clone())),
+        Some(2) => pick(editor, AssetUse::Points(at.clone())),
         Some(_) => Some(None),
         None => None,
     };
@@ -86,7 +86,7 @@ pub(super) fn show(
         Some(Shows::Image(image)) => {
             let mut changed = image.clone();
             if file(ui, &FILE, &image.file) {
-                editor.ask(Action::Pick(Pick::Picture(at.clone())));
+                editor.ask(Action::PickFile(AssetUse::Picture(at.clone())));
             }
             picture(ui, editor, &mut changed);
             if changed != *image {
@@ -94,7 +94,7 @@ pub(super) fn show(
             }
         }
         Some(Shows::Points(points)) if file(ui, &POINTS, &points.file) => {
-            editor.ask(Action::Pick(Pick::Points(at.clone())));
+            editor.ask(Action::PickFile(AssetUse::Points(at.clone())));
         }
         _ => {}
     }
@@ -102,8 +102,8 @@ pub(super) fn show(
 }
 
 /// A target without a file is none: what it shows changes when one is picked.
-fn pick(editor: &mut EditorContext, pick: Pick) -> Option<Option<Shows>> {
-    editor.ask(Action::Pick(pick));
+fn pick(editor: &mut EditorContext, pick: AssetUse) -> Option<Option<Shows>> {
+    editor.ask(Action::PickFile(pick));
     None
 }
 

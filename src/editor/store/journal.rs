@@ -10,7 +10,7 @@ use lightloom_core::project::{Project, ProjectFile};
 use lightloom_core::{Error, Result};
 
 use super::record::Record;
-use super::slot::Slot;
+use super::slot::JournalSlot;
 use super::{Fingerprint, Recovery, disk};
 
 /// How long a change waits for others to be written with it.
@@ -60,7 +60,7 @@ impl Journal {
         Self::run(slot.file().parent().unwrap_or(Path::new(".")).to_owned(), Some(slot))
     }
 
-    fn run(folder: PathBuf, slot: Option<Slot>) -> Self {
+    fn run(folder: PathBuf, slot: Option<JournalSlot>) -> Self {
         let (messages, inbox) = channel();
         let problem = Problem::default();
         let writer = Writer { folder, slot, problem: problem.clone() };
@@ -128,7 +128,7 @@ impl Problem {
 
 struct Writer {
     folder: PathBuf,
-    slot: Option<Slot>,
+    slot: Option<JournalSlot>,
     problem: Problem,
 }
 
@@ -157,7 +157,7 @@ impl Writer {
                 }
                 Ok(Message::Clean) => {
                     pending = None;
-                    let cleared = self.slot.as_ref().map_or(Ok(()), Slot::clear);
+                    let cleared = self.slot.as_ref().map_or(Ok(()), JournalSlot::clear);
                     self.problem.set(cleared.err().map(|error| error.to_string()));
                 }
                 Err(RecvTimeoutError::Timeout) => pending = pending.and_then(|pending| self.attempt(pending)),
@@ -192,7 +192,7 @@ impl Writer {
             .map_err(|e| Error::value("journal", format!("cannot be written as JSON: {e}")))?;
         let slot = match self.slot.take() {
             Some(slot) => slot,
-            None => Slot::new(&self.folder)?,
+            None => JournalSlot::new(&self.folder)?,
         };
         let slot = self.slot.insert(slot);
         disk::write(slot.file(), &bytes)

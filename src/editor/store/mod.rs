@@ -23,4 +23,4 @@ pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
-pub use saver::{Answer, Opened, Request, Save, Saved, Saver};
+pub use saver::{Opened, SaveRequest, Saved, Saver, StoreReply, StoreRequest};

@@ -9,7 +9,7 @@ use lightloom_core::project::ProjectFile;
 use lightloom_core::{Error, Result, files};
 
 use super::record::Record;
-use super::slot::Slot;
+use super::slot::JournalSlot;
 use super::{Fingerprint, disk};
 
 /// A journal holds one project file of 64 MiB at most, with escapes.
@@ -31,7 +31,7 @@ pub struct Recovery {
     /// Whether the user's file holds something else by now: the editor was lost right after saving, or another program
     /// wrote it. Then the file may be newer than this work.
     pub file_changed: bool,
-    slot: Slot,
+    slot: JournalSlot,
 }
 
 impl Recovery {
@@ -43,7 +43,7 @@ impl Recovery {
         self.slot.clear()
     }
 
-    pub(super) fn into_slot(self) -> Slot {
+    pub(super) fn into_slot(self) -> JournalSlot {
         self.slot
     }
 }
@@ -58,12 +58,12 @@ impl fmt::Debug for Recovery {
 /// the user's file after all is cleared away and not offered.
 pub fn recoverable(folder: &Path) -> Vec<Recovery> {
     disk::sweep(folder);
-    let mut found: Vec<_> = Slot::abandoned(folder).into_iter().filter_map(look_into).collect();
+    let mut found: Vec<_> = JournalSlot::abandoned(folder).into_iter().filter_map(look_into).collect();
     found.sort_by_key(|recovery| recovery.age);
     found
 }
 
-fn look_into(slot: Slot) -> Option<Recovery> {
+fn look_into(slot: JournalSlot) -> Option<Recovery> {
     let file = slot.file().to_owned();
     let read = files::read_regular_file(&file, MOST_BYTES).and_then(|bytes| {
         let broken = |e| Error::format(&file, "", format!("is no recovery file: {e}; discard it"));

@@ -2,7 +2,7 @@
 
 use lightloom_core::project::Project;
 
-use super::moves;
+use super::edits;
 use crate::editor::action::Action;
 use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
@@ -36,7 +36,7 @@ pub fn carry_out(command: Command, editor: &mut EditorContext) -> bool {
 
 /// Asks for a key at `frame` as a step of its own.
 pub(super) fn add_key(editor: &mut EditorContext, project: &Project, frame: i32) {
-    match moves::add_key(project, frame) {
+    match edits::add_key(project, frame) {
         Some(edit) => {
             editor.session.focus.key = Some(project.keys.partition_point(|key| key.frame < frame));
             step(editor, edit);
@@ -89,7 +89,7 @@ fn remove_key(editor: &mut EditorContext, project: &Project) -> bool {
     if !editor.session.selection.is_empty() {
         return false;
     }
-    let Some(edit) = editor.session.focus.key.and_then(|index| moves::remove_key(project, index)) else {
+    let Some(edit) = editor.session.focus.key.and_then(|index| edits::remove_key(project, index)) else {
         return false;
     };
     editor.session.focus.key = None;

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers, Response, Ui};
 
-use super::moves::Part;
+use super::edits::BarPart;
 use super::scale::Scale;
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
@@ -14,7 +14,7 @@ pub(super) enum Drag {
     /// A key frame, by index.
     Key(usize),
     /// A part of the bar of a constraint, by index.
-    Bar(usize, Part),
+    Bar(usize, BarPart),
 }
 
 /// What is being dragged.

@@ -1,15 +1,15 @@
 //! The time line: transport, ruler, key frames, what is worked out, and when each constraint acts.
 
 mod commands;
+mod coverage_bar;
 mod drag;
+mod edits;
 mod icons;
-mod keys;
+mod key_frames;
 mod lanes;
-mod moves;
 mod ruler;
 mod scale;
 mod spans;
-mod stripe;
 mod thumbnails;
 mod transport;
 
@@ -21,14 +21,14 @@ use super::playback;
 use crate::editor::context::EditorContext;
 use drag::Dragging;
 use lanes::{GUTTER, KEYS, ROW, with_bar};
-use scale::{Scale, Seen};
+use scale::{Scale, VisibleRange};
 use thumbnails::Thumbnails;
 
 /// The time line of the window.
 #[derive(Default)]
 pub struct Timeline {
     /// The part of the time axis that is seen; none for all frames.
-    seen: Option<Seen>,
+    seen: Option<VisibleRange>,
     drag: Dragging,
     /// Whether the pictures of the keys may stand anywhere, not only in the project's folder.
     pub external: bool,
@@ -46,10 +46,10 @@ impl Timeline {
         let scale = self.scale(track, editor);
         let lane = |top: f32, height: f32| Rect::from_x_y_ranges(track.x_range(), top..=top + height);
         let ruler = lane(area.top(), ruler::HEIGHT);
-        let stripe = lane(ruler.bottom(), stripe::HEIGHT);
+        let stripe = lane(ruler.bottom(), coverage_bar::HEIGHT);
         let keys = lane(stripe.bottom(), KEYS);
         ruler::show(ui, ruler, &scale, editor);
-        stripe::show(ui, stripe, &scale, editor);
+        coverage_bar::show(ui, stripe, &scale, editor);
         self.keys(ui, keys, &scale, editor);
         title(ui, area, ruler, "Frames");
         title(ui, area, keys, "Key frames");
@@ -66,15 +66,15 @@ impl Timeline {
     /// Height at which all bars are seen with as many lanes as the document has, points.
     pub fn height(editor: &EditorContext) -> f32 {
         let bars = with_bar(editor.document.project(), &editor.session.selection).len();
-        30.0 + ruler::HEIGHT + stripe::HEIGHT + KEYS + 8.0 + ROW * bars.clamp(1, 5) as f32
+        30.0 + ruler::HEIGHT + coverage_bar::HEIGHT + KEYS + 8.0 + ROW * bars.clamp(1, 5) as f32
     }
 
     fn scale(&self, track: Rect, editor: &EditorContext) -> Scale {
         let whole = playback::whole(editor.document.project());
-        Scale::new(track.x_range(), self.seen.unwrap_or_else(|| Seen::all(&whole, track.width())))
+        Scale::new(track.x_range(), self.seen.unwrap_or_else(|| VisibleRange::all(&whole, track.width())))
     }
 
-    /// The wheel zooms about the pointer, with Shift or sideways it moves; so does dragging with the middle button.
+    /// The wheel zooms about the pointer, with Shift or sideways it edits; so does dragging with the middle button.
     fn navigate(&mut self, ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
         let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| rect.contains(*at)) else { return };
         if ui.ctx().layer_id_at(at) != Some(ui.layer_id()) {

@@ -9,10 +9,10 @@ use lightloom_core::project::Project;
 
 use super::commands::step;
 use super::drag::Drag;
+use super::edits::BarPart;
 use super::lanes::{GUTTER, ROW, with_bar};
-use super::moves::Part;
 use super::scale::Scale;
-use super::{Timeline, moves};
+use super::{Timeline, edits};
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::panels;
@@ -76,7 +76,8 @@ impl Timeline {
                 editor.ask(Action::Select(Selection::one(index)));
             }
             menu(&response, index, own, editor, project);
-            let cursor = if part == Part::Middle { CursorIcon::Grab } else { CursorIcon::ResizeHorizontal };
+            let cursor =
+                if part == BarPart::Middle { CursorIcon::Grab } else { CursorIcon::ResizeHorizontal };
             response.on_hover_cursor(cursor).on_hover_text(format!(
                 "{info}. Drag the ends or the middle to retime; right click to let it act always."
             ));
@@ -89,7 +90,7 @@ impl Timeline {
         ui: &Ui,
         response: &Response,
         index: usize,
-        part: Part,
+        part: BarPart,
         span: Span,
         scale: &Scale,
         editor: &mut EditorContext,
@@ -104,7 +105,7 @@ impl Timeline {
         {
             // A bar without a span gets one when it is really moved.
             let after = part.dragged(before, by);
-            let edit = moves::span(editor.document.project(), index, Some(after));
+            let edit = edits::span(editor.document.project(), index, Some(after));
             if let Some(edit) = edit.filter(|_| by != 0 || span != before) {
                 editor.ask(edit);
             }
@@ -113,17 +114,17 @@ impl Timeline {
 }
 
 /// The parts of a bar that can be taken hold of; ends lie over the middle.
-fn grips(bar: Rect) -> [(Part, Rect); 3] {
+fn grips(bar: Rect) -> [(BarPart, Rect); 3] {
     let end = |x: f32| Rect::from_center_size(pos2(x, bar.center().y), vec2(10.0, bar.height() + 4.0));
-    [(Part::Middle, bar), (Part::From, end(bar.left())), (Part::To, end(bar.right()))]
+    [(BarPart::Middle, bar), (BarPart::From, end(bar.left())), (BarPart::To, end(bar.right()))]
 }
 
-fn words(part: Part, span: &Span, own: bool) -> String {
+fn words(part: BarPart, span: &Span, own: bool) -> String {
     match part {
-        Part::Middle if !own => "acts always".into(),
-        Part::Middle => format!("acts from frame {} to {}", span.from, span.to),
-        Part::From => format!("first frame {}", span.from),
-        Part::To => format!("last frame {}", span.to),
+        BarPart::Middle if !own => "acts always".into(),
+        BarPart::Middle => format!("acts from frame {} to {}", span.from, span.to),
+        BarPart::From => format!("first frame {}", span.from),
+        BarPart::To => format!("last frame {}", span.to),
     }
 }
 
@@ -171,7 +172,7 @@ fn menu(response: &Response, index: usize, own: Option<Span>, editor: &mut Edito
             ("Act always", None),
         ];
         for (name, wanted) in choices {
-            let edit = moves::span(project, index, wanted);
+            let edit = edits::span(project, index, wanted);
             if ui.add_enabled(edit.is_some(), egui::Button::new(name)).clicked()
                 && let Some(edit) = edit
             {

@@ -49,7 +49,9 @@ impl Timeline {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let fit = icons::button(ui, Icon::Fit, "Show all frames", false);
                 if fit
-                    .on_hover_text("Show all frames: wheel zooms, dragging with the middle button moves.")
+                    .on_hover_text(
+                        "Show all frames: wheel zooms, dragging with the middle button moves the view.",
+                    )
                     .clicked()
                 {
                     self.seen = None;
@@ -63,7 +65,7 @@ impl Timeline {
 }
 
 fn command(ui: &mut Ui, editor: &mut EditorContext, icon: Icon, command: Command, on: bool) -> Rect {
-    let Some(entry) = command.entry() else { return Rect::NOTHING };
+    let Some(entry) = command.info() else { return Rect::NOTHING };
     let response = icons::button(ui, icon, entry.name, on).on_hover_text(shortcuts::with_key(entry));
     if response.clicked() {
         carry_out(command, editor);

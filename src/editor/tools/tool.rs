@@ -26,7 +26,7 @@ pub enum Gesture {
 
 /// What is held beside the pointer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Held {
+pub struct HeldKeys {
     /// Shift: straight, or add to the selection.
     pub shift: bool,
     /// Alt: subtract from the selection.
@@ -37,7 +37,7 @@ pub struct Held {
 
 /// What a tool sees.
 #[derive(Clone, Copy)]
-pub struct Look<'a> {
+pub struct ToolContext<'a> {
     /// The document.
     pub project: &'a Project,
     /// The state of the window.
@@ -47,14 +47,14 @@ pub struct Look<'a> {
     /// Plane units per point of the screen: hit distances are in points.
     pub per_point: f32,
     /// What is held.
-    pub held: Held,
+    pub held: HeldKeys,
     /// Pixels of the picture that the key after the playhead shows; none where it shows none, or it is not read yet.
     pub picture: Option<Vec2>,
     /// Where the photons are now, by row; empty while unknown.
     pub photons: &'a [Vec2],
 }
 
-impl Look<'_> {
+impl ToolContext<'_> {
     /// A length of so many points of the screen, in plane units.
     pub fn points(&self, count: f32) -> f32 {
         count * self.per_point
@@ -96,7 +96,7 @@ pub enum Ghost {
 
 /// Who answers the pointer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Grip {
+pub enum PointerMode {
     /// The tool: it gets gestures.
     #[default]
     Tool,
@@ -121,15 +121,15 @@ pub trait Tool: Send {
         egui::CursorIcon::Crosshair
     }
     /// Who answers the pointer while this is in hand.
-    fn grip(&self) -> Grip {
-        Grip::Tool
+    fn pointer_mode(&self) -> PointerMode {
+        PointerMode::Tool
     }
     /// Answers a gesture.
-    fn gesture(&mut self, _gesture: Gesture, _look: &Look) -> Vec<Action> {
+    fn gesture(&mut self, _gesture: Gesture, _look: &ToolContext) -> Vec<Action> {
         Vec::new()
     }
     /// What it shows now.
-    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+    fn ghosts(&self, _look: &ToolContext) -> Vec<Ghost> {
         Vec::new()
     }
     /// Another tool is taken, or the document is another: forget what was begun.

@@ -1,6 +1,6 @@
 //! The tools, and the one in hand.
 
-use super::tool::{Gesture, Ghost, Grip, Look, Tool};
+use super::tool::{Gesture, Ghost, PointerMode, Tool, ToolContext};
 use super::{directed_line, erase, pan, probe, select, target, wall, zoom};
 use crate::editor::action::Action;
 
@@ -61,18 +61,18 @@ impl Toolbox {
     }
 
     /// Gives a gesture to the tool in hand.
-    pub fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        self.tools[self.in_hand].gesture(gesture, look)
+    pub fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        self.tools[self.in_hand].gesture(gesture, context)
     }
 
     /// What the tool in hand shows.
-    pub fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        self.tool().ghosts(look)
+    pub fn ghosts(&self, context: &ToolContext) -> Vec<Ghost> {
+        self.tool().ghosts(context)
     }
 
     /// Who answers the pointer now.
-    pub fn grip(&self) -> Grip {
-        self.tool().grip()
+    pub fn pointer_mode(&self) -> PointerMode {
+        self.tool().pointer_mode()
     }
 }
 

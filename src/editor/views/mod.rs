@@ -1,8 +1,8 @@
 //! The views of one moment: the plane, the shot, the free look; side by side or alone.
 
 mod fit;
-mod look;
-mod orbit;
+mod orbit_camera;
+mod orbit_view;
 mod pictures;
 mod plane;
 mod shot;
@@ -10,9 +10,9 @@ mod wipe;
 
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
-use super::canvas::space::Space;
+use super::canvas::plane_transform::PlaneTransform;
 use super::preview::{Plane, Wanted};
-use super::session::{Session, ShotEye, Views as Which};
+use super::session::{Session, ShotViewport, ViewLayout};
 use super::tools::Toolbox;
 use crate::editor::context::EditorContext;
 use lightloom_core::project::Project;
@@ -60,9 +60,9 @@ impl Views {
         let width = project.render.width as f32;
         let [plane, shot] = self.places;
         session.plane.zoom =
-            width / (Space::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
+            width / (PlaneTransform::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
         session.shot =
-            ShotEye { zoom: width / fit::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
+            ShotViewport { zoom: width / fit::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
     }
 
     /// Shows the views that the session asks for.
@@ -70,11 +70,11 @@ impl Views {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
         let all = ui.available_rect_before_wrap();
-        match editor.session.views {
-            Which::Plane => self.plane(ui, all, editor, toolbox),
-            Which::Shot => self.shot(ui, all, editor, toolbox),
-            Which::Look => self.look(ui, all, editor),
-            Which::Both => {
+        match editor.session.layout {
+            ViewLayout::Plane => self.plane(ui, all, editor, toolbox),
+            ViewLayout::Shot => self.shot(ui, all, editor, toolbox),
+            ViewLayout::Orbit => self.look(ui, all, editor),
+            ViewLayout::PlaneAndShot => {
                 let [left, right] = self.halves(ui, all);
                 self.plane(ui, left, editor, toolbox);
                 self.shot(ui, right, editor, toolbox);
@@ -120,9 +120,9 @@ impl Views {
     }
 
     fn look(&mut self, ui: &mut Ui, place: Rect, editor: &mut EditorContext) {
-        let mut ui = ui.new_child(UiBuilder::new().id_salt("free look").max_rect(place));
-        self.look_view(&mut ui, editor);
-        title(&ui, place, "Look around");
+        let mut ui = ui.new_child(UiBuilder::new().id_salt("orbit view").max_rect(place));
+        self.orbit_view(&mut ui, editor);
+        title(&ui, place, "Orbit view");
     }
 }
 

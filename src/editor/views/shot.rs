@@ -6,30 +6,30 @@ use lightloom_core::render::PlaneView;
 
 use super::fit::{WHOLE, fitted};
 use super::{Views, wipe};
-use crate::editor::canvas::input::Move;
-use crate::editor::canvas::space::ZOOM;
-use crate::editor::canvas::{self, Glass};
+use crate::editor::canvas::input::ViewMove;
+use crate::editor::canvas::plane_transform::ZOOM;
+use crate::editor::canvas::{self, ProjectedPlane};
 use crate::editor::context::EditorContext;
-use crate::editor::session::ShotEye;
+use crate::editor::session::ShotViewport;
 use crate::editor::theme;
 use crate::editor::tools::Toolbox;
 
-/// The picture as the eye sees it.
-fn frame(fitted: Rect, eye: ShotEye) -> Rect {
-    let middle = fitted.center() + eye.offset.into();
-    Rect::from_center_size(middle, fitted.size() * eye.zoom)
+/// The picture as the viewport sees it.
+fn frame(fitted: Rect, viewport: ShotViewport) -> Rect {
+    let middle = fitted.center() + viewport.offset.into();
+    Rect::from_center_size(middle, fitted.size() * viewport.zoom)
 }
 
-/// The eye after a movement of the view.
-fn moved(eye: ShotEye, movement: &Move, fitted: Rect) -> ShotEye {
-    let offset = egui::Vec2::from(eye.offset);
+/// The viewport after a movement of the view.
+fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewport {
+    let offset = egui::Vec2::from(viewport.offset);
     match *movement {
-        Move::Pan(by) => ShotEye { offset: (offset + by).into(), ..eye },
-        Move::Zoom(factor, about) => {
-            let zoom = (eye.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+        ViewMove::Pan(by) => ShotViewport { offset: (offset + by).into(), ..viewport },
+        ViewMove::Zoom(factor, about) => {
+            let zoom = (viewport.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
             let from_middle = about - fitted.center();
-            let offset = from_middle + (offset - from_middle) * (zoom / eye.zoom);
-            ShotEye { zoom, offset: offset.into() }
+            let offset = from_middle + (offset - from_middle) * (zoom / viewport.zoom);
+            ShotViewport { zoom, offset: offset.into() }
         }
     }
 }
@@ -63,10 +63,15 @@ impl Views {
                 let pixel = (p - frame.min) / scale;
                 plane.plane_from_pixel(Vec2::new(pixel.x, pixel.y), size)
             };
-            let glass =
-                Glass { view: frame, screen: &screen, plane: &from_screen, target: self.pictures.target() };
-            let moves = canvas::over(ui, &response, editor, toolbox, &glass);
-            editor.session.shot = moves.iter().fold(editor.session.shot, |eye, by| moved(eye, by, fitted));
+            let projected = ProjectedPlane {
+                view: frame,
+                screen: &screen,
+                plane: &from_screen,
+                target: self.pictures.target(),
+            };
+            let moves = canvas::show_projected(ui, &response, editor, toolbox, &projected);
+            editor.session.shot =
+                moves.iter().fold(editor.session.shot, |viewport, by| moved(viewport, by, fitted));
         }
         if let Some(wipe) = &mut editor.session.compare {
             wipe::handle(ui, view, wipe);

@@ -6,10 +6,10 @@ use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
 use super::{XYZ, list, materials};
 use crate::editor::action::Action;
+use crate::editor::asset::AssetUse;
 use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::Setting;
 use crate::editor::panels::{remove_button, section, shows};
-use crate::editor::pick::Pick;
 use crate::editor::unique_name::unique_name;
 
 const NAME: Setting =
@@ -48,7 +48,7 @@ pub(super) fn show(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui.button("Add OBJ…").on_hover_text("Choose a mesh file, or drop it onto the window").clicked() {
-            editor.ask(Action::Pick(Pick::Mesh));
+            editor.ask(Action::PickFile(AssetUse::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
             if remove_button(ui, "Remove this mesh")
@@ -69,7 +69,7 @@ pub(super) fn show(
         mesh.name = name;
     }
     if shows::file(ui, &FILE, &mesh.file) {
-        editor.ask(Action::Pick(Pick::MeshFile(index)));
+        editor.ask(Action::PickFile(AssetUse::MeshFile(index)));
     }
     MOVE.numbers(ui, &mut mesh.transform.translate, XYZ);
     TURN.numbers(ui, &mut mesh.transform.rotate, XYZ);

@@ -12,7 +12,7 @@ use crate::editor::theme;
 const BUTTON: f32 = 34.0;
 /// Side of its icon, points.
 const ICON: f32 = 18.0;
-/// Tools between which a gap stands: those that draw, and those that look.
+/// Tools between which a gap stands: those that draw, and those that context.
 const GAPS: [usize; 2] = [0, 5];
 
 /// Width of the strip, points.

@@ -11,7 +11,7 @@ use super::commands::{add_key, go, step};
 use super::drag::Drag;
 use super::scale::Scale;
 use super::thumbnails::Thumbnail;
-use super::{Timeline, icons, moves};
+use super::{Timeline, edits, icons};
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::templates;
@@ -78,7 +78,7 @@ impl Timeline {
             self.drag.begin(editor, Drag::Key(index), scale, ui);
         }
         if let Some(by) = self.drag.frames(ui, &response, Drag::Key(index), scale, editor)
-            && let Some(edit) = moves::retime(&project.keys, index, self.drag.from().saturating_add(by))
+            && let Some(edit) = edits::retime(&project.keys, index, self.drag.from().saturating_add(by))
         {
             editor.ask(edit);
         }
@@ -90,8 +90,8 @@ impl Timeline {
             extent,
         );
         let chosen = editor.session.focus.key == Some(index);
-        let look = Look { x, size, chosen, hot: response.hovered() || response.dragged() };
-        paint(ui, lane, &look, &thumbnail);
+        let style = KeyStyle { x, size, chosen, hot: response.hovered() || response.dragged() };
+        paint(ui, lane, &style, &thumbnail);
         response = response.on_hover_cursor(CursorIcon::Grab).on_hover_ui(|ui| {
             ui.strong(&name);
             if let Thumbnail::Failed(why) = &thumbnail {
@@ -125,26 +125,26 @@ fn words(shows: &Shows) -> String {
     }
 }
 
-struct Look {
+struct KeyStyle {
     x: f32,
     size: egui::Vec2,
     chosen: bool,
     hot: bool,
 }
 
-fn paint(ui: &Ui, lane: Rect, look: &Look, thumbnail: &Thumbnail) {
+fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
     let painter = ui.painter_at(lane);
     let visuals = ui.visuals();
-    let outline = if look.chosen {
+    let outline = if style.chosen {
         Stroke::new(1.5, theme::ACCENT)
-    } else if look.hot {
+    } else if style.hot {
         visuals.widgets.hovered.bg_stroke
     } else {
         Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color)
     };
-    if look.size.x >= 14.0 {
-        let middle = pos2(look.x, lane.top() + 4.0 + look.size.y / 2.0);
-        let rect = Rect::from_center_size(middle, look.size);
+    if style.size.x >= 14.0 {
+        let middle = pos2(style.x, lane.top() + 4.0 + style.size.y / 2.0);
+        let rect = Rect::from_center_size(middle, style.size);
         painter.rect_filled(rect, 3.0, theme::SURROUND);
         let sign = rect.shrink2(vec2(rect.width() * 0.12, rect.height() * 0.2));
         match thumbnail {
@@ -168,9 +168,9 @@ fn paint(ui: &Ui, lane: Rect, look: &Look, thumbnail: &Thumbnail) {
         }
         painter.rect_stroke(rect, CornerRadius::same(3), outline, StrokeKind::Outside);
     }
-    let fill = if look.chosen { theme::ACCENT } else { visuals.widgets.inactive.fg_stroke.color };
-    let radius = if look.hot { 7.5 } else { 6.5 };
-    let at = pos2(look.x, lane.bottom() - DIAMOND);
+    let fill = if style.chosen { theme::ACCENT } else { visuals.widgets.inactive.fg_stroke.color };
+    let radius = if style.hot { 7.5 } else { 6.5 };
+    let at = pos2(style.x, lane.bottom() - DIAMOND);
     icons::diamond(&painter, at, radius, fill, Stroke::new(1.0, visuals.extreme_bg_color));
 }
 
@@ -207,13 +207,13 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
             editor.session.focus.key = Some(index);
             go(editor, project.keys[index].frame);
         }
-        let copy = moves::duplicate(project, index);
+        let copy = edits::duplicate(project, index);
         if ui.add_enabled(copy.is_some(), Button::new("Duplicate")).clicked()
             && let Some(edit) = copy
         {
             step(editor, edit);
         }
-        let rest = moves::remove_key(project, index);
+        let rest = edits::remove_key(project, index);
         let delete = ui.add_enabled(rest.is_some(), Button::new("Delete"));
         if delete.on_disabled_hover_text("A project needs one key frame.").clicked()
             && let Some(edit) = rest

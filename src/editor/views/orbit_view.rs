@@ -18,12 +18,12 @@ const WHEEL: f32 = 240.0;
 
 impl Views {
     /// The free look, and how the pointer moves it.
-    pub(super) fn look_view(&mut self, ui: &mut Ui, editor: &mut EditorContext) {
+    pub(super) fn orbit_view(&mut self, ui: &mut Ui, editor: &mut EditorContext) {
         let view = ui.available_rect_before_wrap();
         let scene = editor.document.project().scene.as_ref();
         let shot = scene.map_or_else(CameraDesc::default, |scene| scene.camera.clone());
         let response = ui.allocate_rect(view, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Look around"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Orbit view"));
         let mut orbit = editor.session.orbit.unwrap_or_else(|| Orbit::of(&shot));
         let (by, shift) = (response.drag_delta(), ui.input(|input| input.modifiers.shift));
         if response.dragged_by(PointerButton::Middle) || (shift && response.dragged()) {
