@@ -1,14 +1,13 @@
 //! Exports from the window: the same bytes as the command line, and they can be paused, stopped and broken off.
 #![allow(clippy::unwrap_used)]
 
-mod desk;
+mod window;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
-use desk::Table;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -16,6 +15,7 @@ use lightloom::editor::dialogs::{Picker, Scripted};
 use lightloom::editor::document::Document;
 use lightloom::editor::export::{ExportJob, ExportSettings, ExportWindow, Exports, Status};
 use lightloom_core::project::Project;
+use window::Editor;
 
 /// A folder with the project `letters_free` made tiny, its pictures, and room for frames.
 struct Place {
@@ -53,7 +53,7 @@ impl Place {
         self.path("projects/it's tiny.json")
     }
 
-    fn order(&self) -> ExportSettings {
+    fn settings(&self) -> ExportSettings {
         ExportSettings {
             project: Arc::new(Project::load(&self.file()).unwrap()),
             file: self.file(),
@@ -105,7 +105,7 @@ fn endless(place: &Place, exports: &mut Exports) -> Arc<ExportJob> {
 fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let place = Place::new(2, 2000);
     struct State {
-        table: Table,
+        editor: Editor,
         window: ExportWindow,
         exports: Exports,
         picker: Picker,
@@ -114,7 +114,7 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let mut window = ExportWindow::default();
     window.open = true;
     let state = State {
-        table: Table::new(document),
+        editor: Editor::new(document),
         window,
         exports: exports(),
         picker: Picker::new(Arc::new(Scripted::default())),
@@ -123,8 +123,8 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let mut harness = builder.build_ui_state(
         |ui, state: &mut State| {
             let ctx = ui.ctx().clone();
-            let State { table, window, exports, picker } = state;
-            table.frame(&ctx, |editor| window.show(&ctx, editor, exports, picker));
+            let State { editor, window, exports, picker } = state;
+            editor.frame(&ctx, |editor| window.show(&ctx, editor, exports, picker));
         },
         state,
     );
@@ -223,15 +223,15 @@ fn an_export_does_not_overwrite_what_the_project_is_made_from() {
     let (place, mut exports) = (Place::new(1, 1000), exports());
     let mut project = Project::load(&place.file()).unwrap();
     project.output.name = "letter_c".into();
-    let order = ExportSettings { folder: place.path("assets/targets"), ..place.settings() };
-    let before = files(&order.folder);
+    let settings = ExportSettings { folder: place.path("assets/targets"), ..place.settings() };
+    let before = files(&settings.folder);
     project.output.name = "####".into();
     std::fs::write(place.path("assets/targets/0001.png"), &before[0].1).unwrap();
     let lightloom_core::project::Shows::Image(image) = &mut project.keys[0].shows else {
         panic!("a picture")
     };
     image.file = "../assets/targets/0001.png".into();
-    let job = exports.add(ExportSettings { project: Arc::new(project), ..order });
+    let job = exports.add(ExportSettings { project: Arc::new(project), ..settings });
     wait_until("refused", || !job.is_open());
     let Status::Failed(why) = job.status() else { panic!("{:?}", job.status()) };
     assert!(why.contains("0001.png"), "{why}");

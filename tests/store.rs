@@ -346,7 +346,7 @@ fn what_was_asked_for_is_done_before_the_saver_goes() {
     let project = with_seed(&file, 2);
     waiting.saver.ask(StoreRequest::Save(SaveRequest { path: desk.path(), file, project, seen: None }));
     let mut preferences = Preferences::default();
-    preferences.remember(&desk.path());
+    preferences.add_recent(&desk.path());
     waiting.saver.ask(StoreRequest::Remember(Box::new(preferences.clone())));
     drop(waiting);
     assert_eq!(desk.file().project().seed, 2);

@@ -13,6 +13,8 @@ pub struct EditorContext<'a> {
     pub session: &'a mut Session,
     /// The newest results of the preview's workers.
     pub preview: &'a Preview,
+    /// The message in the status bar.
+    pub status: &'a str,
     /// The actions asked for so far, in order.
     pub actions: &'a mut Vec<Action>,
 }

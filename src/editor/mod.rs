@@ -23,6 +23,7 @@ pub mod selection;
 pub mod session;
 pub mod shortcuts;
 mod start;
+pub mod state;
 pub mod store;
 mod target_image;
 pub mod templates;

@@ -7,6 +7,9 @@ use lightloom_core::flow::Movement;
 
 use super::selection::Selection;
 
+/// Smallest and largest zoom of the plane view and the shot view.
+pub const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=200.0;
+
 /// The state of the window beside the document.
 #[derive(Clone, Debug)]
 pub struct Session {

@@ -154,7 +154,7 @@ fn ghosts_show_the_line_up_to_the_pointer() {
     let mut studio = Studio::new("Wall", Vec::new());
     studio.click(vec2(0.2, 0.2));
     studio.gesture(Gesture::Hover(vec2(0.55, 0.71)));
-    let ghosts = studio.look(|toolbox, context| toolbox.ghosts(context));
+    let ghosts = studio.with_context(|toolbox, context| toolbox.ghosts(context));
     let Some(Ghost::Wall(points, _)) = ghosts.first() else { panic!("{ghosts:?}") };
     assert_eq!(points[..], [vec2(0.2, 0.2), vec2(0.55, 0.71)]);
 }

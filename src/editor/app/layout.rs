@@ -21,12 +21,7 @@ const PANEL: [f32; 2] = [330.0, 290.0];
 impl App {
     /// Shows everything; what is asked for comes into `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let mut editor = EditorContext {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions,
-        };
+        let mut editor = self.editor.context(actions);
         let editor = &mut editor;
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found()));
         if let Some(problem) = editor.preview.problem().map(str::to_owned) {
@@ -35,7 +30,7 @@ impl App {
             });
         }
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-            if status(ui, editor, &self.status, self.gpu, self.preferences.photon_renderer, &self.exports) {
+            if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
                 editor.ask(Command::Export);
             }
         });
@@ -84,7 +79,6 @@ fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
-    status_text: &str,
     gpu: Gpu,
     renderer: PhotonRenderer,
     exports: &export::Exports,
@@ -106,7 +100,7 @@ fn status(
             ui.separator();
             clicked = export::status_line(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(egui::Label::new(status_text).truncate());
+                ui.add(egui::Label::new(editor.status).truncate());
             });
         });
     });

@@ -1,6 +1,5 @@
 //! The application: the order of a frame. Results come in, panels are shown, actions are carried out, the preview is asked.
 
-mod apply;
 mod autosave;
 mod commands;
 mod file_state;
@@ -22,6 +21,7 @@ use super::export::Exports;
 use super::playback::{self, Playback};
 use super::preview::{Preview, Subject};
 use super::session::Session;
+use super::state::EditorState;
 use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
 use super::tools::Toolbox;
@@ -33,9 +33,7 @@ use recents::Recents;
 
 /// The window's state.
 pub struct App {
-    document: Document,
-    session: Session,
-    preview: Preview,
+    editor: EditorState,
     toolbox: Toolbox,
     timeline: Timeline,
     playback: Playback,
@@ -52,8 +50,6 @@ pub struct App {
     external: bool,
     /// What was asked for from outside.
     asked: Vec<Action>,
-    /// What the status bar says, until something else happens.
-    status: String,
 }
 
 /// What draws the photons of the plane.
@@ -94,8 +90,7 @@ impl App {
         };
         let first_start = !setup.preferences.first_start_seen;
         let mut app = Self {
-            session: Session { snapping: setup.preferences.snapping, ..begin(&setup.document) },
-            preview: Preview::new(wake()),
+            editor: EditorState::new(setup.document, wake()),
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),
@@ -109,12 +104,11 @@ impl App {
             gpu: setup.gpu,
             external: false,
             asked: Vec::new(),
-            status: String::new(),
-            document: setup.document,
         };
+        app.editor.session.snapping = app.preferences.snapping;
         if first_start {
-            app.session.playing = true;
-            app.windows.tour.begin(app.document.project());
+            app.editor.session.playing = true;
+            app.windows.tour.begin(app.editor.document.project());
         }
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
@@ -124,17 +118,17 @@ impl App {
 
     /// The document, to look at.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.editor.document
     }
 
     /// The state of the window, to look at.
     pub fn session(&self) -> &Session {
-        &self.session
+        &self.editor.session
     }
 
     /// What was worked out, to look at.
     pub fn preview(&self) -> &Preview {
-        &self.preview
+        &self.editor.preview
     }
 
     /// Asks for something as a panel would; it is done in the next frame of the window.
@@ -157,7 +151,7 @@ impl App {
         }
         let gesture = ctx.input(|input| input.pointer.any_down()) || ctx.text_edit_focused();
         if !gesture && !self.toolbox.tool().is_busy() {
-            self.document.settle();
+            self.editor.document.settle();
         }
         self.autosave(&ctx);
         self.follow();
@@ -165,40 +159,31 @@ impl App {
 
     /// Time that passed moves the playhead.
     fn play(&mut self, ctx: &egui::Context) {
-        let frames = playback::played(self.document.project(), &self.session);
-        let fps = playback::fps(self.document.project());
+        let frames = playback::played(self.editor.document.project(), &self.editor.session);
+        let fps = playback::fps(self.editor.document.project());
         let seconds = ctx.input(|input| input.stable_dt).into();
-        if let Some(next) = self.playback.advance(&mut self.session, &frames, fps, seconds) {
+        if let Some(next) = self.playback.advance(&mut self.editor.session, &frames, fps, seconds) {
             ctx.request_repaint_after(Duration::from_secs_f64(next));
         }
     }
 
     /// Tells the workers what is wanted now.
     fn follow(&mut self) {
-        self.preview.draw_by_card(self.draws_on_gpu());
+        self.editor.preview.draw_by_card(self.draws_on_gpu());
         let subject = Subject {
-            project: self.document.project().clone(),
-            base: templates::file_of(&self.document),
+            project: self.editor.document.project().clone(),
+            base: templates::file_of(&self.editor.document),
             external: self.external,
         };
-        self.preview.follow(&subject, &self.session, self.views.wanted());
+        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
     }
 
     /// Puts another document into the window.
     fn replace(&mut self, document: Document) {
-        let Session { layout, overlays, snapping, looping, panel, tool, .. } = self.session.clone();
         let _ = self.toolbox.put_down();
-        self.session = Session { layout, overlays, snapping, looping, panel, tool, ..begin(&document) };
-        self.document = document;
+        self.editor.open(document);
         self.external = false;
-        self.status.clear();
     }
-}
-
-/// A session at the begin of a document.
-fn begin(document: &Document) -> Session {
-    let first = document.project().keys.first().map_or(1, |key| key.frame);
-    Session { playhead: first, ..Session::default() }
 }
 
 impl eframe::App for App {

@@ -3,13 +3,10 @@
 use egui::{Pos2, Rect, pos2};
 use glam::{Vec2, vec2};
 
-use crate::editor::session::PlaneViewport;
+use crate::editor::session::{PlaneViewport, ZOOM_RANGE};
 
 /// Room around the plane where it fits the view, points.
 const MARGIN: f32 = 28.0;
-/// Smallest and largest zoom.
-pub const ZOOM: std::ops::RangeInclusive<f32> = 0.05..=200.0;
-
 /// The plane on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneTransform {
@@ -52,7 +49,7 @@ impl PlaneTransform {
     /// The viewport after zooming by `factor` about a place of the screen, which stays where it is.
     pub fn zoomed(&self, viewport: &PlaneViewport, factor: f32, about: Pos2) -> PlaneViewport {
         let old = if viewport.zoom > 0.0 { viewport.zoom } else { 1.0 };
-        let zoom = (old * factor).clamp(*ZOOM.start(), *ZOOM.end());
+        let zoom = (old * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
         let fixed = self.plane_from_screen(about);
         PlaneViewport { centre: Some(fixed + (self.centre - fixed) * (old / zoom)), zoom }
     }

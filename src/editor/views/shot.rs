@@ -7,10 +7,9 @@ use lightloom_core::render::PlaneView;
 use super::fit::{WHOLE, fitted};
 use super::{Views, wipe};
 use crate::editor::canvas::input::ViewMove;
-use crate::editor::canvas::plane_transform::ZOOM;
 use crate::editor::canvas::{self, ProjectedPlane};
 use crate::editor::context::EditorContext;
-use crate::editor::session::ShotViewport;
+use crate::editor::session::{ShotViewport, ZOOM_RANGE};
 use crate::editor::theme;
 use crate::editor::tools::Toolbox;
 
@@ -26,7 +25,7 @@ fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewp
     match *movement {
         ViewMove::Pan(by) => ShotViewport { offset: (offset + by).into(), ..viewport },
         ViewMove::Zoom(factor, about) => {
-            let zoom = (viewport.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+            let zoom = (viewport.zoom * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
             let from_middle = about - fitted.center();
             let offset = from_middle + (offset - from_middle) * (zoom / viewport.zoom);
             ShotViewport { zoom, offset: offset.into() }
