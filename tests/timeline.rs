@@ -175,7 +175,7 @@ fn the_ends_of_a_bar_retime_its_constraint_and_undo_takes_it_back() {
 #[test]
 fn a_selected_constraint_without_span_has_a_bar_that_gives_it_one() {
     let mut harness = window();
-    assert!(harness.query_by_label_contains("Wall 2, acts always").is_none());
+    assert!(harness.query_by_label_contains("Wall 2, always active").is_none());
     harness.state_mut().editor.session.selection = Selection::one(1);
     harness.run_ok();
     let at = centre(&harness, "Wall 2, first frame");

@@ -1,5 +1,5 @@
-//! The window: draw, tune, scrub, compare, export, save. No algorithm of light lives here: it shows and changes a
-//! project and calls the core.
+//! The editor: draw, tune, scrub, compare, export, save. It shows and edits a project and calls the core;
+//! no algorithm of light lives here.
 
 pub mod action;
 mod app;

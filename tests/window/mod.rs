@@ -50,12 +50,22 @@ pub fn document(path: &Path) -> Document {
 
 /// A window on the project `name` of a folder of examples. Dialogs give `answers`.
 pub fn window(folder: &TempDir, name: &str, answers: Vec<PickResult>) -> Harness<'static, App> {
+    window_with(folder, name, answers, preferences())
+}
+
+/// The same with other preferences.
+pub fn window_with(
+    folder: &TempDir,
+    name: &str,
+    answers: Vec<PickResult>,
+    preferences: Preferences,
+) -> Harness<'static, App> {
     let path = project(folder, name);
     let setup = Setup {
         document: document(&path),
         message: None,
         folders: Some(folders(folder.path())),
-        preferences: preferences(),
+        preferences,
         dialogs: Arc::new(Scripted::new(answers)),
         gpu: Gpu::None,
     };
@@ -67,7 +77,7 @@ pub fn window(folder: &TempDir, name: &str, answers: Vec<PickResult>) -> Harness
         .build_eframe(|cc| App::new(&cc.egui_ctx, setup.take().unwrap()))
 }
 
-/// Those of a user who has seen the first steps.
+/// The preferences of a user who has seen the tour.
 pub fn preferences() -> Preferences {
     let mut preferences = Preferences::default();
     preferences.first_start_seen = true;

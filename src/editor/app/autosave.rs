@@ -1,4 +1,4 @@
-//! Keeps what must not be lost: each change in the journal, the preferences in their file.
+//! Autosave: every change goes to the journal, the preferences to their file.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::editor::preferences;
 use crate::editor::store::{Note, StoreRequest};
 
 impl App {
-    /// Notes what changed since the last frame of the window. Costs pointers.
+    /// Sends changes since the last frame to the file threads. Copies pointers only.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.note_project();
         let last_sent = &mut self.files.last_sent;

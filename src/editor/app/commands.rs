@@ -12,7 +12,7 @@ use crate::editor::state::EditorState;
 use crate::editor::store::PhotonRenderer;
 
 impl App {
-    /// Carries out an action: the editor's state does most of them, the window the rest.
+    /// Carries out an action: the editor's state handles most of them, the window the rest.
     pub(super) fn apply(&mut self, ctx: &egui::Context, action: Action) {
         match self.editor.apply(action) {
             Some(Action::Command(command)) => self.command(ctx, command),
@@ -23,7 +23,7 @@ impl App {
         }
     }
 
-    /// Commands of the window and its files.
+    /// Carries out a command of the window and its files.
     pub(super) fn command(&mut self, ctx: &egui::Context, command: Command) {
         let scale = &mut self.preferences.ui_scale;
         let EditorState { document, session, .. } = &mut self.editor;

@@ -1,4 +1,4 @@
-//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver answers when it has done something.
+//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver replies when it is done.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::editor::store::{Fingerprint, Journal, Recovery, SaveRequest, Saver, S
 use crate::editor::templates::{self, TEMPLATES};
 
 impl App {
-    /// Takes the answers of the threads, of dialogs and of questions.
+    /// Handles the replies of threads, file dialogs and questions.
     pub(super) fn receive(&mut self, ctx: &egui::Context) {
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
@@ -107,7 +107,7 @@ impl App {
         }
     }
 
-    /// Takes up work that a crash left.
+    /// Opens work recovered from a crash.
     fn recover(&mut self, recovery: Recovery) {
         match &recovery.work {
             Ok(file) => {
@@ -117,7 +117,7 @@ impl App {
                 self.replace(document);
                 self.files.journal = Some(Journal::resume(recovery));
             }
-            Err(error) => self.show_message("The work cannot be read".into(), error.to_string()),
+            Err(error) => self.show_message("The recovery file cannot be read".into(), error.to_string()),
         }
     }
 
@@ -133,7 +133,7 @@ impl App {
         self.files.question = Some((question, PendingQuestion::Recover(Box::new(recovery))));
     }
 
-    /// Leaves the document, after asking where it holds unsaved work.
+    /// Leaves the document, after a question where it has unsaved changes.
     pub(super) fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
         if self.editor.document.is_unsaved() {
             let question = Question::Unsaved { title: self.editor.document.title() };
@@ -157,7 +157,7 @@ impl App {
                 let Some(folder) = templates::folder() else {
                     let what =
                         "their folder 'projects' is neither beside the program nor in the current folder";
-                    return self.show_message("The examples are not there".into(), what.into());
+                    return self.show_message("The examples are missing".into(), what.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
                 self.files.template = Some(path.clone());
@@ -204,7 +204,8 @@ impl App {
 
     fn request(&mut self, request: StoreRequest) {
         if !self.files.request(request) {
-            self.editor.status = "no thread could be started for files; nothing is opened or saved".into();
+            self.editor.status =
+                "no thread could be started for file access; nothing can be opened or saved".into();
         }
     }
 
@@ -217,13 +218,13 @@ impl App {
         }
     }
 
-    /// Lets the artist pick a file for the project.
+    /// Asks for a file for the project.
     pub(super) fn pick_file(&mut self, ctx: &egui::Context, pick: AssetUse) {
         let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
         self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
     }
 
-    /// Puts a file into the project. Who picks a file allows that it is read.
+    /// Puts a file into the project. Picking a file outside the project folder allows external files.
     fn insert(&mut self, pick: &AssetUse, file: &Path) {
         let base = templates::file_of(&self.editor.document);
         let written = relative_path::relative(file, &base);
@@ -252,12 +253,12 @@ impl App {
             Some(pick) => self.insert(pick, &file),
             None => {
                 self.editor.status =
-                    format!("'{}' is no project, mesh, picture or file of points", name(&file))
+                    format!("'{}' is not a project, mesh, picture or point file", name(&file))
             }
         }
     }
 
-    /// Says something that must be read.
+    /// Shows a message window.
     pub(super) fn show_message(&mut self, title: String, text: String) {
         self.files.question = Some((Question::Message { title, text }, PendingQuestion::Nothing));
     }

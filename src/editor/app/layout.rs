@@ -1,4 +1,4 @@
-//! What stands where in the window.
+//! The layout of the window.
 
 use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
@@ -19,7 +19,7 @@ use crate::editor::{menu, theme};
 const PANEL: [f32; 2] = [330.0, 290.0];
 
 impl App {
-    /// Shows everything; what is asked for comes into `actions`.
+    /// Shows everything; actions are appended to `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         let mut editor = self.editor.context(actions);
         let editor = &mut editor;
@@ -61,21 +61,18 @@ fn banner(ui: &Ui) -> Frame {
         .inner_margin(Margin::symmetric(12, 6))
 }
 
-/// What is wrong with the project, and what can be done at once.
+/// The preview's problem, with a button for what can be done at once.
 fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("This cannot be worked out").strong());
+        ui.label(RichText::new("The preview cannot be computed").strong());
         ui.label(problem);
-        if problem.contains("--allow-external")
-            && !*external
-            && ui.button("Allow files from elsewhere").clicked()
-        {
+        if problem.contains("--allow-external") && !*external && ui.button("Allow external files").clicked() {
             *external = true;
         }
     });
 }
 
-/// What goes on, what the tool in hand does, and what draws. Tells whether the export was clicked.
+/// The status bar: activity, message, export, renderer. Returns whether the export was clicked.
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
@@ -107,14 +104,14 @@ fn status(
     clicked
 }
 
-/// What the worker does, in a word.
+/// The name of the preview's stage.
 fn doing(stage: &str) -> &'static str {
     match stage {
         "trace" => "tracing photons",
         "match" => "matching",
         "fit" => "fitting the flow",
-        "visible" | "background" => "looking at the scene",
-        "render" | "carry" => "carrying photons",
+        "visible" | "background" => "rendering the background",
+        "render" | "carry" => "moving photons",
         _ => "loading",
     }
 }
@@ -124,16 +121,15 @@ fn drawn_by(gpu: Gpu, renderer: PhotonRenderer) -> (&'static str, &'static str) 
         (Gpu::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
             ("Graphics card", "The graphics card draws the light of the plane view.")
         }
-        (Gpu::Software, PhotonRenderer::Gpu) => (
-            "Software graphics",
-            "There is no graphics card; a program that behaves like one draws the light.",
-        ),
+        (Gpu::Software, PhotonRenderer::Gpu) => {
+            ("Software graphics", "There is no graphics card; a software renderer draws the light.")
+        }
         (Gpu::Hardware, PhotonRenderer::Cpu) => {
-            ("Processor", "The processor works the light out, as the preferences say.")
+            ("Processor", "The processor draws the light, as set in the preferences.")
         }
         (Gpu::Software | Gpu::None, _) => (
             "No graphics card",
-            "The processor works the light out: the same picture, some frames per second less. All else is as with a card.",
+            "The processor draws the light: the same picture at a lower frame rate. Everything else is the same.",
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! The application: the order of a frame. Results come in, panels are shown, actions are carried out, the preview is asked.
+//! The application. One frame: results come in, panels are shown, actions are carried out, the preview is updated.
 
 mod autosave;
 mod commands;
@@ -31,7 +31,7 @@ use file_state::Files;
 use open_windows::Windows;
 use recents::Recents;
 
-/// The window's state.
+/// The window: the editor's state with its views, windows and files.
 pub struct App {
     editor: EditorState,
     toolbox: Toolbox,
@@ -44,36 +44,36 @@ pub struct App {
     recents: Recents,
     files: Files,
     preferences: Preferences,
-    /// What the graphics card can do.
+    /// The graphics device.
     gpu: Gpu,
     /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
     external: bool,
-    /// What was asked for from outside.
+    /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
 }
 
-/// What draws the photons of the plane.
+/// The kind of graphics device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gpu {
     /// A graphics card.
     Hardware,
-    /// A program that behaves like one. The processor estimates the light itself two to eighteen times as fast.
+    /// Software rendering; the processor draws the photons 2 to 18 times as fast itself.
     Software,
-    /// Nothing that blends 32-bit floats.
+    /// No device that blends 32-bit floats.
     None,
 }
 
-/// What a window is opened with.
+/// The initial state of a window.
 pub struct Setup {
-    /// What it shows.
+    /// The open document.
     pub document: Document,
-    /// What to tell first, if anything: a title and what to do.
+    /// A message to show first: title and text.
     pub message: Option<(String, String)>,
-    /// Where the user's files for recovery and preferences are; without them nothing is kept between runs.
+    /// Folders for recovery and preferences; without them nothing is kept between runs.
     pub folders: Option<Folders>,
-    /// What the user prefers.
+    /// The user's preferences.
     pub preferences: Preferences,
-    /// Where files are asked for.
+    /// The file dialogs.
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
     pub gpu: Gpu,
@@ -116,22 +116,22 @@ impl App {
         app
     }
 
-    /// The document, to look at.
+    /// The open document.
     pub fn document(&self) -> &Document {
         &self.editor.document
     }
 
-    /// The state of the window, to look at.
+    /// The state of the session.
     pub fn session(&self) -> &Session {
         &self.editor.session
     }
 
-    /// What was worked out, to look at.
+    /// The results of the preview.
     pub fn preview(&self) -> &Preview {
         &self.editor.preview
     }
 
-    /// Asks for something as a panel would; it is done in the next frame of the window.
+    /// Asks for an action as a panel does; it is carried out in the next frame.
     pub fn ask(&mut self, action: Action) {
         self.asked.push(action);
     }
@@ -157,7 +157,7 @@ impl App {
         self.follow();
     }
 
-    /// Time that passed moves the playhead.
+    /// Moves the playhead by the time that passed.
     fn play(&mut self, ctx: &egui::Context) {
         let frames = playback::played(self.editor.document.project(), &self.editor.session);
         let fps = playback::fps(self.editor.document.project());
@@ -167,7 +167,7 @@ impl App {
         }
     }
 
-    /// Tells the workers what is wanted now.
+    /// Updates the preview's subject and views.
     fn follow(&mut self) {
         self.editor.preview.draw_by_card(self.draws_on_gpu());
         let subject = Subject {
@@ -178,7 +178,7 @@ impl App {
         self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
     }
 
-    /// Puts another document into the window.
+    /// Replaces the document.
     fn replace(&mut self, document: Document) {
         let _ = self.toolbox.put_down();
         self.editor.open(document);

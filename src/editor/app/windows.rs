@@ -1,4 +1,4 @@
-//! Windows over the window: export, palette, shortcuts, preferences, examples, first steps.
+//! The secondary windows: export, palette, shortcuts, preferences, examples, tour.
 
 use eframe::egui;
 use egui::Key;

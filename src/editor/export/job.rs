@@ -169,7 +169,7 @@ impl ExportJob {
         self.progress.resume();
     }
 
-    /// Breaks it off: nothing more is written. Frames that are complete already stay.
+    /// Cancels the export; nothing more is written. Frames that are complete already stay.
     pub fn cancel(&self) {
         self.progress.abandon();
         let mut state = self.state();
@@ -277,7 +277,7 @@ fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
         Ok(Ok(summary)) => Status::Done(outcome(&summary)),
         Ok(Err(Error::Cancelled)) => Status::Cancelled,
         Ok(Err(error)) => Status::Failed(error.to_string()),
-        Err(panic) => Status::Failed(format!("the export broke down: {}", words(&*panic))),
+        Err(panic) => Status::Failed(format!("the export failed: {}", words(&*panic))),
     }
 }
 
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn a_panic_is_a_failure_with_its_words() {
         let failed = guarded(|| panic!("index {} out of range", 7));
-        assert_eq!(failed, Status::Failed("the export broke down: index 7 out of range".into()));
+        assert_eq!(failed, Status::Failed("the export failed: index 7 out of range".into()));
         assert_eq!(guarded(|| Err(Error::Cancelled)), Status::Cancelled);
     }
 }

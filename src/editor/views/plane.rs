@@ -1,4 +1,4 @@
-//! The plane with its light.
+//! The plane view with its light.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::editor::preview::gpu::{Drawing, Swarm};
 use crate::editor::tools::Toolbox;
 
 impl Views {
-    /// The plane view: light, what was drawn, and the tool in hand.
+    /// Shows the plane view: light, overlays and active tool.
     pub(super) fn plane_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
         let project = editor.document.project().clone();
@@ -49,7 +49,7 @@ impl Views {
     }
 }
 
-/// The photons of one side of the view, for the graphics card.
+/// The drawing of one side of the view by the graphics card.
 fn drawing(
     painter: &Painter,
     clip: Rect,
