@@ -2,7 +2,7 @@
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
 use lightloom_core::scene::MeshDesc;
-use lightloom_core::target::{ImageTarget, PointsTarget};
+use lightloom_core::targets::{ImageTarget, PointsTarget};
 
 use super::document::Edit;
 

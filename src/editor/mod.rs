@@ -10,6 +10,7 @@ pub mod command;
 pub mod context;
 pub mod dialogs;
 pub mod document;
+pub mod engine;
 pub mod export;
 pub mod keyboard;
 pub mod menu;

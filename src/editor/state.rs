@@ -7,7 +7,8 @@ use super::clipboard;
 use super::command::Command;
 use super::context::EditorContext;
 use super::document::{Document, Edit};
-use super::preview::Preview;
+use super::engine::SharedEngine;
+use super::preview::LivePreview;
 use super::selection::Selection;
 use super::session::{
     Comparison, FieldMap, Panel, PlaneViewport, Session, ShotViewport, ViewLayout, Wipe, ZOOM_RANGE,
@@ -25,16 +26,16 @@ pub struct EditorState {
     /// The unsaved state of the window.
     pub session: Session,
     /// The results of the preview's workers.
-    pub preview: Preview,
+    pub preview: LivePreview,
     /// The message in the status bar.
     pub status: String,
 }
 
 impl EditorState {
     /// The editor at the first key frame of a document. `wake` is called from other threads when the preview has news.
-    pub fn new(document: Document, wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub fn new(document: Document, engine: SharedEngine, wake: impl Fn() + Clone + Send + 'static) -> Self {
         let session = start_of(&document);
-        Self { document, session, preview: Preview::new(wake), status: String::new() }
+        Self { document, session, preview: LivePreview::new(engine, wake), status: String::new() }
     }
 
     /// What a part of the window reads; the actions it asks for are appended to `actions`.

@@ -12,6 +12,7 @@ use lightloom::editor::action::Action;
 use lightloom::editor::context::EditorContext;
 use lightloom::editor::dialogs::{PickResult, Scripted};
 use lightloom::editor::document::Document;
+use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::state::EditorState;
 use lightloom::editor::store::{Fingerprint, Folders, Preferences};
 use lightloom::editor::{App, Gpu, Setup, theme};
@@ -113,7 +114,12 @@ pub struct Editor {
 impl Editor {
     /// The editor with an open document.
     pub fn new(document: Document) -> Self {
-        Self { state: EditorState::new(document, || ()), asked: Vec::new(), applies: true, themed: false }
+        Self {
+            state: EditorState::new(document, SharedEngine::default(), || ()),
+            asked: Vec::new(),
+            applies: true,
+            themed: false,
+        }
     }
 
     /// The editor with a project that has no file.

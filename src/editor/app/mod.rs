@@ -17,9 +17,10 @@ use eframe::egui;
 use super::action::Action;
 use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
+use super::engine::SharedEngine;
 use super::export::Exports;
 use super::playback::{self, Playback};
-use super::preview::{Preview, Subject};
+use super::preview::{LivePreview, Subject};
 use super::session::Session;
 use super::state::EditorState;
 use super::store::{Folders, Preferences};
@@ -88,14 +89,15 @@ impl App {
             let ctx = ctx.clone();
             move || ctx.request_repaint()
         };
+        let engine = SharedEngine::default();
         let first_start = !setup.preferences.first_start_seen;
         let mut app = Self {
-            editor: EditorState::new(setup.document, wake()),
+            editor: EditorState::new(setup.document, engine.clone(), wake()),
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),
             views: Views::default(),
-            exports: Exports::new(wake()),
+            exports: Exports::new(engine, wake()),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),
@@ -127,7 +129,7 @@ impl App {
     }
 
     /// The results of the preview.
-    pub fn preview(&self) -> &Preview {
+    pub fn preview(&self) -> &LivePreview {
         &self.editor.preview
     }
 

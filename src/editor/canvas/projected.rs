@@ -33,8 +33,8 @@ pub fn show_projected(
     if response.has_focus() || response.hovered() {
         input.gestures.extend(input::keys(ui, response));
     }
-    let sketch = editor.preview.sketch().cloned();
-    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
+    let preview = editor.preview.preview().cloned();
+    let photons = preview.as_ref().and_then(|preview| preview.positions(editor.session.playhead));
     let surface = Surface {
         per_point: per_point(response, projected),
         picture: projected.target.map(|(_, size)| size),

@@ -5,9 +5,11 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
 use super::job::{ExportJob, ExportSettings};
+use crate::editor::engine::SharedEngine;
 
 /// The exports of this session, oldest first.
 pub struct Exports {
+    engine: SharedEngine,
     jobs: Vec<Arc<ExportJob>>,
     queue: Option<Sender<Arc<ExportJob>>>,
     worker: Option<JoinHandle<()>>,
@@ -15,16 +17,16 @@ pub struct Exports {
 
 impl Exports {
     /// An empty queue. `wake` is called from other threads whenever something may have changed.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (queue, orders) = channel::<Arc<ExportJob>>();
-        let work = move || orders.into_iter().for_each(|job| job.run(&wake));
+    pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let (queue, jobs) = channel::<Arc<ExportJob>>();
+        let work = move || jobs.into_iter().for_each(|job| job.run(&wake));
         let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
-        Self { jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
+        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
     }
 
     /// Appends an export to the queue.
-    pub fn add(&mut self, order: ExportSettings) -> Arc<ExportJob> {
-        let job = Arc::new(ExportJob::new(order));
+    pub fn add(&mut self, settings: ExportSettings) -> Arc<ExportJob> {
+        let job = Arc::new(ExportJob::new(settings, self.engine.clone()));
         if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
             job.fail("the system starts no thread for it");
         }

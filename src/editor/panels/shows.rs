@@ -2,7 +2,7 @@
 
 use egui::Ui;
 use lightloom_core::project::Shows;
-use lightloom_core::target::{Channel, ImageTarget};
+use lightloom_core::targets::{Channel, ImageTarget};
 
 use super::setting::{Choice, Setting};
 use crate::editor::action::Action;

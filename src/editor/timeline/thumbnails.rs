@@ -11,7 +11,7 @@ use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOption
 use glam::{Vec2, Vec3};
 use lightloom_core::Result;
 use lightloom_core::project::{AssetFolder, Shows};
-use lightloom_core::target::{PictureSampler, Points, load_points};
+use lightloom_core::targets::{PictureSampler, Points, load_points};
 
 /// Pixels along the longer side.
 const SIDE: f32 = 96.0;

@@ -2,7 +2,7 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
-use lightloom_core::target::Placement;
+use lightloom_core::targets::Placement;
 
 use super::icon;
 use super::snap::Snap;

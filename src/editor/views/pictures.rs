@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use glam::Vec2;
 
-use crate::editor::preview::Preview;
+use crate::editor::preview::LivePreview;
 
 /// The newest pictures as textures: of this flow, and of its comparison.
 #[derive(Default)]
@@ -26,7 +26,7 @@ pub(super) struct TextureSlot {
 
 impl Pictures {
     /// Uploads what the workers painted since the last time.
-    pub(super) fn take(&mut self, ctx: &Context, preview: &Preview) {
+    pub(super) fn take(&mut self, ctx: &Context, preview: &LivePreview) {
         let painted = preview.painted();
         for side in 0..2 {
             self.plane[side].put(ctx, "plane", painted.plane[side].as_ref());
