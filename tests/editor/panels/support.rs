@@ -1,4 +1,4 @@
-//! A desk for the tests: the panels over a document, and what they asked for.
+//! The panels over a project, for the tests.
 
 use std::path::{Path, PathBuf};
 
@@ -6,30 +6,15 @@ use egui::accesskit::Role;
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use lightloom::editor::action::Action;
-use lightloom::editor::document::Document;
-use lightloom::editor::engine::SharedEngine;
-use lightloom::editor::panels::{self, Desk};
-use lightloom::editor::preview::LivePreview;
-use lightloom::editor::session::{Focus, Panel, Session};
+use lightloom::editor::panels;
+use lightloom::editor::session::{Focus, Panel};
 use lightloom::editor::theme;
 use lightloom_core::project::Project;
 
-/// A window with nothing but the panels.
-pub(crate) type Bench = Harness<'static, Table>;
+use crate::window::Editor;
 
-/// What the window is about.
-pub(crate) struct Table {
-    pub(crate) document: Document,
-    pub(crate) session: Session,
-    pub(crate) preview: LivePreview,
-    /// All that was asked for.
-    pub(crate) asked: Vec<Action>,
-    /// Whether edits are carried out.
-    pub(crate) applies: bool,
-    /// The last edit that the document refused.
-    pub(crate) refused: Option<String>,
-}
+/// A window with nothing but the panels.
+pub(crate) type Bench = Harness<'static, Editor>;
 
 fn projects() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("projects")
@@ -72,46 +57,21 @@ pub(crate) fn bench(project: Project, panel: Panel) -> Bench {
 
 /// The same in a theme.
 pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench {
-    let table = Table {
-        document: Document::new(project, None),
-        session: Session { panel, ..Session::default() },
-        preview: LivePreview::new(SharedEngine::default(), || ()),
-        asked: Vec::new(),
-        applies: true,
-        refused: None,
-    };
+    let mut editor = Editor::with_project(project);
+    editor.session.panel = panel;
     let mut bench = Harness::builder()
         .with_size(egui::vec2(WIDTH, 1000.0))
         .with_theme(of)
         .with_max_steps(20)
         .with_context_setup(theme::apply)
-        .build_ui_state(show, table);
+        .build_ui_state(show, editor);
     bench.run();
     bench
 }
 
-fn show(ui: &mut egui::Ui, table: &mut Table) {
-    let mut actions = Vec::new();
-    let mut desk = Desk {
-        document: &table.document,
-        session: &mut table.session,
-        preview: &table.preview,
-        actions: &mut actions,
-    };
-    panels::show(ui, &mut desk);
-    for action in actions {
-        match &action {
-            Action::Edit(edit) if table.applies => {
-                if let Err(error) = table.document.edit(edit.clone()) {
-                    table.refused = Some(error.to_string());
-                }
-            }
-            Action::Select(selection) => table.session.selection = selection.clone(),
-            Action::Solo(groups) => table.session.solo = groups.clone(),
-            _ => {}
-        }
-        table.asked.push(action);
-    }
+fn show(ui: &mut egui::Ui, editor: &mut Editor) {
+    let ctx = ui.ctx().clone();
+    editor.frame(&ctx, |editor| panels::show(ui, editor));
 }
 
 /// Two clicks in one place, quick enough to be one gesture.

@@ -1,4 +1,4 @@
-//! What an export shall be, and the command line that does the same.
+//! Options of an export, and the equivalent command line.
 
 use std::path::{Path, PathBuf};
 
@@ -7,9 +7,9 @@ use lightloom_core::Result;
 use lightloom_core::export::FrameFormat;
 use lightloom_core::project::{Project, frames};
 
-/// What the user wants of an export; all else is as the project says.
+/// The options that a user can set for an export; all else is taken from the project.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct ExportOptions {
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
     pub frames: String,
     /// Picture size in pixels.
@@ -24,8 +24,8 @@ pub struct Wish {
     pub folder: PathBuf,
 }
 
-impl Wish {
-    /// What the project says itself, into a folder beside its file.
+impl ExportOptions {
+    /// The options of the project, with a folder beside its file.
     pub fn of(project: &Project, file: Option<&Path>) -> Self {
         let first = project.keys.first().map_or(1, |key| key.frame);
         let last = project.keys.last().map_or(first, |key| key.frame);
@@ -40,7 +40,7 @@ impl Wish {
         }
     }
 
-    /// Takes from `now` what is as it was `before`: what the user did not set follows the project.
+    /// Takes fields from `now` that still equal `before`: what the user did not set follows the project.
     pub fn follow(&mut self, before: &Self, now: &Self) {
         fn take<T: Clone + PartialEq>(own: &mut T, before: &T, now: &T) {
             if own == before {
@@ -55,10 +55,10 @@ impl Wish {
         take(&mut self.folder, &before.folder, &now.folder);
     }
 
-    /// The project as this export shall do it.
+    /// The project with these options.
     ///
     /// # Errors
-    /// A value that cannot be used, by its place.
+    /// An invalid value, by its place.
     pub fn apply(&self, project: &Project) -> Result<Project> {
         frames::parse(&self.frames, "frames")?;
         if self.folder.as_os_str().is_empty() {
@@ -74,7 +74,7 @@ impl Wish {
         Ok(project)
     }
 
-    /// The command line that renders the same frames of the project file `file`. What the project says itself is left out.
+    /// The command line that renders the same frames of the project file `file`, without the project's own values.
     pub fn command_line(&self, project: &Project, file: &Path) -> String {
         let own = Self::of(project, Some(file));
         let path = |path: &Path| quoted(&path.to_string_lossy());
@@ -100,7 +100,7 @@ impl Wish {
     }
 }
 
-/// A folder beside the project file, or among the user's own files.
+/// A folder beside the project file, or in the user's home folder.
 fn folder(project: &Project, file: Option<&Path>) -> PathBuf {
     let home =
         || directories::UserDirs::new().map_or_else(|| PathBuf::from("."), |dirs| dirs.home_dir().to_owned());
@@ -159,8 +159,8 @@ mod tests {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
         let project = Project::load(&source).unwrap();
         project.save(&file).unwrap();
-        let own = Wish::of(&project, Some(&file));
-        let other = Wish {
+        let own = ExportOptions::of(&project, Some(&file));
+        let other = ExportOptions {
             frames: "-3-9x4,60".into(),
             size: [320, 200],
             passes: 3,
@@ -168,17 +168,17 @@ mod tests {
             formats: vec![FrameFormat::Png],
             folder: folder.path().join("two words $HOME \"and\" quotes'"),
         };
-        for wish in [own, other] {
-            let line = wish.command_line(&project, &file);
+        for options in [own, other] {
+            let line = options.command_line(&project, &file);
             let Some(Command::Render(args)) = Cli::try_parse_from(words(&line)).unwrap().command else {
                 panic!("{line}")
             };
             let mut run = args.project.load().unwrap();
-            let mut wanted = wish.apply(&project).unwrap();
+            let mut wanted = options.apply(&project).unwrap();
             // All frames by default are those that the window lists.
             assert_eq!(run.frames().unwrap(), wanted.frames().unwrap(), "{line}");
             (run.output.frames, wanted.output.frames) = (None, None);
-            assert_eq!((run, args.out), (wanted, wish.folder), "{line}");
+            assert_eq!((run, args.out), (wanted, options.folder), "{line}");
         }
     }
 
@@ -186,11 +186,11 @@ mod tests {
     fn a_wish_that_cannot_be_is_refused_by_its_place() {
         let project =
             Project::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json")).unwrap();
-        let wish = Wish::of(&project, None);
-        let refused = |wish: Wish| wish.apply(&project).unwrap_err().to_string();
-        assert!(refused(Wish { frames: "9-1".into(), ..wish.clone() }).starts_with("frames: "));
-        assert!(refused(Wish { size: [0, 10], ..wish.clone() }).contains("render.width"));
-        assert!(refused(Wish { formats: vec![], ..wish.clone() }).contains("output.formats"));
-        assert!(refused(Wish { folder: PathBuf::new(), ..wish }).starts_with("folder: "));
+        let options = ExportOptions::of(&project, None);
+        let refused = |options: ExportOptions| options.apply(&project).unwrap_err().to_string();
+        assert!(refused(ExportOptions { frames: "9-1".into(), ..options.clone() }).starts_with("frames: "));
+        assert!(refused(ExportOptions { size: [0, 10], ..options.clone() }).contains("render.width"));
+        assert!(refused(ExportOptions { formats: vec![], ..options.clone() }).contains("output.formats"));
+        assert!(refused(ExportOptions { folder: PathBuf::new(), ..options }).starts_with("folder: "));
     }
 }

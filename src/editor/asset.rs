@@ -1,4 +1,4 @@
-//! Files that the artist picks: what they are for, and the change of the project once one is picked.
+//! Asset files: their use in the project, and the edit that puts a picked file there.
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
 use lightloom_core::scene::MeshDesc;
@@ -6,35 +6,35 @@ use lightloom_core::targets::{ImageTarget, PointsTarget};
 
 use super::document::Edit;
 
-/// What a file is picked for.
+/// The use of a picked file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Pick {
+pub enum AssetUse {
     /// A new mesh.
     Mesh,
-    /// Another file for the mesh of this index.
+    /// Replaces the file of the mesh of this index.
     MeshFile(usize),
-    /// A picture that a key frame shows.
-    Picture(At),
-    /// Points that a key frame shows.
-    Points(At),
+    /// A target picture of a key frame.
+    Picture(TargetSlot),
+    /// Target points of a key frame.
+    Points(TargetSlot),
 }
 
-/// Whose target it is.
+/// A target: of a key frame, or of one caustic in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct At {
+pub struct TargetSlot {
     /// Index of the key frame.
     pub key: usize,
-    /// Name of the caustic; none for all that have none of their own.
+    /// Name of the caustic; none for the key frame's own target.
     pub caustic: Option<String>,
 }
 
-impl At {
-    /// What is shown there.
+impl TargetSlot {
+    /// The target there.
     pub fn shows<'a>(&self, keys: &'a [KeyFrame]) -> Option<&'a Shows> {
         keys.get(self.key).map(|key| key.shown_by(self.caustic.as_deref()))
     }
 
-    /// Shows something else there.
+    /// Replaces the target there.
     pub fn set(&self, keys: &mut [KeyFrame], shows: Shows) {
         let Some(key) = keys.get_mut(self.key) else { return };
         match &self.caustic {
@@ -44,8 +44,8 @@ impl At {
     }
 }
 
-impl Pick {
-    /// What the dialog calls these files, and their endings.
+impl AssetUse {
+    /// Name and extensions of these files.
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Mesh | Self::MeshFile(_) => ("Meshes", &["obj"]),
@@ -54,7 +54,7 @@ impl Pick {
         }
     }
 
-    /// The change of the project when `file` was picked, a path relative to the project; none where what it was for is gone.
+    /// The edit that uses `file`, a path relative to the project; none where its use no longer exists.
     pub fn edit(&self, project: &Project, file: String) -> Option<Edit> {
         match self {
             Self::Mesh => {
@@ -62,7 +62,7 @@ impl Pick {
                 let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
                 let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
                 let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
-                let name = super::panels::free_name(&name, taken);
+                let name = super::unique_name::unique_name(&name, taken);
                 scene.meshes.push(MeshDesc {
                     name,
                     file,
@@ -93,7 +93,7 @@ impl Pick {
     }
 }
 
-fn show(project: &Project, at: &At, shows: Shows) -> Edit {
+fn show(project: &Project, at: &TargetSlot, shows: Shows) -> Edit {
     let mut keys = project.keys.clone();
     at.set(&mut keys, shows);
     Edit::Keys(keys)

@@ -1,24 +1,24 @@
-//! What lies under the pointer. Locked constraints do not.
+//! Hit testing of constraints; locked ones are not hit.
 
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::Look;
+use super::tool::ToolContext;
 use crate::editor::selection::Selection;
 
-/// How near a line catches, points of the screen.
+/// Hit distance of a line, screen points.
 const LINE: f32 = 6.0;
-/// How near a handle catches, points of the screen.
+/// Hit distance of a handle, screen points.
 const HANDLE: f32 = 7.0;
-/// Most of the way to the next handle that one takes, so that the line between dense handles can be grabbed.
+/// Maximum hit distance of a handle as a fraction of the distance to the next, so that the line between can be grabbed.
 const SHARE: f32 = 0.35;
 
-/// What lies under the pointer.
+/// A hit: what is under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Hit {
-    /// A point of a selected constraint: constraint and point.
+    /// A point of a selected constraint: indices of constraint and point.
     Point(usize, usize),
-    /// A piece of a line: the constraint, the point at which the piece begins, and the place on it.
+    /// A segment of a polyline: indices of constraint and first point, and the position on it.
     Piece(usize, usize, Vec2),
 }
 
@@ -31,18 +31,18 @@ impl Hit {
     }
 }
 
-/// What lies under the pointer at `p`, the nearest first; handles go before lines.
-pub(super) fn hit(p: Vec2, look: &Look) -> Option<Hit> {
-    handle(p, look).or_else(|| piece(p, look))
+/// The nearest hit at `p`; handles win over lines.
+pub(super) fn hit(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    handle(p, context).or_else(|| piece(p, context))
 }
 
-fn free<'a>(look: &Look<'a>) -> impl Iterator<Item = (usize, &'a Constraint)> {
-    let drawn = look.session.show.drawn;
-    look.project.constraints.iter().enumerate().filter(move |(_, c)| drawn && !c.is_locked())
+fn free<'a>(context: &ToolContext<'a>) -> impl Iterator<Item = (usize, &'a Constraint)> {
+    let drawn = context.session.overlays.drawn;
+    context.project.constraints.iter().enumerate().filter(move |(_, c)| drawn && !c.is_locked())
 }
 
-fn handle(p: Vec2, look: &Look) -> Option<Hit> {
-    let selected = free(look).filter(|(i, _)| look.session.selection.contains(*i));
+fn handle(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    let selected = free(context).filter(|(i, _)| context.session.selection.contains(*i));
     let near = selected.flat_map(|(i, constraint)| {
         let points = constraint.points();
         points.iter().enumerate().filter_map(move |(k, &point)| {
@@ -51,20 +51,20 @@ fn handle(p: Vec2, look: &Look) -> Option<Hit> {
             };
             let reach = room(k.checked_sub(1).map(|k| &points[k])).min(room(points.get(k + 1)));
             let distance = p.distance(point.into());
-            (distance <= reach.min(look.points(HANDLE))).then_some((distance, Hit::Point(i, k)))
+            (distance <= reach.min(context.points(HANDLE))).then_some((distance, Hit::Point(i, k)))
         })
     });
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
-/// The piece of a line under the pointer.
-pub(super) fn piece(p: Vec2, look: &Look) -> Option<Hit> {
-    let near = free(look).flat_map(|(i, constraint)| {
+/// The nearest segment at `p`.
+pub(super) fn piece(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    let near = free(context).flat_map(|(i, constraint)| {
         let half = match constraint {
             Constraint::Wall(wall) => 0.5 * wall.thickness,
             Constraint::DirectedLine(_) => 0.0,
         };
-        let reach = half.max(look.points(LINE));
+        let reach = half.max(context.points(LINE));
         constraint.points().windows(2).enumerate().filter_map(move |(k, piece)| {
             let on = stroke::nearest_on_segment(p, piece[0].into(), piece[1].into());
             (on.distance(p) <= reach).then_some((on.distance(p), Hit::Piece(i, k, on)))
@@ -73,15 +73,15 @@ pub(super) fn piece(p: Vec2, look: &Look) -> Option<Hit> {
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
-/// The selection of what lies in the box between two corners: points, and wholes where all points do.
-pub(super) fn within(a: Vec2, b: Vec2, look: &Look) -> Selection {
+/// The selection within a box of two corners: points, and whole constraints where all points are inside.
+pub(super) fn within(a: Vec2, b: Vec2, context: &ToolContext) -> Selection {
     let (low, high) = (a.min(b), a.max(b));
     let inside = |p: &[f32; 2]| {
         let p = Vec2::from(*p);
         p.cmpge(low).all() && p.cmple(high).all()
     };
     let mut selection = Selection::default();
-    for (i, constraint) in free(look).filter(|(_, constraint)| !constraint.points().is_empty()) {
+    for (i, constraint) in free(context).filter(|(_, constraint)| !constraint.points().is_empty()) {
         let points = constraint.points();
         if points.iter().all(inside) {
             selection.toggle(i);
