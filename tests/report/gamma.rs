@@ -1,7 +1,6 @@
 //! The report: what gamma does, measured through the whole road.
 
 use std::path::Path;
-use std::process::Command;
 use std::sync::OnceLock;
 
 use lightloom_core::flow::FitKind;
@@ -9,7 +8,6 @@ use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};
-use serde_json::Value;
 
 use crate::letters::project;
 
@@ -92,30 +90,4 @@ fn a_cancelled_report_says_so() {
     let progress = Progress::new();
     progress.cancel();
     assert!(matches!(report(&path, &progress), Err(Error::Cancelled)));
-}
-
-#[test]
-fn the_command_writes_a_page_that_needs_no_other_file_and_its_tables() {
-    let (folder, path) = project(&["c", "s"]);
-    let out = folder.path().join("out");
-    let run = |extra: &[&str]| {
-        let args = ["report", path.to_str().unwrap(), "--out", out.to_str().unwrap(), "--quick"];
-        Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).args(extra).output().unwrap()
-    };
-    let done = run(&["--only", "gamma"]);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("<svg") && page.contains("What gamma does"));
-    let needs_others = ["src=\"http", "href=\"http", "<script", "<link"];
-    assert!(needs_others.iter().all(|part| !page.contains(part)), "the page stands alone");
-    assert!(!page.contains("Small <letters>") && page.contains("Small &lt;letters&gt;"), "text is no markup");
-    assert!(out.join("report/gamma.svg").is_file() && out.join("report/gamma.csv").is_file());
-    let json: Value = serde_json::from_slice(&run(&["--only", "gamma", "--json"]).stdout).unwrap();
-    assert_eq!(json["chapters"][0]["parts"][2]["table"]["rows"].as_array().unwrap().len(), 26);
-    let refused = run(&["--only", "gama"]);
-    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(
-        refused.status.code() == Some(2) && message.contains("gama") && message.contains("gamma"),
-        "{message}"
-    );
 }
