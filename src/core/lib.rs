@@ -25,7 +25,7 @@
 //!
 //! [`flow`] has never heard of a scene; [`scene`] has never heard of a flow; nothing here has heard of a window or of
 //! command-line arguments. No stage but [`project`] looks at JSON. Modules use only those above them in the list below
-//! (`tests/tidy.rs` watches it).
+//! (`tests/tidy` watches it).
 
 pub mod error;
 pub mod progress;

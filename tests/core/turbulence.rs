@@ -237,8 +237,8 @@ fn every_photon_arrives_whatever_the_strength() {
                 let (fields, report) = fitted(&settings, 1);
                 let tracks = carried(&fields, &[0.5, 0.9, 1.0]);
                 assert!(tracks.iter().flatten().all(|p| p.is_finite()));
-                // b - 0 v is b exactly; the promise is 1e-6 of the plane.
-                assert!(metric::endpoint_error(&tracks[2], &target) < 1e-6 && report.endpoint_error < 1e-6);
+                // b - 0 v is b exactly.
+                assert_eq!((&tracks[2], report.endpoint_error), (&target, 0.0));
                 assert!((report.turbulence_rms - f64::from(strength) / 100.0).abs() < 1e-6);
             }
         }

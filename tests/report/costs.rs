@@ -1,6 +1,7 @@
 //! The report: what exactness of the flow and of the matching costs, read from its tables.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use lightloom_core::engine::Engine;
@@ -33,6 +34,12 @@ fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Chapter {
 /// A flow that a fine grid resolves well: smooth, and without swirls.
 fn smooth(project: &mut Value) {
     project["flow"] = json!({ "grid": 24, "steps": 16, "guides": 1500, "alpha": 1e-2 });
+}
+
+/// What the section of the flow says of it, measured once for all tests.
+fn smooth_flow() -> &'static Chapter {
+    static CHAPTER: OnceLock<Chapter> = OnceLock::new();
+    CHAPTER.get_or_init(|| chapter("flow", |project, _| smooth(project)))
 }
 
 /// Across the way of both letters.
@@ -81,8 +88,8 @@ fn words(chapter: &Chapter) -> String {
 
 #[test]
 fn errors_of_a_flow_fall_as_it_is_worked_out_more_exactly() {
-    let chapter = chapter("flow", |project, _| smooth(project));
-    let (alone, all) = (table(&chapter, "flow_alone"), table(&chapter, "flow"));
+    let chapter = smooth_flow();
+    let (alone, all) = (table(chapter, "flow_alone"), table(chapter, "flow"));
     assert_eq!(column(alone, "steps", "value"), [2.0, 4.0, 8.0, 16.0, 32.0, 48.0]);
     let steps = column(alone, "steps", "rms (plane)");
     let doubt = column(all, "reference", "rms (plane)")[0];
@@ -102,8 +109,8 @@ fn errors_of_a_flow_fall_as_it_is_worked_out_more_exactly() {
 
 #[test]
 fn a_table_of_the_flow_keeps_its_word() {
-    let chapter = chapter("flow", |project, _| smooth(project));
-    let all = table(&chapter, "flow");
+    let chapter = smooth_flow();
+    let all = table(chapter, "flow");
     let at = |name: &str| all.columns.iter().position(|column| *column == name).unwrap();
     let (seconds, rms, front) = (at("seconds"), at("rms (plane)"), at("on the front"));
     let rows = &all.rows[..all.rows.len() - 1];
@@ -120,7 +127,7 @@ fn a_table_of_the_flow_keeps_its_word() {
         let beaten = offers.iter().any(|other| other.0 <= offer.0 && other.1 <= offer.1 && other != offer);
         assert_eq!(text(&row.cells[front]) == "no", beaten, "{row:?}");
     }
-    for row in &table(&chapter, "flow_cheapest").rows[..3] {
+    for row in &table(chapter, "flow_cheapest").rows[..3] {
         let (wanted, found) = (number(&row.cells[0]), number(&row.cells[2]));
         let best = offers.iter().filter(|offer| offer.1 <= wanted).map(|offer| offer.0).reduce(f64::min);
         match best {

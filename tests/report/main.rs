@@ -5,6 +5,7 @@ use std::path::Path;
 
 mod costs;
 mod gamma;
+#[path = "../letters/mod.rs"]
 mod letters;
 mod light;
 mod stability;

@@ -1,6 +1,5 @@
 //! The stiff and the extreme, at reduced size: every row holds the bound that it states beforehand.
 
-use std::process::Command;
 use std::sync::OnceLock;
 
 use lightloom_core::{Error, Progress};
@@ -83,18 +82,4 @@ fn a_cancelled_table_says_so() {
     let progress = Progress::new();
     progress.cancel();
     assert!(matches!(stability(Size::Reduced, &progress), Err(Error::Cancelled)));
-}
-
-#[test]
-fn the_command_takes_a_project_or_the_table_and_one_of_them() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    for args in
-        [&["report"][..], &["report", "a.json", "--stability"], &["report", "--stability", "--only", "time"]]
-    {
-        let run =
-            Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).arg("--out").arg(&out).output().unwrap();
-        assert_eq!(run.status.code(), Some(2), "{args:?}: {}", String::from_utf8_lossy(&run.stderr));
-    }
-    assert!(!out.exists());
 }
