@@ -14,8 +14,8 @@ pub(super) fn run(args: &ReportArgs) -> Result<u8> {
     if args.stability {
         return run_stability(args, effort);
     }
-    let report = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        let report = report(pipeline, project, effort, &args.only, &args.out, progress)?;
+    let report = job::run(&args.project, &args.out, |engine, project, progress, saved| {
+        let report = report(engine, project, effort, &args.only, &args.out, progress)?;
         report.write(&args.out, "report")?.iter().for_each(|path| saved(path));
         Ok(report)
     })?;

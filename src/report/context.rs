@@ -6,22 +6,22 @@ use std::sync::Arc;
 
 use crate::effort::Effort;
 use crate::machine::Machine;
-use lightloom_core::flow::{Course, Fields, FlowSettings, fit_segment};
-use lightloom_core::pipeline::{FirstMove, Pipeline, Quality, Summary};
+use lightloom_core::engine::{Engine, MovingSegment, Quality, Summary};
+use lightloom_core::flow::{Fields, FlowSettings, Movement, Segment, fit_segment};
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 
 /// A project under measurement.
 pub(crate) struct Context<'a> {
-    pub(crate) pipeline: &'a mut Pipeline,
+    pub(crate) engine: &'a Engine,
     /// The project as it is measured: at preview size when quick.
     pub(crate) project: Project,
     pub(crate) effort: Effort,
     /// A folder with room for the frames of a render.
     pub(crate) scratch: &'a Path,
-    first_move: Option<Arc<FirstMove>>,
+    moving_segment: Option<Arc<MovingSegment>>,
     /// The photons that were asked for last, with their number.
-    photons: Option<(usize, Arc<FirstMove>)>,
+    photons: Option<(usize, Arc<MovingSegment>)>,
     fields: Option<Arc<Fields>>,
     machine: Option<Machine>,
     bare_rays: Option<Option<f64>>,
@@ -65,21 +65,21 @@ impl<'a> Context<'a> {
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.
     pub(crate) fn new(
-        pipeline: &'a mut Pipeline,
+        engine: &'a Engine,
         project: &Project,
         effort: Effort,
         scratch: &'a Path,
         progress: &Progress,
     ) -> Result<Self> {
         progress.check()?;
-        pipeline.check(project)?;
+        engine.check(project)?;
         let project = effort.pick(Quality::Preview, Quality::Final).apply(project);
         Ok(Self {
-            pipeline,
+            engine,
             project,
             effort,
             scratch,
-            first_move: None,
+            moving_segment: None,
             photons: None,
             fields: None,
             machine: None,
@@ -95,28 +95,29 @@ impl<'a> Context<'a> {
     pub(crate) fn render(&self, project: &Project, progress: &Progress) -> Result<Summary> {
         let folder =
             tempfile::tempdir_in(self.scratch).map_err(Error::io("make a folder in", self.scratch))?;
-        self.pipeline.afresh().render(project, folder.path(), &progress.inner(), &|_| {})
+        self.engine.afresh().render(project, folder.path(), &progress.inner(), &|_| {})
     }
 
     /// The photons of the first pass at the first key frames between which they move, matched. Traced and matched once.
     ///
     /// # Errors
     /// Nothing that moves; cancelled.
-    pub(crate) fn first_move(&mut self, progress: &Progress) -> Result<Arc<FirstMove>> {
-        if self.first_move.is_none() {
-            self.first_move = Some(Arc::new(self.pipeline.first_move(&self.project, &progress.inner())?));
+    pub(crate) fn moving_segment(&mut self, progress: &Progress) -> Result<Arc<MovingSegment>> {
+        if self.moving_segment.is_none() {
+            self.moving_segment =
+                Some(Arc::new(self.engine.moving_segment(&self.project, None, &progress.inner())?));
         }
-        self.first_move.clone().ok_or(Error::Cancelled)
+        self.moving_segment.clone().ok_or(Error::Cancelled)
     }
 
-    /// As [`Self::first_move`], with `count` photons in a pass. Traced and matched once for any number of calls in a row
+    /// As [`Self::moving_segment`], with `count` photons in a pass. Traced and matched once for any number of calls in a row
     /// with the same count.
     ///
     /// # Errors
-    /// As [`Self::first_move`].
-    pub(crate) fn photons(&mut self, count: usize, progress: &Progress) -> Result<Arc<FirstMove>> {
+    /// As [`Self::moving_segment`].
+    pub(crate) fn photons(&mut self, count: usize, progress: &Progress) -> Result<Arc<MovingSegment>> {
         if count as u64 == self.project.render.photons {
-            return self.first_move(progress);
+            return self.moving_segment(progress);
         }
         if let Some((_, known)) = self.photons.as_ref().filter(|(known, _)| *known == count) {
             return Ok(known.clone());
@@ -124,9 +125,22 @@ impl<'a> Context<'a> {
         self.photons = None;
         let mut project = self.project.clone();
         project.render.photons = count as u64;
-        let made = Arc::new(self.pipeline.first_move(&project, &progress.inner())?);
+        let made = Arc::new(self.engine.moving_segment(&project, Some(count), &progress.inner())?);
         self.photons = Some((count, made.clone()));
         Ok(made)
+    }
+
+    /// As [`Self::photons`], matched for the flow whatever the project's method.
+    ///
+    /// # Errors
+    /// As [`Self::moving_segment`].
+    pub(crate) fn flow_photons(&mut self, count: usize, progress: &Progress) -> Result<Arc<MovingSegment>> {
+        if self.project.method == Movement::Flow {
+            return self.photons(count, progress);
+        }
+        let mut project = Project { method: Movement::Flow, ..self.project.clone() };
+        project.render.photons = count as u64;
+        Ok(Arc::new(self.engine.moving_segment(&project, Some(count), &progress.inner())?))
     }
 
     /// Ten steps of the project's flow without its walls, lines and turbulence. Fitted once.
@@ -137,10 +151,10 @@ impl<'a> Context<'a> {
         if let Some(known) = &self.fields {
             return Ok(known.clone());
         }
-        let photons = self.first_move(progress)?;
+        let photons = self.moving_segment(progress)?;
         let settings = FlowSettings { steps: 10, turbulence: None, ..self.project.flow.clone() };
-        let course = Course { lines: &[], walls: &[], ..photons.course(&settings) };
-        let (fields, _) = fit_segment(&course, &progress.inner(), None)?;
+        let segment = Segment { lines: &[], walls: &[], ..photons.segment(&settings) };
+        let (fields, _) = fit_segment(&segment, &progress.inner())?;
         Ok(self.fields.insert(Arc::new(fields)).clone())
     }
 
@@ -155,7 +169,7 @@ impl<'a> Context<'a> {
     /// Anything wrong with the project or its files; cancelled.
     pub(crate) fn bare_rays_per_second(&mut self, progress: &Progress) -> Result<Option<f64>> {
         if self.bare_rays.is_none() {
-            self.bare_rays = Some(self.pipeline.bare_rays_per_second(&self.project, &progress.inner())?);
+            self.bare_rays = Some(self.engine.bare_rays_per_second(&self.project, &progress.inner())?);
         }
         Ok(self.bare_rays.flatten())
     }

@@ -33,7 +33,7 @@ pub use sections::gamma::{GammaResponse, Response, gamma_response};
 pub use stability::{Bound, EnergyOf, Limits, Measured, Stability, StabilityRow, stability};
 
 use context::Context;
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 use report::made_by;
@@ -48,7 +48,7 @@ use sections::SECTIONS;
 /// A name in `only` that is no section; anything wrong with the project or its files; cancelled before the first section
 /// was complete.
 pub fn report(
-    pipeline: &mut Pipeline,
+    engine: &Engine,
     project: &Project,
     effort: Effort,
     only: &[String],
@@ -58,7 +58,7 @@ pub fn report(
     let start = Instant::now();
     let chosen = sections::choose(only)?;
     progress.set_road(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
-    let mut context = Context::new(pipeline, project, effort, scratch, progress)?;
+    let mut context = Context::new(engine, project, effort, scratch, progress)?;
     let (mut sections, mut absent) = (Vec::new(), Vec::new());
     for section in chosen {
         let mut leave_out = |why: String, failed| absent.push(Absent { section: section.name, why, failed });

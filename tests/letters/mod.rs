@@ -1,6 +1,6 @@
 //! A small project of letters, for the tests that measure one.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 /// C becomes S, small; `keys` are the letters in order.
 pub(crate) fn project(keys: &[&str]) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
-    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
+    let targets = crate::root().join("assets/targets");
     for name in ["letter_c.png", "letter_s.png"] {
         std::fs::copy(targets.join(name), folder.path().join(name)).unwrap();
     }

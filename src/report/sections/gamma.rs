@@ -6,8 +6,8 @@ use super::section_def::{SectionDef, nothing_moves};
 use crate::content::{Cell, Section, Table, Tone};
 use crate::context::Context;
 use crate::plot::{Axis, Line, Panel, Plot, Style};
+use lightloom_core::engine::{Engine, MovingSegment, Quality};
 use lightloom_core::flow::{FitKind, FlowSettings, Movement, fit_segment, metric};
-use lightloom_core::pipeline::{FirstMove, Pipeline, Quality};
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
@@ -58,29 +58,31 @@ pub struct GammaResponse {
 ///
 /// # Errors
 /// Anything wrong with the project or its files; nothing that moves; a fit that fails; cancelled.
-pub fn gamma_response(
-    pipeline: &mut Pipeline,
-    project: &Project,
-    progress: &Progress,
-) -> Result<GammaResponse> {
-    let mut project = Quality::Preview.apply(project);
-    project.method = Movement::Flow;
+pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -> Result<GammaResponse> {
+    let project = preview(project);
     progress.set_road(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
-    let photons = pipeline.first_move(&project, progress)?;
-    progress.begin("gamma", (KINDS.len() * GAMMAS.len()) as u64);
-    let mut rows = Vec::new();
-    for fit in KINDS {
-        for gamma in GAMMAS {
-            let settings = FlowSettings { fit, gamma, turbulence: None, ..project.flow.clone() };
-            rows.push(respond(&photons, &settings, &progress.inner())?);
-            progress.advance(1);
-        }
-    }
-    Ok(GammaResponse { project: project.name, alpha: project.flow.alpha, rows })
+    let photons = engine.moving_segment(&project, None, progress)?;
+    responses(&project, &photons, progress)
 }
 
-fn respond(photons: &FirstMove, settings: &FlowSettings, progress: &Progress) -> Result<Response> {
-    let (fields, report) = fit_segment(&photons.course(settings), progress, None)?;
+/// The project at preview size, with fields. The shape of the response does not depend on the grid.
+fn preview(project: &Project) -> Project {
+    Project { method: Movement::Flow, ..Quality::Preview.apply(project) }
+}
+
+fn responses(project: &Project, photons: &MovingSegment, progress: &Progress) -> Result<GammaResponse> {
+    progress.begin("gamma", (KINDS.len() * GAMMAS.len()) as u64);
+    let mut rows = Vec::new();
+    for (fit, gamma) in KINDS.into_iter().flat_map(|fit| GAMMAS.map(|gamma| (fit, gamma))) {
+        let settings = FlowSettings { fit, gamma, turbulence: None, ..project.flow.clone() };
+        rows.push(respond(photons, &settings, &progress.inner())?);
+        progress.advance(1);
+    }
+    Ok(GammaResponse { project: project.name.clone(), alpha: project.flow.alpha, rows })
+}
+
+fn respond(photons: &MovingSegment, settings: &FlowSettings, progress: &Progress) -> Result<Response> {
+    let (fields, report) = fit_segment(&photons.segment(settings), progress)?;
     let first =
         fields.nodes().first().map(|field| metric::divergence_and_curl_rms(&[field], &photons.source));
     let [divergence_first, curl_first] = first.unwrap_or_default();
@@ -102,12 +104,10 @@ fn respond(photons: &FirstMove, settings: &FlowSettings, progress: &Progress) ->
 pub(super) const SECTION: SectionDef =
     SectionDef { name: "gamma", skip: nothing_moves, measure, seconds: [6.0, 8.0] };
 
-/// At preview size in any case: the shape of the response does not depend on the grid.
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
-    progress.begin("gamma", 1);
-    let response = gamma_response(context.pipeline, &context.project, &progress.inner())?;
-    progress.advance(1);
-    Ok(response.section())
+    let project = preview(&context.project);
+    let photons = context.flow_photons(project.render.photons as usize, progress)?;
+    Ok(responses(&project, &photons, progress)?.section())
 }
 
 impl GammaResponse {

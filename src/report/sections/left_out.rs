@@ -7,7 +7,7 @@ use crate::content::{Cell, Section, Table, Tone};
 use crate::context::Context;
 use crate::stages::flow_seconds;
 use lightloom_core::constraint::{ActiveLine, ActiveWall, DirectedLine, Wall, Window};
-use lightloom_core::flow::{Course, FitKind, FlowSettings, TurbulenceSettings};
+use lightloom_core::flow::{FitKind, FlowSettings, Segment, TurbulenceSettings};
 use lightloom_core::{Progress, Result};
 
 pub(super) const SECTION: SectionDef =
@@ -67,10 +67,10 @@ fn across(extent: Vec2) -> Vec<[f32; 2]> {
 
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
     progress.begin("left_out", 1 + PARTS.len() as u64);
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let seconds = |Flow { settings, lines, walls, .. }: &Flow| {
-        let course = Course { lines, walls, ..photons.course(settings) };
-        flow_seconds(context.effort.pick(2, 3), &course, progress)
+        let segment = Segment { lines, walls, ..photons.segment(settings) };
+        flow_seconds(context.effort.pick(2, 3), &segment, progress)
     };
     let own = Flow {
         extent: photons.extent,
@@ -96,7 +96,7 @@ fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
         table.push(Tone::Plain, cells.collect());
         progress.advance(1);
     }
-    for left in context.pipeline.check(&context.project)?.plan.left_out {
+    for left in context.engine.check(&context.project)?.plan.left_out {
         let cells = [left.what.into(), Cell::Nothing, Cell::Nothing, Cell::Nothing, left.why.into()];
         table.push(Tone::Plain, cells.to_vec());
     }

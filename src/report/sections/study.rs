@@ -4,9 +4,9 @@ use super::section_def::{SectionDef, nothing_moves};
 use crate::content::{Picture, Pictures, Section, Table, Tone};
 use crate::context::Context;
 use crate::crop::{Crop, shrunk};
+use lightloom_core::engine::{Halfway, MovingSegment, covered_area};
 use lightloom_core::export::png::encode;
 use lightloom_core::flow::{FlowSettings, GridSize};
-use lightloom_core::pipeline::{Still, Stills, covered};
 use lightloom_core::project::Project;
 use lightloom_core::render::density::{Smoother, default_radius};
 use lightloom_core::render::splat::Splatter;
@@ -46,30 +46,30 @@ struct Place {
     gamma: f32,
     /// Whether it is the project's own.
     own: bool,
-    still: Still,
+    halfway: Halfway,
 }
 
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
     let sheet = context.effort.pick(QUICK, FULL);
     progress.begin("study", (sheet.grids.len() * sheet.gammas.len()) as u64);
-    let stills = context.pipeline.stills(&context.project, sheet.photons, &progress.inner())?;
-    let places = sheet.fit(&stills, &context.project, progress)?;
+    let segment = context.flow_photons(sheet.photons, progress)?;
+    let places = sheet.fit(&segment, &context.project, progress)?;
     let mut section = Section::new("study", "Grid resolution and gamma");
     section.text(format!(
         "The light halfway between the first two keys, by {} photons, for flows that differ in nothing but the grid \
          (rows) and gamma (columns). From left to right the light goes from streaming like a liquid, which keeps its \
          brightness and its lumps together, to spreading and gathering like a gas; from top to bottom the flow follows \
          finer detail. Where two rows look alike, the coarser grid does.",
-        stills.flux().len()
+        segment.flux().len()
     ));
-    section.pictures(sheet.pictures(&places, &stills, &context.project)?);
+    section.pictures(sheet.pictures(&places, &segment, &context.project)?);
     section.table(table(&places));
     Ok(section)
 }
 
 impl Sheet {
     /// All flows, row by row.
-    fn fit(&self, stills: &Stills, project: &Project, progress: &Progress) -> Result<Vec<Place>> {
+    fn fit(&self, segment: &MovingSegment, project: &Project, progress: &Progress) -> Result<Vec<Place>> {
         let mut places = Vec::new();
         for &grid in self.grids {
             for &gamma in self.gammas {
@@ -77,7 +77,7 @@ impl Sheet {
                 let steps = project.flow.steps.min(self.steps);
                 let flow = FlowSettings { grid: size, gamma, steps, ..project.flow.clone() };
                 let own = project.flow.grid == size && project.flow.gamma == gamma;
-                places.push(Place { grid, gamma, own, still: stills.halfway(&flow, progress)? });
+                places.push(Place { grid, gamma, own, halfway: segment.halfway(&flow, progress)? });
                 progress.advance(1);
             }
         }
@@ -85,16 +85,16 @@ impl Sheet {
     }
 
     /// The light of all flows by one kernel, cropped to the part that is lit in any of them.
-    fn pictures(&self, places: &[Place], stills: &Stills, project: &Project) -> Result<Pictures> {
-        let (extent, flux) = (stills.extent(), stills.flux());
-        let covered: f32 = places.iter().map(|place| covered(&place.still.positions, extent)).sum();
+    fn pictures(&self, places: &[Place], segment: &MovingSegment, project: &Project) -> Result<Pictures> {
+        let (extent, flux) = (segment.extent, segment.flux());
+        let covered: f32 = places.iter().map(|place| covered_area(&place.halfway.positions, extent)).sum();
         let radius = default_radius(flux.len(), covered / places.len() as f32).min(0.5);
         let layout = TextureLayout::new(extent, self.texels, radius);
         let light = |place: &Place| {
             let mut texture = ReceiverTexture::new(layout);
-            Splatter::default().splat(&place.still.positions, &flux, &mut texture);
+            Splatter::default().splat(&place.halfway.positions, &flux, &mut texture);
             Smoother::default().filter(&mut texture, radius);
-            plane_picture(&texture, extent, stills.paper())
+            plane_picture(&texture, extent, segment.paper)
         };
         let lights: Vec<Image> = places.iter().map(light).collect();
         let all = lights.iter().cloned().reduce(|a, b| a.plus(&b));
@@ -119,14 +119,14 @@ fn table(places: &[Place]) -> Table {
                    undone; divergence and curl where the photons are; how differently neighbours move; the fastest \
                    photons over the mean straight speed.";
     let mut table = Table::new("study", caption, &columns);
-    for Place { grid, gamma, own, still, .. } in places {
-        let report = &still.report;
+    for Place { grid, gamma, own, halfway, .. } in places {
+        let report = &halfway.report;
         table.push(
             if *own { Tone::Marked } else { Tone::Plain },
             vec![
                 (*grid as usize).into(),
                 f64::from(*gamma).into(),
-                still.seconds.into(),
+                halfway.seconds.into(),
                 report.fit_residual.into(),
                 report.divergence_rms.into(),
                 report.curl_rms.into(),

@@ -3,7 +3,7 @@
 use super::section_def::SectionDef;
 use crate::content::{Cell, Section, Table, Tone};
 use crate::context::Context;
-use lightloom_core::pipeline::StageCost;
+use lightloom_core::engine::StageCost;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 

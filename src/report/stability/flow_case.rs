@@ -6,7 +6,10 @@ use rayon::prelude::*;
 use super::case::{EnergyOf, Input, Limits, Measured};
 use crate::effort::Effort;
 use lightloom_core::constraint::{ActiveLine, ActiveWall};
-use lightloom_core::flow::{Carrier, Course, FitKind, FlowReport, FlowSettings, GridSize, fit_segment};
+use lightloom_core::flow::{
+    FieldTrajectories, FitKind, FlowReport, FlowSettings, GridSize, GuideTracks, Segment, Trajectories as _,
+    fit_tracks,
+};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::{Progress, Result};
 
@@ -62,35 +65,35 @@ impl Input for FlowCase {
     /// Fits, follows the guide photons and as many photons of a later pass, and checks where they went.
     fn run(&self, progress: &Progress) -> Result<Measured> {
         let Self { source, target, extent, settings, lines, walls } = self;
-        let course = Course { lines, walls, ..Course::new(source, target, *extent, settings) };
+        let segment = Segment { lines, walls, ..Segment::new(source, target, *extent, settings) };
         let mut guides = CrossingObserver::new(walls);
-        let (fields, report) =
-            fit_segment(&course, progress, Some(&mut |_, positions: &[Vec2]| guides.observe(positions)))?;
+        let GuideTracks { fields, report, positions, .. } = fit_tracks(&segment, progress)?;
+        positions.iter().for_each(|positions| guides.observe(positions));
         let mut later = CrossingObserver::new(walls);
         let beside =
             |points: &[Vec2]| points.iter().map(|p| *p + Vec2::new(0.003, -0.002)).collect::<Vec<_>>();
         let (source, target) = (beside(source), beside(target));
-        let mut carrier = Carrier::new(&fields, &source, &target);
+        let mut carrier = FieldTrajectories::new(&fields, &source, &target);
         let mut positions = vec![Vec2::ZERO; source.len()];
         for n in 0..=fields.steps() {
             carrier.positions_at(n as f64 / fields.steps() as f64, &mut positions, progress)?;
             later.observe(&positions);
         }
         let arrived = positions.iter().zip(&target).map(|(c, b)| f64::from(c.distance(*b)));
-        let astray = carrier.astray();
+        let violations = carrier.wall_violations();
         let measured = Measured {
             finite: guides.finite && later.finite,
             endpoint_error: Some(arrived.fold(report.endpoint_error, f64::max)),
             // Unreachable photons may go through a wall; all others that do have crossed it, as have those the flow counts.
             crossings: Some(
                 report.wall_crossings
-                    + astray.crossings
+                    + violations.crossings
                     + guides.crossed().saturating_sub(report.unreachable)
-                    + later.crossed().saturating_sub(astray.unreachable),
+                    + later.crossed().saturating_sub(violations.unreachable),
             ),
             ..of_report(&report)
         };
-        Ok(Measured { unreachable: Some(report.unreachable.max(astray.unreachable)), ..measured })
+        Ok(Measured { unreachable: Some(report.unreachable.max(violations.unreachable)), ..measured })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Small scenes of glass, traced, moved and rendered by the whole pipeline.
+//! Small scenes of glass, traced, moved and rendered by the whole engine.
 
 use std::path::Path;
 
@@ -10,8 +10,8 @@ use super::case::{EnergyOf, Input, Limits, Measured};
 use super::flow_case::ITERATIONS;
 use super::glass::{GlassObject, Shape};
 use crate::effort::Effort;
+use lightloom_core::engine::{Engine, Summary};
 use lightloom_core::photon::{Photons, TraceReport, Tracer};
-use lightloom_core::pipeline::{Pipeline, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::light::PointLight;
 use lightloom_core::scene::material::{Glass, Material};
@@ -148,7 +148,7 @@ pub(super) fn render(project: &Project, folder: &Path, progress: &Progress) -> R
     let out = folder.join("out");
     std::fs::create_dir_all(&out).map_err(Error::io("create the folder", &out))?;
     let assets = AssetFolder::new(&folder.join("project.json"), false)?;
-    let summary = Pipeline::new(assets).render(project, &out, progress, &|_| {})?;
+    let summary = Engine::new(assets).render(project, &out, progress, &|_| {})?;
     Ok(measure(&summary))
 }
 

@@ -5,11 +5,11 @@ use glam::Vec2;
 use crate::clock::fastest;
 use crate::context::{Context, Limit, Sample};
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::field::Grid;
 use lightloom_core::flow::fit::{Blend, FitSettings, Fitter};
-use lightloom_core::flow::{Course, FlowSettings, fit_segment};
+use lightloom_core::flow::{FlowSettings, Segment, fit_segment};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::pipeline::FirstMove;
 use lightloom_core::{Error, Progress, Result};
 
 /// Seconds after which no further run begins.
@@ -21,12 +21,12 @@ const MOST_ITERATIONS: usize = 500;
 ///
 /// # Errors
 /// A fit that fails; cancelled.
-pub(crate) fn flow_seconds(runs: usize, course: &Course, progress: &Progress) -> Result<f64> {
-    fastest(runs, ENOUGH, || fit_segment(course, &progress.inner(), None)).map(|(_, seconds)| seconds)
+pub(crate) fn flow_seconds(runs: usize, segment: &Segment, progress: &Progress) -> Result<f64> {
+    fastest(runs, ENOUGH, || fit_segment(segment, &progress.inner())).map(|(_, seconds)| seconds)
 }
 
 /// A fit of both potentials on as many cells along both sides.
-fn joint(cells: usize, photons: &FirstMove, alpha: f32, tolerance: f64) -> FitSettings {
+fn joint(cells: usize, photons: &MovingSegment, alpha: f32, tolerance: f64) -> FitSettings {
     FitSettings {
         grid: Grid { cells: [cells; 2], extent: photons.extent },
         gamma: 0.5,
@@ -38,14 +38,14 @@ fn joint(cells: usize, photons: &FirstMove, alpha: f32, tolerance: f64) -> FitSe
 }
 
 /// The first photons, at most `most`, and their straight velocities.
-fn straight(photons: &FirstMove, most: usize) -> (&[Vec2], Vec<Vec2>) {
+fn straight(photons: &MovingSegment, most: usize) -> (&[Vec2], Vec<Vec2>) {
     let source = &photons.source[..most.min(photons.source.len())];
     (source, source.iter().zip(&photons.target).map(|(from, to)| *to - *from).collect())
 }
 
 /// As many guide photons as the project has, moved by a hundredth of their path from one fit to the next.
 pub(super) fn warm_step(context: &mut Context, cells: usize, progress: &Progress) -> Result<Option<Sample>> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let settings = &context.project.flow;
     let (source, velocities) = straight(&photons, settings.guides as usize);
     let moved: Vec<Vec2> = source.iter().zip(&velocities).map(|(from, v)| *from + 0.01 * *v).collect();
@@ -66,7 +66,7 @@ pub(super) fn solver(context: &mut Context, cells: usize, progress: &Progress) -
     const SINGLE_PRODUCTS: f64 = 6.0 * 4.0 / 3.0;
     // Half of the 49 neighbours of a cubic spline for each of psi, phi and their coupling.
     const ENTRIES: f64 = 3.0 * 25.0;
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let settings = joint(cells, &photons, context.project.flow.alpha, 1e-8);
     let (source, velocities) = straight(&photons, 2000);
     let mut fitter = Fitter::new(settings)?;
@@ -86,12 +86,12 @@ pub(super) fn solver(context: &mut Context, cells: usize, progress: &Progress) -
 
 /// Walls of ten points each, at random over the plane, a tenth of it long.
 pub(super) fn with_walls(context: &mut Context, count: usize, progress: &Progress) -> Result<Option<Sample>> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let guides = context.effort.pick(5_000, 50_000);
     let settings = FlowSettings { steps: 20, guides, ..context.project.flow.clone() };
     let walls: Vec<ActiveWall> = (0..count as u64).filter_map(|i| random_wall(i, photons.extent)).collect();
-    let course = Course { walls: &walls, ..photons.course(&settings) };
-    Ok(Some(Sample::new(count, flow_seconds(1, &course, progress)?)))
+    let segment = Segment { walls: &walls, ..photons.segment(&settings) };
+    Ok(Some(Sample::new(count, flow_seconds(1, &segment, progress)?)))
 }
 
 fn random_wall(number: u64, extent: Vec2) -> Option<ActiveWall> {
@@ -108,10 +108,10 @@ fn random_wall(number: u64, extent: Vec2) -> Option<ActiveWall> {
 
 /// In a pool of so many threads, without walls: they are measured by themselves.
 pub(super) fn on_threads(context: &mut Context, count: usize, progress: &Progress) -> Result<Option<Sample>> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let settings = FlowSettings { steps: 10, ..context.project.flow.clone() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     let pool = pool.map_err(|error| Error::Numeric { stage: "report", what: error.to_string() })?;
-    let course = Course { walls: &[], ..photons.course(&settings) };
-    Ok(Some(Sample::new(count, pool.install(|| flow_seconds(2, &course, progress))?)))
+    let segment = Segment { walls: &[], ..photons.segment(&settings) };
+    Ok(Some(Sample::new(count, pool.install(|| flow_seconds(2, &segment, progress))?)))
 }

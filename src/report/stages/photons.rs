@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::clock::fastest;
 use crate::context::{Context, Limit, Sample};
-use lightloom_core::flow::Carrier;
+use lightloom_core::flow::FieldTrajectories;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{ProgressiveRender, ReceiverTexture, TextureLayout, Workspace};
 use lightloom_core::{Progress, Result};
@@ -54,7 +54,7 @@ pub(super) fn advection(context: &mut Context, count: usize, progress: &Progress
     const BYTES: f64 = 2.0 * 36.0;
     let (fields, photons) = (context.ten_steps(progress)?, context.photons(count, progress)?);
     let carry = || {
-        let mut carrier = Carrier::new(&fields, &photons.source, &photons.target);
+        let mut carrier = FieldTrajectories::new(&fields, &photons.source, &photons.target);
         carrier.advance_to(fields.steps() - 1, progress)
     };
     let (_, seconds) = fastest(3, ENOUGH, carry)?;
@@ -84,7 +84,7 @@ pub(super) fn frame_and_pass(
     side: usize,
     progress: &Progress,
 ) -> Result<Option<Sample>> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let layout = TextureLayout::new(photons.extent, side, 0.0);
     let flux = vec![Vec3::ONE; photons.source.len()];
     let render = ProgressiveRender::new(layout, 0.006, 1, context.scratch)?;

@@ -24,7 +24,7 @@ fn skip(project: &Project) -> Option<&'static str> {
 }
 
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let (project, again) = (context.project.clone(), context.effort.pick(0.2, 1.0));
     let finer = finer(context, !photons.walls.is_empty());
     let probes = Probes::new(&photons);

@@ -2,8 +2,8 @@
 
 use glam::Vec2;
 
-use lightloom_core::flow::{Carrier, Fields};
-use lightloom_core::pipeline::FirstMove;
+use lightloom_core::engine::MovingSegment;
+use lightloom_core::flow::{FieldTrajectories, Fields, Trajectories as _};
 use lightloom_core::{Progress, Result};
 
 /// Largest number of probes.
@@ -30,7 +30,7 @@ pub(super) struct TrackError {
 
 impl Probes {
     /// Rows at even distances, half-way between those of the guide photons.
-    pub(super) fn new(photons: &FirstMove) -> Self {
+    pub(super) fn new(photons: &MovingSegment) -> Self {
         let all = photons.source.len();
         let count = PROBES.min(all);
         let rows = || (0..count).map(|i| (2 * i + 1) * all / (2 * count));
@@ -47,7 +47,7 @@ impl Probes {
     /// # Errors
     /// `Numeric` when photons are no longer finite, `Cancelled`.
     pub(super) fn tracks(&self, fields: &Fields, progress: &Progress) -> Result<Vec<Vec2>> {
-        let mut carrier = Carrier::new(fields, &self.source, &self.targets);
+        let mut carrier = FieldTrajectories::new(fields, &self.source, &self.targets);
         let mut tracks = Vec::with_capacity(self.count() * TENTHS.count());
         let mut positions = vec![Vec2::ZERO; self.count()];
         for tenth in TENTHS {

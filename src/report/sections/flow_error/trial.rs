@@ -8,8 +8,8 @@ use super::setting::{Parameter, Refinement, Setting};
 use crate::clock::fastest;
 use crate::pareto::Candidate;
 use crate::slope::slope;
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::{FlowSettings, fit_segment};
-use lightloom_core::pipeline::FirstMove;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
@@ -61,7 +61,7 @@ pub(super) struct Measured {
 
 /// The photons and the reference for which settings are compared.
 pub(super) struct Trial<'a> {
-    pub(super) photons: &'a FirstMove,
+    pub(super) photons: &'a MovingSegment,
     pub(super) flow: &'a FlowSettings,
     pub(super) probes: Probes,
     pub(super) finer: Refinement,
@@ -115,7 +115,7 @@ impl Trial<'_> {
     /// Tracks of the probes, and the seconds of the fit.
     fn fit(&self, setting: Setting) -> Result<(Vec<Vec2>, f64)> {
         let (flow, progress) = (setting.apply(self.flow), self.progress.inner());
-        let fit = || fit_segment(&self.photons.course(&flow), &progress, None);
+        let fit = || fit_segment(&self.photons.segment(&flow), &progress);
         let ((fields, _), seconds) = fastest(2, self.again, fit)?;
         let tracks = self.probes.tracks(&fields, &progress)?;
         self.progress.advance(setting.work());

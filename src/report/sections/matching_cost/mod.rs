@@ -16,11 +16,11 @@ pub(super) const SECTION: SectionDef =
     SectionDef { name: "matching", skip: nothing_moves, measure, seconds: [4.0, 20.0] };
 
 fn measure(context: &mut Context, progress: &Progress) -> Result<Section> {
-    let photons = context.first_move(progress)?;
+    let photons = context.moving_segment(progress)?;
     let (seed, most, finest) =
         (context.project.seed, context.effort.pick(10_000, 200_000), context.effort.pick(256, 512));
     let points = Points::new(&photons, most, seed);
-    let walls = !photons.leading_walls().is_empty();
+    let walls = !photons.matched_walls().is_empty();
     let list = Variant::list(Variant::of(&context.project, walls), walls, finest);
     progress.begin("matching", list.len() as u64 + 2);
     let variants = Variants::new(&points, &photons, seed, progress)?;

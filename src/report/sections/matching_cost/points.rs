@@ -2,9 +2,9 @@
 
 use glam::Vec2;
 
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::matching::{MapSettings, Matching, dual_bound, transport_map_with};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::pipeline::FirstMove;
 use lightloom_core::{Progress, Result};
 
 /// Iterations of the maps that give the lower bound.
@@ -23,7 +23,7 @@ pub(super) struct Points {
 
 impl Points {
     /// At most `most` of the photons, at even distances; the rows of the target are shuffled.
-    pub(super) fn new(photons: &FirstMove, most: usize, seed: u64) -> Self {
+    pub(super) fn new(photons: &MovingSegment, most: usize, seed: u64) -> Self {
         let all = photons.source.len();
         let count = most.min(all);
         let row = |i: usize| i * all / count;

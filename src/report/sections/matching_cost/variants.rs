@@ -6,13 +6,13 @@ use glam::Vec2;
 
 use super::points::Points;
 use crate::clock::fastest;
-use lightloom_core::constraint::Detour;
+use lightloom_core::constraint::VisibilityGraph;
+use lightloom_core::engine::MovingSegment;
 use lightloom_core::flow::Movement;
 use lightloom_core::matching::{
-    AroundMap, ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap,
+    ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap, WallMap,
     mean_square_distance, transport_map, transport_map_with,
 };
-use lightloom_core::pipeline::FirstMove;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
@@ -117,18 +117,18 @@ impl<'a> Variants<'a> {
     /// `Cancelled`.
     pub(super) fn new(
         points: &'a Points,
-        photons: &FirstMove,
+        photons: &MovingSegment,
         seed: u64,
         progress: &Progress,
     ) -> Result<Self> {
         let (progress, Points { source, target, extent, .. }) = (progress.inner(), points);
         let straight = fastest(2, AGAIN, || transport_map(source, target, *extent, &progress))?;
-        let walls = photons.leading_walls();
+        let walls = photons.matched_walls();
         let around = || {
             fastest(2, AGAIN, || {
-                let detour = Arc::new(Detour::new(&walls, *extent, &progress)?);
-                let map = AroundMap::new(source, target, &detour, &progress)?;
-                Ok(ContinuousMap::Around(map, detour))
+                let detour = Arc::new(VisibilityGraph::new(&walls, *extent, &progress)?);
+                let map = WallMap::new(source, target, &detour, &progress)?;
+                Ok(ContinuousMap::Walls(map, detour))
             })
         };
         let around = if walls.is_empty() { None } else { Some(around()?) };

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::crop::{Crop, shrunk};
 use crate::ssim::ssim;
 use lightloom_core::Result;
-use lightloom_core::pipeline::{Passed, Rehearsal};
+use lightloom_core::engine::{FittedProject, PlaneLight};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::{Image, ReceiverTexture, View, plane_picture};
 
@@ -66,18 +66,18 @@ pub(super) struct LightError {
 
 impl PlanePictures {
     /// The light of all frames of a take.
-    pub(super) fn of(passed: &Passed, frames: usize, rehearsal: &Rehearsal) -> Result<Self> {
-        Ok(Self::spread(&light(passed, frames)?, 0.0, rehearsal))
+    pub(super) fn of(passed: &PlaneLight, frames: usize, fitted: &FittedProject) -> Result<Self> {
+        Ok(Self::spread(&light(passed, frames)?, 0.0, fitted))
     }
 
     /// Light spread by the kernel of this radius, plane units.
-    fn spread(light: &[ReceiverTexture], radius: f32, rehearsal: &Rehearsal) -> Self {
+    fn spread(light: &[ReceiverTexture], radius: f32, fitted: &FittedProject) -> Self {
         let picture = |texture: &ReceiverTexture| {
             let mut texture = texture.clone();
             if radius > 0.0 {
                 Smoother::default().filter(&mut texture, radius);
             }
-            plane_picture(&texture, rehearsal.extent(), rehearsal.paper())
+            plane_picture(&texture, fitted.extent(), fitted.paper())
         };
         Self(light.iter().map(picture).collect())
     }
@@ -88,8 +88,8 @@ impl PlanePictures {
 }
 
 /// The light of all frames of a take, watts per texel.
-pub(super) fn light(passed: &Passed, frames: usize) -> Result<Vec<ReceiverTexture>> {
-    (0..frames).map(|frame| passed.light(frame)).collect()
+pub(super) fn light(passed: &PlaneLight, frames: usize) -> Result<Vec<ReceiverTexture>> {
+    (0..frames).map(|frame| passed.texture(frame)).collect()
 }
 
 impl Reference {
@@ -98,11 +98,11 @@ impl Reference {
     pub(super) fn new(
         halves: [&[ReceiverTexture]; 2],
         radius: f32,
-        rehearsal: &Rehearsal,
+        fitted: &FittedProject,
         display: &Display,
     ) -> Option<Self> {
         SHARPER.iter().find_map(|share| {
-            let halves = halves.map(|half| PlanePictures::spread(half, share * radius, rehearsal));
+            let halves = halves.map(|half| PlanePictures::spread(half, share * radius, fitted));
             let reference = Self::of(halves, share * radius, display.clone());
             // The widest at last, whatever its noise.
             reference.filter(|reference| *share >= 1.0 || reference.noise <= CLEAN)

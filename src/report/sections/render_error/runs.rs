@@ -3,8 +3,8 @@
 use super::reference::{Display, LightError, PlanePictures, Reference, SHARPEST, light};
 use crate::context::Context;
 use lightloom_core::constraint::Constraint;
+use lightloom_core::engine::{FittedProject, PlaneLight, PlanePasses};
 use lightloom_core::export::evenly_chosen;
-use lightloom_core::pipeline::{Passed, Rehearsal, Take};
 use lightloom_core::project::Project;
 use lightloom_core::render::density::radius_of_pass;
 use lightloom_core::render::{Image, ReceiverTexture, RenderSettings, TextureLayout, first_radius};
@@ -94,8 +94,8 @@ struct Size {
 }
 
 impl Sizes {
-    fn new(rehearsal: &Rehearsal, project: &Project, budget: &Budget) -> Self {
-        let (photons, passes) = rehearsal.planned();
+    fn new(fitted: &FittedProject, project: &Project, budget: &Budget) -> Self {
+        let (photons, passes) = fitted.planned();
         let walled = usize::from(has_walls(project));
         let (most, longer) = (budget.most[walled], budget.longer[walled]);
         let photons = photons.min(most / budget.fewest).max(1);
@@ -103,17 +103,17 @@ impl Sizes {
         let series = |share: &f64| {
             let photons = ((photons as f64 * share).round() as usize).max(1);
             let settings = RenderSettings { photons: photons as u64, ..project.render.clone() };
-            Size { photons, passes: all / photons, radius: first_radius(&settings, rehearsal.extent()) }
+            Size { photons, passes: all / photons, radius: first_radius(&settings, fitted.extent()) }
         };
         let series: Vec<Size> = budget.shares.iter().map(series).collect();
         let last = |size: &Size| radius_of_pass(size.radius, size.passes - 1);
         let radius = series.last().map_or(0.5, last);
         let finest = series.iter().map(last).fold(SHARPEST * radius, f32::min);
         let widest = series.iter().map(|size| size.radius).fold(0.0, f32::max);
-        let frame = rehearsal.frame_at(SHARE);
-        let frames = if frame < rehearsal.frame_at(1.0) { vec![frame, frame + 1] } else { vec![frame] };
+        let frame = fitted.frame_at(SHARE);
+        let frames = if frame < fitted.frame_at(1.0) { vec![frame, frame + 1] } else { vec![frame] };
         let reference = (photons, (longer * all).div_ceil(2 * photons));
-        Self { series, reference, radius, layout: rehearsal.layout((widest, finest)), frames }
+        Self { series, reference, radius, layout: fitted.layout((widest, finest)), frames }
     }
 
     /// Photons of all runs.
@@ -129,15 +129,15 @@ impl Sizes {
 /// # Errors
 /// Anything wrong with the project or its files; no light on the receiver; cancelled.
 pub(super) fn run(context: &mut Context, progress: &Progress) -> Result<Runs> {
-    let rehearsal = context.pipeline.rehearse(&context.project, &progress.inner())?;
+    let fitted = context.engine.fitted(&context.project, &progress.inner())?;
     let project = &context.project;
     let budget = context.effort.pick(QUICK, FULL);
-    let sizes = Sizes::new(&rehearsal, project, &budget);
+    let sizes = Sizes::new(&fitted, project, &budget);
     progress.begin("render", sizes.photons() as u64);
-    let runner = Runner { rehearsal: &rehearsal, project, sizes: &sizes, scratch: context.scratch, progress };
+    let runner = Runner { fitted: &fitted, project, sizes: &sizes, scratch: context.scratch, progress };
     let halves = [runner.half(1)?, runner.half(2)?];
     let display = Display { view: project.render.view.view(), width: budget.width };
-    let Some(reference) = Reference::new([&halves[0], &halves[1]], sizes.radius, &rehearsal, &display) else {
+    let Some(reference) = Reference::new([&halves[0], &halves[1]], sizes.radius, &fitted, &display) else {
         return Err(Error::value("keys", "no light falls on the receiver, so there is none to measure"));
     };
     drop(halves);
@@ -145,13 +145,13 @@ pub(super) fn run(context: &mut Context, progress: &Progress) -> Result<Runs> {
     for &size in &sizes.series {
         series.push(runner.series(&reference, size)?);
     }
-    let planned = rehearsal.planned();
+    let planned = fitted.planned();
     Ok(Runs {
         reference,
         photons: 2 * sizes.reference.0 * sizes.reference.1,
         planned,
         frame: sizes.frames[0],
-        frames: rehearsal.frames().count(),
+        frames: fitted.frames().count(),
         series,
     })
 }
@@ -163,7 +163,7 @@ fn has_walls(project: &Project) -> bool {
 
 /// The input that all runs share.
 struct Runner<'a> {
-    rehearsal: &'a Rehearsal,
+    fitted: &'a FittedProject,
     project: &'a Project,
     sizes: &'a Sizes,
     scratch: &'a std::path::Path,
@@ -171,8 +171,8 @@ struct Runner<'a> {
 }
 
 impl Runner<'_> {
-    fn take(&self, photons: usize, passes: usize) -> Take {
-        Take {
+    fn take(&self, photons: usize, passes: usize) -> PlanePasses {
+        PlanePasses {
             photons,
             passes,
             seed: self.project.seed,
@@ -183,8 +183,8 @@ impl Runner<'_> {
         }
     }
 
-    fn run(&self, take: &Take, mut passed: impl FnMut(&Passed) -> Result<()>) -> Result<()> {
-        self.rehearsal.run(take, self.scratch, &self.progress.inner(), &mut |reached| {
+    fn run(&self, take: &PlanePasses, mut passed: impl FnMut(&PlaneLight) -> Result<()>) -> Result<()> {
+        self.fitted.run(take, self.scratch, &self.progress.inner(), &mut |reached| {
             self.progress.advance(take.photons as u64);
             passed(reached)
         })
@@ -194,7 +194,7 @@ impl Runner<'_> {
     fn half(&self, number: u64) -> Result<Vec<ReceiverTexture>> {
         let (photons, passes) = self.sizes.reference;
         let seed = self.project.seed.wrapping_add(number);
-        let take = Take { seed, ..self.take(photons, passes) };
+        let take = PlanePasses { seed, ..self.take(photons, passes) };
         let mut seen = None;
         self.run(&take, |passed| {
             if passed.passes == passes {
@@ -207,11 +207,11 @@ impl Runner<'_> {
 
     /// Seconds of a pass of this size through all frames.
     fn pace(&self, Size { photons, radius, .. }: Size) -> Result<f64> {
-        let all: Vec<i32> = self.rehearsal.frames().collect();
+        let all: Vec<i32> = self.fitted.frames().collect();
         let frames = evenly_chosen(&all, TIMED);
         let share = frames.len() as f64 / all.len() as f64;
         let mut seconds = 0.0;
-        self.run(&Take { radius, frames, ..self.take(photons, 1) }, |passed| {
+        self.run(&PlanePasses { radius, frames, ..self.take(photons, 1) }, |passed| {
             seconds = passed.seconds / share;
             Ok(())
         })?;
@@ -225,7 +225,7 @@ impl Runner<'_> {
         // Rounding must not part a kernel from its equal.
         let is_resolved = |passes: &usize| radius_of_pass(radius, passes - 1) > 0.999 * reference.radius;
         let passes = (1..=passes).take_while(is_resolved).last().unwrap_or(1);
-        let take = Take { radius, shrinks: true, ..self.take(photons, passes) };
+        let take = PlanePasses { radius, shrinks: true, ..self.take(photons, passes) };
         let pace = self.pace(size)?;
         let (mut rows, mut pictures) = (Vec::new(), Vec::new());
         self.run(&take, |passed| {
@@ -233,7 +233,7 @@ impl Runner<'_> {
                 return Ok(());
             }
             let LightError { rms, perceptual, flicker, picture } =
-                reference.distance(&PlanePictures::of(passed, take.frames.len(), self.rehearsal)?);
+                reference.distance(&PlanePictures::of(passed, take.frames.len(), self.fitted)?);
             rows.push(PassError {
                 passes: passed.passes,
                 seconds: pace * passed.passes as f64,

@@ -1,0 +1,170 @@
+//! The house rules that a machine can watch: file length, which module may use which, and circles among files.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod circles;
+mod module;
+mod package;
+mod tokens;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use circles::circles;
+use module::Module;
+use package::Package;
+
+/// The core's modules, lowest first: each may use only those before it (and itself).
+const ORDER: [&str; 15] = [
+    "error",
+    "progress",
+    "files",
+    "math",
+    "scene",
+    "photon",
+    "targets",
+    "constraint",
+    "matching",
+    "flow",
+    "render",
+    "export",
+    "project",
+    "engine",
+    "lib",
+];
+
+/// Modules that compute on plain slices and know nothing of the scene.
+const SCENELESS: [&str; 4] = ["targets", "constraint", "matching", "flow"];
+
+/// A window and a command line.
+const OUTSIDE: [&str; 9] =
+    ["lightloom", "eframe", "egui", "egui_wgpu", "wgpu", "rfd", "clap", "indicatif", "ctrlc"];
+
+/// What a folder never names.
+const UNKNOWN_IN: [(&str, &[&str]); 4] = [
+    ("src/core", &OUTSIDE),
+    ("src/core", &["lightloom_report"]),
+    ("src/report", &OUTSIDE),
+    ("src/editor", &["cli", "clap", "indicatif", "ctrlc"]),
+];
+
+/// Files that import each other in a circle, one circle a paragraph. To be emptied; the list is exact.
+const CIRCLES: &str = include_str!("circles.txt");
+
+const LONGEST_FILE: usize = 500;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The path from the top of the repository on, with `/`.
+fn name(file: &Path) -> String {
+    let parts = file.strip_prefix(root()).unwrap().iter().map(|part| part.to_str().unwrap());
+    parts.collect::<Vec<_>>().join("/")
+}
+
+/// The packages of `src`: each has a `lib.rs`.
+fn packages() -> Vec<Package> {
+    let roots = sources(&root().join("src")).into_iter().filter(|file| file.ends_with("lib.rs"));
+    roots.map(|file| Package::read(&file)).collect()
+}
+
+#[test]
+fn no_source_file_is_too_long() {
+    let long: Vec<_> = ["src", "tests", "assets"]
+        .iter()
+        .flat_map(|folder| sources(&root().join(folder)))
+        .filter(|path| fs::read_to_string(path).unwrap().lines().count() > LONGEST_FILE)
+        .collect();
+    assert!(long.is_empty(), "over {LONGEST_FILE} lines: {long:?}");
+}
+
+#[test]
+fn every_source_file_belongs_to_a_package() {
+    let read: BTreeSet<_> = packages().into_iter().flat_map(|package| package.files).collect();
+    let all = sources(&root().join("src")).into_iter().filter(|file| *file != root().join("src/main.rs"));
+    assert_eq!(read, all.collect());
+}
+
+#[test]
+fn modules_use_only_what_lies_below_them() {
+    let core = root().join("src/core");
+    let package = Package::read(&core.join("lib.rs"));
+    let module = |file: usize| {
+        let first = package.files[file].strip_prefix(&core).unwrap().iter().next().unwrap();
+        first.to_str().unwrap().trim_end_matches(".rs").to_owned()
+    };
+    let rank = |file: usize| {
+        let module = module(file);
+        let found = ORDER.iter().position(|name| *name == module);
+        found.unwrap_or_else(|| panic!("{module} has no place in the order; give it one"))
+    };
+    let mut wrong = Vec::new();
+    for (file, imports) in package.imports().iter().enumerate() {
+        let sceneless = SCENELESS.contains(&&*module(file));
+        for &other in imports {
+            let scene = sceneless && ["scene", "photon"].contains(&&*module(other));
+            if rank(other) > rank(file) || scene {
+                wrong.push(format!("{} uses {}", name(&package.files[file]), name(&package.files[other])));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let gone: Vec<_> =
+        ORDER.iter().filter(|name| (0..package.files.len()).all(|file| module(file) != **name)).collect();
+    assert!(gone.is_empty(), "in the order, but no module: {gone:?}");
+}
+
+#[test]
+fn the_core_knows_no_window_and_the_editor_no_command_line() {
+    let mut wrong = Vec::new();
+    for (folder, unknown) in UNKNOWN_IN {
+        let folder = root().join(folder);
+        for file in sources(&root().join("src")).into_iter().filter(|file| file.starts_with(&folder)) {
+            let module = Module::read(&fs::read_to_string(&file).unwrap());
+            let paths = module.uses.iter().map(|import| &import.path).chain(&module.paths);
+            let foreign = |path: &&Vec<String>| {
+                let first = path.iter().find(|part| !["crate", "super", "self"].contains(&part.as_str()));
+                path.len() > 1 && first.is_some_and(|first| unknown.contains(&first.as_str()))
+            };
+            wrong.extend(paths.filter(foreign).map(|path| format!("{}: {}", name(&file), path.join("::"))));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn no_two_files_import_each_other_in_a_circle() {
+    let mut found = Vec::new();
+    for package in packages() {
+        let listed = |circle: Vec<usize>| {
+            let files: BTreeSet<_> = circle.into_iter().map(|file| name(&package.files[file])).collect();
+            files.into_iter().map(|file| file + "\n").collect::<String>()
+        };
+        found.extend(circles(&package.imports()).into_iter().map(listed));
+    }
+    found.sort();
+    let found = found.join("\n");
+    assert!(found == CIRCLES, "tests/tidy/circles.txt is exact; it should say:\n{found}");
+}
+
+#[test]
+fn the_watch_reads_grouped_uses() {
+    let module = Module::read("use crate::{Error, flow::{Fade, Grid}, math}; use crate::scene::Scene;");
+    let second: Vec<_> = module.uses.iter().map(|import| import.path[1].as_str()).collect();
+    assert_eq!(second, ["Error", "flow", "flow", "math", "scene"]);
+}
