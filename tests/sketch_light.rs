@@ -6,6 +6,7 @@ mod sketches;
 
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
+use lightloom_core::files::npy;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::pipeline::{Detail, Exposure, Look, Pipeline};
 use lightloom_core::project::{AssetFolder, Ease};
@@ -49,7 +50,7 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
     let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
     Pipeline::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
     let bytes = std::fs::read(folder.path().join("tracks.npy")).unwrap();
-    let tracks: Vec<f32> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
+    let (_, tracks) = npy::parse(&bytes).unwrap();
     let frame = |i: usize| -> Vec<Vec2> {
         let row = &tracks[2 * 20_000 * i..2 * 20_000 * (i + 1)];
         row.chunks_exact(2).map(Vec2::from_slice).collect()
