@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 17] = [
     "error",
+    "setting",
     "progress",
     "files",
     "math",

@@ -28,6 +28,7 @@
 //! (`tests/tidy.rs` watches it).
 
 pub mod error;
+pub mod setting;
 pub mod progress;
 
 pub mod files;

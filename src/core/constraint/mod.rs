@@ -20,6 +20,7 @@ pub use span::{Span, Window};
 pub use wall::{ActiveWall, Wall};
 
 use crate::Result;
+use crate::setting::{Choice, Setting, settings};
 
 /// Something drawn on the plane, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +31,20 @@ pub enum Constraint {
     /// Not through here.
     Wall(Wall),
 }
+
+settings! { Constraint {
+    /// The artist's name for it.
+    NAME = Setting::text("constraints[].name");
+    /// The frames during which it acts. Light that a wall holds back meanwhile goes on afterwards.
+    SPAN = Setting::choice("constraints[].span", &[
+        Choice { value: "", help: "in all frames" },
+        Choice { value: "", help: "from one frame to another" },
+    ]);
+    /// Whether it acts at all: the eye in the editor's list.
+    ENABLED = Setting::switch("constraints[].enabled", true);
+    /// Whether the editor keeps it from being changed: the padlock in its list.
+    LOCKED = Setting::switch("constraints[].locked", false);
+} }
 
 impl Constraint {
     /// Refuses values out of range; `place` is the path of this constraint, such as `constraints[0]`.
@@ -77,7 +92,7 @@ impl Constraint {
 }
 
 pub(crate) fn enabled() -> bool {
-    true
+    Constraint::ENABLED.is_on()
 }
 
 /// What is not said need not be written.
