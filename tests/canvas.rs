@@ -5,12 +5,12 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::action::Action;
-use lightloom::editor::canvas::{self, Under};
+use lightloom::editor::canvas::{self, Backdrop};
+use lightloom::editor::context::EditorContext;
 use lightloom::editor::document::{Document, Edit};
-use lightloom::editor::panels::Desk;
 use lightloom::editor::preview::Preview;
 use lightloom::editor::session::Session;
-use lightloom::editor::tools::{Toolbox, bar};
+use lightloom::editor::tools::{Toolbox, toolbar};
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
@@ -26,17 +26,17 @@ struct Window {
 impl Window {
     fn ui(&mut self, ui: &mut egui::Ui) {
         let mut actions = Vec::new();
-        let mut desk = Desk {
+        let mut editor = EditorContext {
             document: &self.document,
             session: &mut self.session,
             preview: &self.preview,
             actions: &mut actions,
         };
-        egui::Panel::left("bar").exact_size(bar::WIDTH).resizable(false).show(ui, |ui| {
-            bar::show(ui, &mut desk, &self.toolbox);
+        egui::Panel::left("bar").exact_size(toolbar::WIDTH).resizable(false).show(ui, |ui| {
+            toolbar::show(ui, &mut editor, &self.toolbox);
         });
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            canvas::show(ui, &mut desk, &mut self.toolbox, &Under::default());
+            canvas::show(ui, &mut editor, &mut self.toolbox, &Backdrop::default());
         });
         for action in actions {
             match action.clone() {

@@ -11,15 +11,15 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lightloom::editor::action::Action;
-use lightloom::editor::command::{COMMANDS, Command, Entry, Menu};
+use lightloom::editor::command::{COMMANDS, Command, CommandInfo, Menu};
 use lightloom::editor::document::{Document, Edit};
 use lightloom::editor::menu::Recent;
 use lightloom::editor::palette::{Palette, items};
 use lightloom::editor::selection::Selection;
-use lightloom::editor::shortcuts::{self, Sheet};
+use lightloom::editor::shortcuts::{self, ShortcutSheet};
 use lightloom::editor::tour::{Anchors, Tour};
 use lightloom::editor::welcome::Welcome;
-use lightloom::editor::{keys, menu, tools};
+use lightloom::editor::{keyboard, menu, tools};
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
@@ -56,11 +56,11 @@ fn the_palette_finds_and_runs_every_command() {
     let mut harness = harness(state, |ui, (table, palette, chosen): &mut State| {
         let ctx = ui.ctx().clone();
         let tools = tool_keys();
-        if let Some(action) = table.frame(&ctx, |desk| palette.show(&ctx, || items(desk, &tools, &[]))) {
+        if let Some(action) = table.frame(&ctx, |editor| palette.show(&ctx, || items(editor, &tools, &[]))) {
             *chosen = Some(action);
         }
     });
-    for Entry { command, name, .. } in COMMANDS {
+    for CommandInfo { command, name, .. } in COMMANDS {
         harness.state_mut().1.open();
         harness.run_ok();
         harness.get_by_label("Find a command").type_text(name);
@@ -95,11 +95,11 @@ fn the_palette_finds_and_runs_every_command() {
 #[test]
 fn every_command_is_in_its_menu_and_can_be_called_there() {
     let recent = [Recent { path: "/tmp/one.json".into(), is_there: false }];
-    for Entry { command, menu, name, .. } in COMMANDS {
+    for CommandInfo { command, menu, name, .. } in COMMANDS {
         let recent = recent.clone();
         let mut harness = harness(busy_table(), move |ui, table: &mut Table| {
             let ctx = ui.ctx().clone();
-            table.frame(&ctx, |desk| menu::show(ui, desk, &recent));
+            table.frame(&ctx, |editor| menu::show(ui, editor, &recent));
         });
         harness.get_by_role_and_label(Role::Button, shortcuts::group(*menu)).click();
         harness.run_ok();
@@ -118,11 +118,11 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
 fn the_sheet_names_every_shortcut_and_can_be_searched() {
     let mut harness = harness(
         {
-            let mut s = Sheet::default();
+            let mut s = ShortcutSheet::default();
             s.open = true;
             s
         },
-        |ui, sheet: &mut Sheet| {
+        |ui, sheet: &mut ShortcutSheet| {
             sheet.show(ui.ctx(), &tool_keys());
         },
     );
@@ -148,8 +148,8 @@ fn space_plays_and_pauses_but_not_while_text_is_typed() {
     type State = (Table, String);
     let mut harness = harness((busy_table(), String::new()), |ui, (table, text): &mut State| {
         let ctx = ui.ctx().clone();
-        let pressed = keys::pressed(&ctx, &tool_keys(), false);
-        table.frame(&ctx, |desk| desk.actions.extend(pressed));
+        let pressed = keyboard::pressed(&ctx, &tool_keys(), false);
+        table.frame(&ctx, |editor| editor.actions.extend(pressed));
         ui.text_edit_singleline(text).accessible_name("Text");
     });
     for playing in [true, false] {

@@ -7,7 +7,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use lightloom::editor::store::{
-    Answer, Fingerprint, Folders, Journal, Note, Opened, Preferences, Request, Save, Saver, recoverable,
+    Fingerprint, Folders, Journal, Note, Opened, Preferences, SaveRequest, Saver, StoreReply, StoreRequest,
+    recoverable,
 };
 use lightloom_core::project::{Project, ProjectFile};
 
@@ -75,15 +76,15 @@ impl Waiting {
         Self { saver, woken }
     }
 
-    fn ask(&self, request: Request) -> Answer {
+    fn ask(&self, request: StoreRequest) -> StoreReply {
         self.saver.ask(request);
         self.woken.recv_timeout(PATIENCE).unwrap();
         self.saver.answer().unwrap()
     }
 
     fn open(&self, desk: &Desk) -> Opened {
-        match self.ask(Request::Open(desk.path())) {
-            Answer::Opened(path, Ok(opened)) if path == desk.path() => opened,
+        match self.ask(StoreRequest::Open(desk.path())) {
+            StoreReply::Opened(path, Ok(opened)) if path == desk.path() => opened,
             other => panic!("{other:?}"),
         }
     }
@@ -231,9 +232,9 @@ fn opening_and_saving_gives_the_same_bytes_and_no_backup() {
     let waiting = Waiting::new(&desk);
     let opened = waiting.open(&desk);
     let project = Arc::new(opened.file.project().clone());
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let save = SaveRequest { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
     assert!(
-        matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(saved)) if saved.seen == opened.seen)
+        matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(saved)) if saved.seen == opened.seen)
     );
     assert_eq!(std::fs::read(desk.path()).unwrap(), before);
     assert!(!desk.folders().backups().exists());
@@ -249,8 +250,10 @@ fn the_last_version_is_kept_aside() {
     let mut versions = vec![first];
     for seed in [2, 3] {
         let project = with_seed(&opened.file, seed);
-        let save = Save { path: desk.path(), file: opened.file.clone(), project, seen };
-        let Answer::Saved(_, Ok(saved)) = waiting.ask(Request::Save(save)) else { panic!("not saved") };
+        let save = SaveRequest { path: desk.path(), file: opened.file.clone(), project, seen };
+        let StoreReply::Saved(_, Ok(saved)) = waiting.ask(StoreRequest::Save(save)) else {
+            panic!("not saved")
+        };
         assert_eq!(saved.note, None);
         seen = Some(saved.seen);
         let backups: Vec<_> = std::fs::read_dir(desk.folders().backups()).unwrap().collect();
@@ -268,10 +271,15 @@ fn a_file_that_another_program_changed_is_replaced_only_when_asked() {
     let opened = waiting.open(&desk);
     std::fs::write(desk.path(), b"somebody else's work").unwrap();
     let project = with_seed(&opened.file, 2);
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
-    let Answer::ChangedOnDisk(save) = waiting.ask(Request::Save(save)) else { panic!("not noticed") };
+    let save = SaveRequest { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let StoreReply::ChangedOnDisk(save) = waiting.ask(StoreRequest::Save(save)) else {
+        panic!("not noticed")
+    };
     assert_eq!(std::fs::read(desk.path()).unwrap(), b"somebody else's work");
-    assert!(matches!(waiting.ask(Request::Save(Save { seen: None, ..save })), Answer::Saved(_, Ok(_))));
+    assert!(matches!(
+        waiting.ask(StoreRequest::Save(SaveRequest { seen: None, ..save })),
+        StoreReply::Saved(_, Ok(_))
+    ));
     assert_eq!(desk.file().project().seed, 2);
 }
 
@@ -282,8 +290,8 @@ fn a_file_that_was_deleted_is_no_changed_one() {
     let opened = waiting.open(&desk);
     std::fs::remove_file(desk.path()).unwrap();
     let project = with_seed(&opened.file, 3);
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
-    assert!(matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(_))));
+    let save = SaveRequest { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
+    assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert_eq!(desk.file().project().seed, 3);
 }
 
@@ -292,15 +300,15 @@ fn what_cannot_be_opened_or_saved_is_an_answer_and_changes_nothing() {
     let desk = Desk::new();
     let waiting = Waiting::new(&desk);
     let none = desk.folder.path().join("none.json");
-    assert!(matches!(waiting.ask(Request::Open(none)), Answer::Opened(_, Err(_))));
+    assert!(matches!(waiting.ask(StoreRequest::Open(none)), StoreReply::Opened(_, Err(_))));
     let opened = waiting.open(&desk);
     let before = std::fs::read(desk.path()).unwrap();
     let mut bad = opened.file.project().clone();
     bad.flow.gamma = 7.0;
     let save = |path: PathBuf, project: Project| {
         let (file, project) = (opened.file.clone(), Arc::new(project));
-        match waiting.ask(Request::Save(Save { path, file, project, seen: None })) {
-            Answer::Saved(_, Err(error)) => error.to_string(),
+        match waiting.ask(StoreRequest::Save(SaveRequest { path, file, project, seen: None })) {
+            StoreReply::Saved(_, Err(error)) => error.to_string(),
             other => panic!("{other:?}"),
         }
     };
@@ -324,8 +332,8 @@ fn saving_through_a_link_writes_the_file_behind_it() {
     let waiting = Waiting::new(&desk);
     let opened = waiting.open(&desk);
     let project = with_seed(&opened.file, 2);
-    let save = Save { path: link.clone(), file: opened.file, project, seen: Some(opened.seen) };
-    assert!(matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(_))));
+    let save = SaveRequest { path: link.clone(), file: opened.file, project, seen: Some(opened.seen) };
+    assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert!(link.is_symlink());
     assert_eq!(desk.file().project().seed, 2);
 }
@@ -336,10 +344,10 @@ fn what_was_asked_for_is_done_before_the_saver_goes() {
     let waiting = Waiting::new(&desk);
     let file = desk.file();
     let project = with_seed(&file, 2);
-    waiting.saver.ask(Request::Save(Save { path: desk.path(), file, project, seen: None }));
+    waiting.saver.ask(StoreRequest::Save(SaveRequest { path: desk.path(), file, project, seen: None }));
     let mut preferences = Preferences::default();
     preferences.remember(&desk.path());
-    waiting.saver.ask(Request::Remember(Box::new(preferences.clone())));
+    waiting.saver.ask(StoreRequest::Remember(Box::new(preferences.clone())));
     drop(waiting);
     assert_eq!(desk.file().project().seed, 2);
     assert_eq!(Preferences::load(&desk.folders().config), (preferences, None));
@@ -352,8 +360,8 @@ fn lost_work_is_looked_for_and_discarded_by_the_saver() {
     journal.note(desk.note(5));
     drop(journal);
     let waiting = Waiting::new(&desk);
-    let Answer::Lost(mut found) = waiting.ask(Request::LookForLost) else { panic!("no answer") };
-    waiting.saver.ask(Request::Discard(Box::new(found.pop().unwrap())));
-    assert!(matches!(waiting.ask(Request::LookForLost), Answer::Lost(none) if none.is_empty()));
+    let StoreReply::Lost(mut found) = waiting.ask(StoreRequest::LookForLost) else { panic!("no answer") };
+    waiting.saver.ask(StoreRequest::Discard(Box::new(found.pop().unwrap())));
+    assert!(matches!(waiting.ask(StoreRequest::LookForLost), StoreReply::Lost(none) if none.is_empty()));
     assert_eq!(desk.files_in_recovery(), 0);
 }

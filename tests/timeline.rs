@@ -36,7 +36,7 @@ fn window() -> Harness<'static, Window> {
                 let ctx = ui.ctx().clone();
                 let Window { table, timeline } = window;
                 egui::CentralPanel::default()
-                    .show(ui, |ui| table.frame(&ctx, |desk| timeline.show(ui, desk)));
+                    .show(ui, |ui| table.frame(&ctx, |editor| timeline.show(ui, editor)));
             },
             state,
         );
@@ -218,7 +218,7 @@ fn marks_bound_what_is_played_and_never_cross() {
         let ctx = harness.ctx.clone();
         let table = &mut harness.state_mut().table;
         table.session.playhead = frame;
-        table.frame(&ctx, |desk| desk.ask(Action::Command(command)));
+        table.frame(&ctx, |editor| editor.ask(Action::Command(command)));
     };
     run(&mut harness, 10, Command::MarkIn);
     run(&mut harness, 30, Command::MarkOut);

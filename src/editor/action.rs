@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::asset::AssetUse;
 use super::command::Command;
 use super::document::Edit;
-use super::pick::Pick;
 use super::selection::Selection;
 use super::session::Panel;
 
@@ -39,7 +39,7 @@ pub enum Action {
     /// Start from one of the templates.
     New(usize),
     /// Let the artist pick a file, and put it into the project.
-    Pick(Pick),
+    PickFile(AssetUse),
     /// Say something in the status bar.
     Say(String),
 }

@@ -42,7 +42,7 @@ pub enum Command {
     BothViews,
     PlaneView,
     ShotView,
-    LookView,
+    OrbitView,
     ShowArrows,
     ShowStreamlines,
     ShowTrails,
@@ -77,7 +77,7 @@ pub enum Menu {
 
 /// How a command is shown and called.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct CommandInfo {
     /// Which.
     pub command: Command,
     /// Its menu.
@@ -94,16 +94,16 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 const ALT: Modifiers = Modifiers::ALT;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
-const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> Entry {
-    Entry { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
+const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> CommandInfo {
+    CommandInfo { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
 }
 
-const fn off(command: Command, menu: Menu, name: &'static str) -> Entry {
-    Entry { command, menu, name, shortcut: None }
+const fn off(command: Command, menu: Menu, name: &'static str) -> CommandInfo {
+    CommandInfo { command, menu, name, shortcut: None }
 }
 
 /// All commands, in the order of the menus.
-pub const COMMANDS: &[Entry] = &[
+pub const COMMANDS: &[CommandInfo] = &[
     on(Command::New, Menu::File, "New", CTRL, Key::N),
     on(Command::Open, Menu::File, "Open…", CTRL, Key::O),
     on(Command::Save, Menu::File, "Save", CTRL, Key::S),
@@ -143,7 +143,7 @@ pub const COMMANDS: &[Entry] = &[
     on(Command::BothViews, Menu::View, "Plane and shot", NONE, Key::Num1),
     on(Command::PlaneView, Menu::View, "Plane alone", NONE, Key::Num2),
     on(Command::ShotView, Menu::View, "Shot alone", NONE, Key::Num3),
-    on(Command::LookView, Menu::View, "Look around the scene", NONE, Key::Num4),
+    on(Command::OrbitView, Menu::View, "Orbit view", NONE, Key::Num4),
     on(Command::ShowDrawn, Menu::View, "Lines and walls", CTRL, Key::H),
     on(Command::ShowTarget, Menu::View, "Target", NONE, Key::T),
     on(Command::ShowArrows, Menu::View, "Flow arrows", NONE, Key::F),
@@ -164,7 +164,7 @@ pub const COMMANDS: &[Entry] = &[
 
 impl Command {
     /// How it is shown and called.
-    pub fn entry(self) -> Option<&'static Entry> {
+    pub fn info(self) -> Option<&'static CommandInfo> {
         COMMANDS.iter().find(|entry| entry.command == self)
     }
 }

@@ -8,9 +8,10 @@ use egui::{
 
 use super::action::Action;
 use super::command::COMMANDS;
-use super::panels::{Desk, PANELS};
+use super::panels::PANELS;
 use super::templates::TEMPLATES;
 use super::{menu, shortcuts};
+use crate::editor::context::EditorContext;
 
 /// Height of a line, points.
 const ROW: f32 = 26.0;
@@ -40,11 +41,15 @@ pub struct Palette {
 }
 
 /// All that can be asked for: commands, tools, panels, examples, and `presets` by name.
-pub fn items(desk: &Desk, tools: &[(&'static str, Key)], presets: &[(String, Action)]) -> Vec<Item> {
+pub fn items(
+    editor: &EditorContext,
+    tools: &[(&'static str, Key)],
+    presets: &[(String, Action)],
+) -> Vec<Item> {
     let item = |name: String, kind, key, action| Item { name, kind, key, action, enabled: true };
     let commands = COMMANDS.iter().map(|entry| Item {
         key: entry.shortcut.as_ref().map(shortcuts::words),
-        enabled: menu::is_enabled(entry.command, desk.document, desk.session),
+        enabled: menu::is_enabled(entry.command, editor.document, editor.session),
         ..item(entry.name.into(), shortcuts::group(entry.menu), None, entry.command.into())
     });
     let tools = tools.iter().enumerate().map(|(index, (name, key))| {

@@ -23,15 +23,15 @@ pub struct Session {
     /// Frames from and to which it runs; none runs all.
     pub marks: [Option<i32>; 2],
     /// Which views stand in the window.
-    pub views: Views,
+    pub layout: ViewLayout,
     /// Where the plane view looks.
-    pub plane: PlaneEye,
+    pub plane: PlaneViewport,
     /// Where the shot view looks.
-    pub shot: ShotEye,
+    pub shot: ShotViewport,
     /// From where the free look sees the scene; none until it was turned.
     pub orbit: Option<Orbit>,
     /// What is drawn over the light.
-    pub show: Shown,
+    pub overlays: Overlays,
     /// Caustics that are hidden, by group.
     pub hidden: BTreeSet<usize>,
     /// Caustics that alone are shown, by group; empty shows all that are not hidden.
@@ -50,21 +50,21 @@ pub struct Session {
 
 /// Which views stand in the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Views {
+pub enum ViewLayout {
     /// Plane and shot, side by side.
     #[default]
-    Both,
+    PlaneAndShot,
     /// The receiver seen flat.
     Plane,
     /// Through the camera.
     Shot,
     /// From anywhere.
-    Look,
+    Orbit,
 }
 
 /// Where the plane view looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlaneEye {
+pub struct PlaneViewport {
     /// The plane point in the middle; none for the middle of the plane.
     pub centre: Option<Vec2>,
     /// Times the size at which the plane fits the view, 0.05 to 200; 0 counts as 1.
@@ -73,14 +73,14 @@ pub struct PlaneEye {
 
 /// Where the shot view looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShotEye {
+pub struct ShotViewport {
     /// Times the size at which the picture fits the view, 0.05 to 200.
     pub zoom: f32,
     /// How far the middle of the picture lies from the middle of the view, points.
     pub offset: [f32; 2],
 }
 
-impl Default for ShotEye {
+impl Default for ShotViewport {
     fn default() -> Self {
         Self { zoom: 1.0, offset: [0.0; 2] }
     }
@@ -101,7 +101,7 @@ pub struct Orbit {
 
 /// What is drawn over the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct Overlays {
     /// Lines and walls.
     pub drawn: bool,
     /// The picture of the next key frame.
@@ -118,7 +118,7 @@ pub struct Shown {
     pub map: Option<FieldMap>,
 }
 
-impl Default for Shown {
+impl Default for Overlays {
     fn default() -> Self {
         Self {
             drawn: true,
@@ -147,14 +147,14 @@ pub enum FieldMap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wipe {
     /// What stands on the right.
-    pub with: Other,
+    pub with: Comparison,
     /// Where the handle stands, 0 to 1 of the width.
     pub split: f32,
 }
 
 /// What this flow is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Other {
+pub enum Comparison {
     /// Another method.
     Method(Movement),
     /// The same without anything drawn.
@@ -203,11 +203,11 @@ impl Default for Session {
             playing: false,
             looping: true,
             marks: [None; 2],
-            views: Views::default(),
-            plane: PlaneEye::default(),
-            shot: ShotEye::default(),
+            layout: ViewLayout::default(),
+            plane: PlaneViewport::default(),
+            shot: ShotViewport::default(),
             orbit: None,
-            show: Shown::default(),
+            overlays: Overlays::default(),
             hidden: BTreeSet::new(),
             solo: BTreeSet::new(),
             compare: None,

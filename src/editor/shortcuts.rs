@@ -2,11 +2,11 @@
 
 use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
 
-use super::command::{COMMANDS, Entry, Menu};
+use super::command::{COMMANDS, CommandInfo, Menu};
 
 /// A key and what it does.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+pub struct ShortcutLine {
     /// The group it is listed in.
     pub group: &'static str,
     /// What it does.
@@ -17,7 +17,7 @@ pub struct Line {
 
 /// The sheet.
 #[derive(Clone, Debug, Default)]
-pub struct Sheet {
+pub struct ShortcutSheet {
     /// Whether it is seen.
     pub open: bool,
     filter: String,
@@ -29,7 +29,7 @@ pub fn words(shortcut: &KeyboardShortcut) -> String {
 }
 
 /// The name of a command with its key, for tooltips.
-pub fn with_key(entry: &Entry) -> String {
+pub fn with_key(entry: &CommandInfo) -> String {
     entry
         .shortcut
         .as_ref()
@@ -51,17 +51,17 @@ const GESTURES: [(&str, &str); 10] = [
 ];
 
 /// All shortcuts: of the tools, of the commands, and the gestures.
-pub fn lines(tools: &[(&'static str, Key)]) -> Vec<Line> {
-    let tool = |(name, key): &(&'static str, Key)| Line {
+pub fn lines(tools: &[(&'static str, Key)]) -> Vec<ShortcutLine> {
+    let tool = |(name, key): &(&'static str, Key)| ShortcutLine {
         group: "Tools",
         name: (*name).into(),
         key: key.name().into(),
     };
-    let command = |entry: &Entry| {
+    let command = |entry: &CommandInfo| {
         let shortcut = entry.shortcut.as_ref()?;
-        Some(Line { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
+        Some(ShortcutLine { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
     };
-    let gesture = |(name, key): &(&str, &str)| Line {
+    let gesture = |(name, key): &(&str, &str)| ShortcutLine {
         group: "Mouse and keys",
         name: (*name).into(),
         key: (*key).into(),
@@ -85,17 +85,17 @@ pub fn group(menu: Menu) -> &'static str {
     }
 }
 
-impl Sheet {
+impl ShortcutSheet {
     /// Shows the sheet where it is open.
     pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
         if !self.open {
             return;
         }
         let filter = self.filter.to_lowercase();
-        let found = |line: &Line| {
+        let found = |line: &ShortcutLine| {
             format!("{} {} {}", line.group, line.name, line.key).to_lowercase().contains(&filter)
         };
-        let lines: Vec<Line> = lines(tools).into_iter().filter(found).collect();
+        let lines: Vec<ShortcutLine> = lines(tools).into_iter().filter(found).collect();
         let window =
             egui::Window::new("Shortcuts").open(&mut self.open).collapsible(false).resizable([false, true]);
         let placed = window
@@ -121,13 +121,13 @@ impl Sheet {
 }
 
 /// Where the second column begins: at the group's begin that leaves both about as long.
-fn halves(lines: &[Line]) -> usize {
+fn halves(lines: &[ShortcutLine]) -> usize {
     let begins =
         (0..=lines.len()).filter(|&i| i == lines.len() || i == 0 || lines[i].group != lines[i - 1].group);
     begins.min_by_key(|i| i.abs_diff(lines.len().div_ceil(2))).unwrap_or(0)
 }
 
-fn list(ui: &mut egui::Ui, lines: &[Line]) {
+fn list(ui: &mut egui::Ui, lines: &[ShortcutLine]) {
     for group in lines.chunk_by(|a, b| a.group == b.group) {
         ui.add_space(4.0);
         ui.strong(group[0].group);

@@ -7,7 +7,7 @@ use eframe::egui;
 use lightloom_core::project::ProjectFile;
 use lightloom_core::{Result, files};
 
-use super::app::{App, Card, Setup};
+use super::app::{App, Gpu, Setup};
 use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
@@ -38,9 +38,9 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         ..Default::default()
     };
     let create = move |context: &eframe::CreationContext| {
-        let card = context.wgpu_render_state.as_ref().map_or(Card::None, prepare_card);
+        let gpu = context.wgpu_render_state.as_ref().map_or(Gpu::None, prepare_gpu);
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, card };
+        let setup = Setup { document, message, folders, preferences, dialogs, gpu };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| error.to_string())
@@ -86,12 +86,12 @@ fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
-/// Gives the card what it needs to draw photons, and tells what it is.
-fn prepare_card(state: &egui_wgpu::RenderState) -> Card {
-    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Card::None };
+/// Gives the gpu what it needs to draw photons, and tells what it is.
+fn prepare_gpu(state: &egui_wgpu::RenderState) -> Gpu {
+    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Gpu::None };
     state.renderer.write().callback_resources.insert(renderer);
     match state.adapter.get_info().device_type {
-        wgpu::DeviceType::Cpu => Card::Software,
-        _ => Card::Hardware,
+        wgpu::DeviceType::Cpu => Gpu::Software,
+        _ => Gpu::Hardware,
     }
 }

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use lightloom::editor::action::Action;
+use lightloom::editor::context::EditorContext;
 use lightloom::editor::document::Document;
-use lightloom::editor::panels::Desk;
 use lightloom::editor::preview::Preview;
 use lightloom::editor::session::Session;
 use lightloom::editor::{theme, timeline};
@@ -39,12 +39,12 @@ impl Table {
     }
 
     /// One frame: shows a part, then carries out what it asked for.
-    pub(crate) fn frame<R>(&mut self, ctx: &egui::Context, show: impl FnOnce(&mut Desk) -> R) -> R {
+    pub(crate) fn frame<R>(&mut self, ctx: &egui::Context, show: impl FnOnce(&mut EditorContext) -> R) -> R {
         if !std::mem::replace(&mut self.themed, true) {
             theme::apply(ctx);
         }
         let mut actions = Vec::new();
-        let shown = show(&mut Desk {
+        let shown = show(&mut EditorContext {
             document: &self.document,
             session: &mut self.session,
             preview: &self.preview,
@@ -68,7 +68,7 @@ impl Table {
                 let mut actions = Vec::new();
                 timeline::carry_out(
                     command,
-                    &mut Desk {
+                    &mut EditorContext {
                         document: &self.document,
                         session: &mut self.session,
                         preview: &self.preview,

@@ -7,8 +7,9 @@ use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::action::Action;
+use lightloom::editor::context::EditorContext;
 use lightloom::editor::document::Document;
-use lightloom::editor::panels::{self, Desk};
+use lightloom::editor::panels;
 use lightloom::editor::preview::Preview;
 use lightloom::editor::session::{Focus, Panel, Session};
 use lightloom::editor::theme;
@@ -91,13 +92,13 @@ pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench
 
 fn show(ui: &mut egui::Ui, table: &mut Table) {
     let mut actions = Vec::new();
-    let mut desk = Desk {
+    let mut editor = EditorContext {
         document: &table.document,
         session: &mut table.session,
         preview: &table.preview,
         actions: &mut actions,
     };
-    panels::show(ui, &mut desk);
+    panels::show(ui, &mut editor);
     for action in actions {
         match &action {
             Action::Edit(edit) if table.applies => {

@@ -10,7 +10,7 @@ use lightloom::editor::document::Document;
 use lightloom::editor::selection::Selection;
 use lightloom::editor::session::Session;
 use lightloom::editor::tools::arrange::{self, Arranged};
-use lightloom::editor::tools::{Gesture, Ghost, Held, Look, Toolbox};
+use lightloom::editor::tools::{Gesture, Ghost, HeldKeys, ToolContext, Toolbox};
 use lightloom_core::constraint::{Constraint, DirectedLine, Wall, stroke};
 use lightloom_core::project::{Project, Shows};
 
@@ -29,7 +29,7 @@ struct Studio {
     document: Document,
     session: Session,
     toolbox: Toolbox,
-    held: Held,
+    held: HeldKeys,
     photons: Vec<Vec2>,
     said: Vec<String>,
 }
@@ -47,15 +47,15 @@ impl Studio {
             document: Document::new(project, None),
             session: Session { tool: index, ..Session::default() },
             toolbox,
-            held: Held::default(),
+            held: HeldKeys::default(),
             photons: Vec::new(),
             said: Vec::new(),
         }
     }
 
-    fn look<R>(&mut self, with: impl FnOnce(&mut Toolbox, &Look) -> R) -> R {
+    fn context<R>(&mut self, with: impl FnOnce(&mut Toolbox, &ToolContext) -> R) -> R {
         let project = self.document.project().clone();
-        let look = Look {
+        let context = ToolContext {
             project: &project,
             session: &self.session,
             extent: Vec2::ONE,
@@ -64,11 +64,11 @@ impl Studio {
             picture: Some(vec2(200.0, 100.0)),
             photons: &self.photons,
         };
-        with(&mut self.toolbox, &look)
+        with(&mut self.toolbox, &context)
     }
 
     fn gesture(&mut self, gesture: Gesture) {
-        for action in self.look(|toolbox, look| toolbox.gesture(gesture, look)) {
+        for action in self.look(|toolbox, context| toolbox.gesture(gesture, context)) {
             match action {
                 Action::Edit(edit) => self.document.edit(edit).unwrap(),
                 Action::Settle => self.document.settle(),

@@ -10,7 +10,7 @@ use egui_kittest::Harness;
 use lightloom::editor::dialogs::{PickResult, Scripted};
 use lightloom::editor::document::Document;
 use lightloom::editor::store::{Fingerprint, Folders, Preferences};
-use lightloom::editor::{App, Card, Setup};
+use lightloom::editor::{App, Gpu, Setup};
 use lightloom_core::project::ProjectFile;
 use tempfile::TempDir;
 
@@ -53,7 +53,7 @@ pub fn window(folder: &TempDir, name: &str, answers: Vec<PickResult>) -> Harness
         folders: Some(folders(folder.path())),
         preferences: preferences(),
         dialogs: Arc::new(Scripted::new(answers)),
-        card: Card::None,
+        gpu: Gpu::None,
     };
     let mut setup = Some(setup);
     Harness::builder()

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::App;
-use super::files::Leave;
+use super::file_state::Leave;
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
@@ -25,8 +25,8 @@ impl App {
             Action::Paste(text) => self.paste(&text),
             Action::Open(path) => self.leave(ctx, Leave::Open(path)),
             Action::New(template) => self.leave(ctx, Leave::New(template)),
-            Action::Pick(pick) => self.pick(ctx, pick),
-            Action::Say(words) => self.word = words,
+            Action::PickFile(pick) => self.pick_file(ctx, pick),
+            Action::Say(words) => self.status = words,
         }
         self.keep_selection();
     }
@@ -35,8 +35,8 @@ impl App {
         let removed = matches!(edit, Edit::Remove(_));
         match self.document.edit(edit) {
             Ok(()) if removed => self.session.selection = Selection::default(),
-            Ok(()) => self.word.clear(),
-            Err(error) => self.word = error.to_string(),
+            Ok(()) => self.status.clear(),
+            Err(error) => self.status = error.to_string(),
         }
     }
 

@@ -2,13 +2,13 @@
 
 use eframe::egui;
 
-use super::files::Leave;
-use super::{App, Card};
+use super::file_state::Leave;
+use super::{App, Gpu};
 use crate::editor::clipboard;
 use crate::editor::command::Command;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::selection::Selection;
-use crate::editor::session::{FieldMap, Other, Panel, PlaneEye, ShotEye, Views, Wipe};
+use crate::editor::session::{Comparison, FieldMap, Panel, PlaneViewport, ShotViewport, ViewLayout, Wipe};
 use crate::editor::store::PhotonRenderer;
 use crate::editor::tools::arrange::{self, Arranged};
 use crate::editor::{preferences, timeline};
@@ -22,14 +22,14 @@ impl App {
     pub(super) fn command(&mut self, ctx: &egui::Context, command: Command) {
         let mut actions = Vec::new();
         let drawn = !self.session.selection.is_empty();
-        let mut desk = Desk {
+        let mut editor = EditorContext {
             document: &self.document,
             session: &mut self.session,
             preview: &self.preview,
             actions: &mut actions,
         };
         // What is drawn and selected goes before the key frame in focus.
-        let done = !(drawn && command == Command::Delete) && timeline::carry_out(command, &mut desk);
+        let done = !(drawn && command == Command::Delete) && timeline::carry_out(command, &mut editor);
         for action in actions {
             self.apply(ctx, action);
         }
@@ -67,7 +67,7 @@ impl App {
     /// Commands that change what is shown; tells whether it was one.
     fn view_command(&mut self, command: Command) -> bool {
         let session = &mut self.session;
-        let show = &mut session.show;
+        let show = &mut session.overlays;
         let toggle = |on: &mut bool| *on = !*on;
         let mut map = |wanted| show.map = if show.map == Some(wanted) { None } else { Some(wanted) };
         match command {
@@ -80,19 +80,19 @@ impl App {
             Command::ShowGrid => toggle(&mut show.grid),
             Command::ShowTarget => toggle(&mut show.target),
             Command::ShowDrawn => toggle(&mut show.drawn),
-            Command::BothViews => session.views = Views::Both,
-            Command::PlaneView => session.views = Views::Plane,
-            Command::ShotView => session.views = Views::Shot,
-            Command::LookView => session.views = Views::Look,
+            Command::BothViews => session.layout = ViewLayout::PlaneAndShot,
+            Command::PlaneView => session.layout = ViewLayout::Plane,
+            Command::ShotView => session.layout = ViewLayout::Shot,
+            Command::OrbitView => session.layout = ViewLayout::Orbit,
             Command::FitView => {
                 (session.plane, session.shot, session.orbit) =
-                    (PlaneEye::default(), ShotEye::default(), None);
+                    (PlaneViewport::default(), ShotViewport::default(), None);
             }
             Command::ActualSize => self.views.actual_size(session, self.document.project()),
             Command::ZoomIn => zoom(session, ZOOM),
             Command::ZoomOut => zoom(session, ZOOM.recip()),
             Command::Compare => {
-                let with = Other::Method(Movement::Linear);
+                let with = Comparison::Method(Movement::Linear);
                 session.compare =
                     if session.compare.is_some() { None } else { Some(Wipe { with, split: 0.5 }) };
             }
@@ -137,7 +137,7 @@ impl App {
     pub(super) fn paste(&mut self, text: &str) {
         match clipboard::paste(self.document.project(), text) {
             Ok((edit, selection)) => self.arrange(Some((edit, selection))),
-            Err(error) => self.word = error.to_string(),
+            Err(error) => self.status = error.to_string(),
         }
     }
 
@@ -152,10 +152,10 @@ impl App {
     }
 
     /// Whether the graphics card draws the photons of the plane.
-    pub(super) fn draws_by_card(&self) -> bool {
-        match (self.preferences.photon_renderer, self.card) {
-            (PhotonRenderer::Auto, card) => card == Card::Hardware,
-            (PhotonRenderer::Gpu, card) => card != Card::None,
+    pub(super) fn draws_on_gpu(&self) -> bool {
+        match (self.preferences.photon_renderer, self.gpu) {
+            (PhotonRenderer::Auto, gpu) => gpu == Gpu::Hardware,
+            (PhotonRenderer::Gpu, gpu) => gpu != Gpu::None,
             (PhotonRenderer::Cpu, _) => false,
         }
     }

@@ -1,11 +1,13 @@
 //! The application: the order of a frame. Results come in, panels are shown, actions are carried out, the preview is asked.
 
 mod apply;
+mod autosave;
 mod commands;
+mod file_state;
 mod files;
 mod layout;
+mod open_windows;
 mod recents;
-mod remember;
 mod windows;
 
 use std::sync::Arc;
@@ -24,10 +26,10 @@ use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
-use super::{keys, preferences, templates, theme};
-use files::Files;
+use super::{keyboard, preferences, templates, theme};
+use file_state::Files;
+use open_windows::Windows;
 use recents::Recents;
-use windows::Windows;
 
 /// The window's state.
 pub struct App {
@@ -45,18 +47,18 @@ pub struct App {
     files: Files,
     preferences: Preferences,
     /// What the graphics card can do.
-    card: Card,
+    gpu: Gpu,
     /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
     external: bool,
     /// What was asked for from outside.
     asked: Vec<Action>,
     /// What the status bar says, until something else happens.
-    word: String,
+    status: String,
 }
 
 /// What draws the photons of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Card {
+pub enum Gpu {
     /// A graphics card.
     Hardware,
     /// A program that behaves like one. The processor estimates the light itself two to eighteen times as fast.
@@ -78,7 +80,7 @@ pub struct Setup {
     /// Where files are asked for.
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
-    pub card: Card,
+    pub gpu: Gpu,
 }
 
 impl App {
@@ -104,10 +106,10 @@ impl App {
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             preferences: setup.preferences,
-            card: setup.card,
+            gpu: setup.gpu,
             external: false,
             asked: Vec::new(),
-            word: String::new(),
+            status: String::new(),
             document: setup.document,
         };
         if first_start {
@@ -115,7 +117,7 @@ impl App {
             app.windows.tour.begin(app.document.project());
         }
         if let Some((title, text)) = setup.message {
-            app.tell(title, text);
+            app.show_message(title, text);
         }
         app
     }
@@ -147,7 +149,7 @@ impl App {
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.name(), tool.key())).collect();
         let mut actions = std::mem::take(&mut self.asked);
-        actions.extend(keys::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
+        actions.extend(keyboard::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
         for action in actions {
@@ -157,7 +159,7 @@ impl App {
         if !gesture && !self.toolbox.tool().is_busy() {
             self.document.settle();
         }
-        self.remember(&ctx);
+        self.autosave(&ctx);
         self.follow();
     }
 
@@ -173,7 +175,7 @@ impl App {
 
     /// Tells the workers what is wanted now.
     fn follow(&mut self) {
-        self.preview.draw_by_card(self.draws_by_card());
+        self.preview.draw_by_card(self.draws_on_gpu());
         let subject = Subject {
             project: self.document.project().clone(),
             base: templates::file_of(&self.document),
@@ -184,12 +186,12 @@ impl App {
 
     /// Puts another document into the window.
     fn replace(&mut self, document: Document) {
-        let Session { views, show, snapping, looping, panel, tool, .. } = self.session.clone();
+        let Session { layout, overlays, snapping, looping, panel, tool, .. } = self.session.clone();
         let _ = self.toolbox.put_down();
-        self.session = Session { views, show, snapping, looping, panel, tool, ..begin(&document) };
+        self.session = Session { layout, overlays, snapping, looping, panel, tool, ..begin(&document) };
         self.document = document;
         self.external = false;
-        self.word.clear();
+        self.status.clear();
     }
 }
 

@@ -5,27 +5,11 @@ use egui::Key;
 
 use super::App;
 use crate::editor::action::Action;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::export::ExportWindow;
-use crate::editor::palette::{self, Palette};
-use crate::editor::panels::{Desk, PRESETS};
+use crate::editor::palette;
+use crate::editor::panels::PRESETS;
 use crate::editor::preferences;
-use crate::editor::shortcuts::Sheet;
-use crate::editor::tour::{Anchors, Tour};
-use crate::editor::welcome::Welcome;
-
-/// The windows, and which of them are open.
-#[derive(Default)]
-pub(super) struct Windows {
-    pub(super) export: ExportWindow,
-    pub(super) palette: Palette,
-    pub(super) shortcuts: Sheet,
-    pub(super) preferences: bool,
-    pub(super) welcome: Welcome,
-    pub(super) tour: Tour,
-    /// Where the things are that the first steps speak of.
-    pub(super) anchors: Option<Anchors>,
-}
 
 impl App {
     /// Shows the windows that are open.
@@ -35,20 +19,24 @@ impl App {
         tools: &[(&'static str, Key)],
         actions: &mut Vec<Action>,
     ) {
-        let mut desk =
-            Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
+        let mut editor = EditorContext {
+            document: &self.document,
+            session: &mut self.session,
+            preview: &self.preview,
+            actions,
+        };
         let windows = &mut self.windows;
         windows.export.external = self.external;
-        windows.export.show(ctx, &mut desk, &mut self.exports, &mut self.picker);
-        let flow = &desk.document.project().flow;
+        windows.export.show(ctx, &mut editor, &mut self.exports, &mut self.picker);
+        let flow = &editor.document.project().flow;
         let presets = || -> Vec<_> {
             let preset = |preset: &crate::editor::panels::Preset| {
                 (preset.name.to_owned(), Action::Edit(Edit::Flow(preset.apply(flow))))
             };
             PRESETS.iter().map(preset).collect()
         };
-        let chosen = windows.palette.show(ctx, || palette::items(&desk, tools, &presets()));
-        actions_from(desk.actions, chosen);
+        let chosen = windows.palette.show(ctx, || palette::items(&editor, tools, &presets()));
+        actions_from(editor.actions, chosen);
         windows.shortcuts.show(ctx, tools);
         preferences::show(ctx, &mut windows.preferences, &mut self.preferences);
         self.session.snapping = self.preferences.snapping;

@@ -1,9 +1,9 @@
 //! The receiver seen flat: live light, what was drawn, the flow.
 
-mod glass;
 pub mod input;
 pub mod overlay;
-pub mod space;
+pub mod plane_transform;
+mod projected;
 
 use egui::{
     Color32, CursorIcon, Painter, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, WidgetInfo,
@@ -11,22 +11,22 @@ use egui::{
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
 
-pub use self::glass::{Glass, over};
-use self::input::Move;
+use self::input::ViewMove;
 use self::overlay::{Overlay, hovered};
-use self::space::Space;
-use super::panels::Desk;
+use self::plane_transform::PlaneTransform;
+pub use self::projected::{ProjectedPlane, show_projected};
 use super::preview::FlowPicture;
-use super::session::PlaneEye;
+use super::session::PlaneViewport;
 use super::theme;
-use super::tools::{Ghost, Grip, Look, Toolbox};
+use super::tools::{Ghost, PointerMode, ToolContext, Toolbox};
+use crate::editor::context::EditorContext;
 
 /// Draws something where the plane stands on the screen.
-pub type Light<'a> = &'a dyn Fn(&Painter, &Space);
+pub type Light<'a> = &'a dyn Fn(&Painter, &PlaneTransform);
 
-/// What the window shows under the drawings, and knows of them.
+/// What the window shows backdrop the drawings, and knows of them.
 #[derive(Clone, Copy, Default)]
-pub struct Under<'a> {
+pub struct Backdrop<'a> {
     /// Draws the light where the plane stands on the screen.
     pub light: Option<Light<'a>>,
     /// The picture of the target that follows the playhead, with its size in pixels.
@@ -36,36 +36,37 @@ pub struct Under<'a> {
 }
 
 /// Shows the plane and lets the tool in hand work on it.
-pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) -> Response {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox, backdrop: &Backdrop) -> Response {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Plane"));
-    for action in toolbox.take(desk.session.tool) {
-        desk.ask(action);
+    for action in toolbox.take(editor.session.tool) {
+        editor.ask(action);
     }
-    let extent = desk.document.project().extent();
-    let space = Space::new(rect, extent, &desk.session.plane);
-    let plane = |p| Some(space.plane_from_screen(p));
-    let mut input = input::pointer(ui, &response, toolbox.grip(), &plane);
+    let extent = editor.document.project().extent();
+    let transform = PlaneTransform::new(rect, extent, &editor.session.plane);
+    let plane = |p| Some(transform.plane_from_screen(p));
+    let mut input = input::pointer(ui, &response, toolbox.pointer_mode(), &plane);
     input.gestures.extend(input::keys(ui, &response));
-    desk.session.plane = moved(desk.session.plane, &input.moves, |eye| Space::new(rect, extent, eye));
-    let project = desk.document.project().clone();
-    let look = Look {
+    editor.session.plane =
+        moved(editor.session.plane, &input.moves, |viewport| PlaneTransform::new(rect, extent, viewport));
+    let project = editor.document.project().clone();
+    let context = ToolContext {
         project: &project,
-        session: desk.session,
+        session: editor.session,
         extent,
-        per_point: space.scale().recip(),
+        per_point: transform.scale().recip(),
         held: input::held(ui),
-        picture: under.target.map(|(_, size)| size),
-        photons: under.photons,
+        picture: backdrop.target.map(|(_, size)| size),
+        photons: backdrop.photons,
     };
     for gesture in input.gestures {
-        desk.actions.extend(toolbox.gesture(gesture, &look));
+        editor.actions.extend(toolbox.gesture(gesture, &context));
     }
-    let space = Space::new(rect, extent, &desk.session.plane);
-    let ghosts = ghosts(&response, toolbox, &look);
-    paint(&ui.painter_at(rect), &look, &space, under, &desk.preview.flow(), &ghosts);
+    let transform = PlaneTransform::new(rect, extent, &editor.session.plane);
+    let ghosts = ghosts(&response, toolbox, &context);
+    paint(&ui.painter_at(rect), &context, &transform, backdrop, &editor.preview.flow(), &ghosts);
     let space_held = ui.input(|input| input.key_down(egui::Key::Space)) && !ui.ctx().text_edit_focused();
-    let cursor = match (input.dragging, space_held || toolbox.grip() == Grip::Pan) {
+    let cursor = match (input.dragging, space_held || toolbox.pointer_mode() == PointerMode::Pan) {
         (true, _) => CursorIcon::Grabbing,
         (false, true) => CursorIcon::Grab,
         (false, false) => toolbox.tool().cursor(),
@@ -77,17 +78,21 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox, under: &Under) 
     }
 }
 
-fn moved(eye: PlaneEye, moves: &[Move], space: impl Fn(&PlaneEye) -> Space) -> PlaneEye {
-    moves.iter().fold(eye, |eye, movement| match *movement {
-        Move::Pan(by) => space(&eye).panned(&eye, by),
-        Move::Zoom(factor, about) => space(&eye).zoomed(&eye, factor, about),
+fn moved(
+    viewport: PlaneViewport,
+    moves: &[ViewMove],
+    transform: impl Fn(&PlaneViewport) -> PlaneTransform,
+) -> PlaneViewport {
+    moves.iter().fold(viewport, |viewport, movement| match *movement {
+        ViewMove::Pan(by) => transform(&viewport).panned(&viewport, by),
+        ViewMove::Zoom(factor, about) => transform(&viewport).zoomed(&viewport, factor, about),
     })
 }
 
 /// What the tool shows; what belongs to the pointer only while that is over the plane.
-fn ghosts(response: &Response, toolbox: &Toolbox, look: &Look) -> Vec<Ghost> {
+fn ghosts(response: &Response, toolbox: &Toolbox, context: &ToolContext) -> Vec<Ghost> {
     let here = response.contains_pointer() || toolbox.tool().is_busy();
-    let mut ghosts = toolbox.ghosts(look);
+    let mut ghosts = toolbox.ghosts(context);
     ghosts.retain(|ghost| here || matches!(ghost, Ghost::Frame(..)));
     ghosts
 }
@@ -105,16 +110,23 @@ fn described(constraint: &Constraint) -> String {
     format!("{kind}{name}: {value}{span}{off}")
 }
 
-fn paint(painter: &Painter, look: &Look, space: &Space, under: &Under, flow: &FlowPicture, ghosts: &[Ghost]) {
+fn paint(
+    painter: &Painter,
+    context: &ToolContext,
+    transform: &PlaneTransform,
+    backdrop: &Backdrop,
+    flow: &FlowPicture,
+    ghosts: &[Ghost],
+) {
     painter.rect_filled(painter.clip_rect(), 0.0, theme::SURROUND);
-    let plane = space.rect(look.extent);
+    let plane = transform.rect(context.extent);
     painter.rect_filled(plane, 0.0, Color32::BLACK);
-    if let Some(light) = under.light {
-        light(painter, space);
+    if let Some(light) = backdrop.light {
+        light(painter, transform);
     }
     painter.rect_stroke(plane, 0.0, Stroke::new(1.0, Color32::from_gray(64)), StrokeKind::Outside);
-    let screen = |p: Vec2| Some(space.screen_from_plane(p));
+    let screen = |p: Vec2| Some(transform.screen_from_plane(p));
     let overlay = Overlay { painter, screen: &screen };
-    overlay.all(look, under.target.map(|(texture, _)| texture), flow, ghosts);
+    overlay.all(context, backdrop.target.map(|(texture, _)| texture), flow, ghosts);
     overlay::legends(painter, flow);
 }

@@ -6,7 +6,8 @@ use std::thread;
 
 use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{PickRequest, Purpose, modal};
+use super::modal::modal;
+use super::request::{PickRequest, Purpose, with_ending};
 use crate::editor::theme;
 
 /// Most entries that are listed of one folder.
@@ -33,7 +34,7 @@ enum Listing {
 #[derive(Clone, Debug, Default)]
 struct Read {
     folder: PathBuf,
-    entries: Vec<Entry>,
+    entries: Vec<FolderEntry>,
     problem: Option<String>,
     /// The path that was typed, if it leads to something that can be taken.
     taken: Option<PathBuf>,
@@ -42,7 +43,7 @@ struct Read {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct FolderEntry {
     is_file: bool,
     name: String,
 }
@@ -265,7 +266,7 @@ fn look(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose) -> Read {
         // A folder that was typed is gone to, unless it is what is wanted.
         Some(path) if path.is_dir() && !wants_folder => list(path, purpose),
         Some(path) if wants_folder || path.is_file() || purpose.saves() => {
-            let saved = super::with_ending(&purpose, path.clone());
+            let saved = with_ending(&purpose, path.clone());
             let exists = purpose.saves() && saved.exists();
             Read { taken: Some(path), exists, ..list(folder, purpose) }
         }
@@ -292,14 +293,14 @@ fn list(folder: PathBuf, purpose: Purpose) -> Read {
         let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         ending.is_some_and(|ending| endings.contains(&ending.as_str()))
     };
-    let mut entries: Vec<Entry> = entries
+    let mut entries: Vec<FolderEntry> = entries
         .flatten()
         .take(MOST)
         .filter_map(|entry| {
             let name = entry.file_name().to_string_lossy().into_owned();
             let is_file = !entry.path().is_dir();
             let shown = !name.starts_with('.') && (!is_file || wanted(&entry.path()));
-            shown.then_some(Entry { is_file, name })
+            shown.then_some(FolderEntry { is_file, name })
         })
         .collect();
     entries.sort();
@@ -328,7 +329,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-        assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
+        assert_eq!(names(Purpose::Asset(crate::editor::asset::AssetUse::Mesh)), ["frames", "d.obj"]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use egui::Context;
 use rfd::AsyncFileDialog;
 
-use super::{Dialogs, PickRequest, PickResult};
+use super::request::{Dialogs, PickRequest, PickResult};
 
 /// A dialog that says no sooner than this was never on the screen: no one reads and answers so fast, and where the system
 /// has no file dialog the answer comes within some milliseconds.

@@ -1,6 +1,6 @@
 //! Questions and messages over the window: egui's own, since a system without dialogs would answer for the user.
 
-use super::modal;
+use super::modal::modal;
 use egui::{Button, Context, Key, RichText};
 
 /// A question, or a message.

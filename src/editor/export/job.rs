@@ -20,7 +20,7 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// What to export. Later changes of the document do not touch it.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct ExportSettings {
     /// The project as it shall be rendered.
     pub project: Arc<Project>,
     /// The project file, whose folder the project's paths are relative to.
@@ -37,7 +37,7 @@ pub struct Order {
 
 /// How an export stands.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stage {
+pub enum Status {
     /// It waits for those before it.
     Waiting,
     /// It is being rendered.
@@ -86,8 +86,8 @@ pub struct Growing {
 }
 
 /// An export, as the window sees it.
-pub struct Job {
-    order: Order,
+pub struct ExportJob {
+    settings: ExportSettings,
     progress: Progress,
     stop_asked: AtomicBool,
     shown: AtomicI32,
@@ -95,19 +95,19 @@ pub struct Job {
 }
 
 struct State {
-    stage: Stage,
+    status: Status,
     cost: Option<Cost>,
     passes: usize,
     files: usize,
     picture: Option<Growing>,
 }
 
-impl Job {
-    pub(super) fn new(order: Order) -> Self {
-        let state = State { stage: Stage::Waiting, cost: None, passes: 0, files: 0, picture: None };
+impl ExportJob {
+    pub(super) fn new(settings: ExportSettings) -> Self {
+        let state = State { status: Status::Waiting, cost: None, passes: 0, files: 0, picture: None };
         Self {
-            shown: AtomicI32::new(order.shown),
-            order,
+            shown: AtomicI32::new(settings.shown),
+            settings,
             progress: Progress::new(),
             stop_asked: AtomicBool::new(false),
             state: Mutex::new(state),
@@ -115,13 +115,13 @@ impl Job {
     }
 
     /// What is exported.
-    pub fn order(&self) -> &Order {
-        &self.order
+    pub fn settings(&self) -> &ExportSettings {
+        &self.settings
     }
 
     /// How it stands.
-    pub fn stage(&self) -> Stage {
-        self.state().stage.clone()
+    pub fn status(&self) -> Status {
+        self.state().status.clone()
     }
 
     /// What it will cost, once that is known.
@@ -151,7 +151,7 @@ impl Job {
 
     /// Whether it waits or is being rendered.
     pub fn is_open(&self) -> bool {
-        matches!(self.state().stage, Stage::Waiting | Stage::Running)
+        matches!(self.state().status, Status::Waiting | Status::Running)
     }
 
     /// Whether it rests.
@@ -173,8 +173,8 @@ impl Job {
     pub fn cancel(&self) {
         self.progress.abandon();
         let mut state = self.state();
-        if state.stage == Stage::Waiting {
-            state.stage = Stage::Cancelled;
+        if state.status == Status::Waiting {
+            state.status = Status::Cancelled;
         }
     }
 
@@ -193,7 +193,7 @@ impl Job {
     }
 
     pub(super) fn fail(&self, why: &str) {
-        self.state().stage = Stage::Failed(why.to_owned());
+        self.state().status = Status::Failed(why.to_owned());
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -205,7 +205,7 @@ impl Job {
         if self.progress.is_abandoned() {
             return;
         }
-        self.state().stage = Stage::Running;
+        self.state().status = Status::Running;
         let finished = AtomicBool::new(false);
         let done = thread::scope(|scope| {
             let ticker = scope.spawn(|| self.tick(&finished, wake));
@@ -214,12 +214,12 @@ impl Job {
             ticker.thread().unpark();
             done
         });
-        self.state().stage = done;
+        self.state().status = done;
         wake();
     }
 
     fn render(&self) -> Result<Summary> {
-        let Order { project, file, external, folder, .. } = &self.order;
+        let ExportSettings { project, file, external, folder, .. } = &self.settings;
         let assets = AssetFolder::new(file, *external)?;
         prepare_folder(folder, file, project, "folder")?;
         let saved = |_: &Path| self.state().files += 1;
@@ -242,7 +242,8 @@ impl Job {
         let begun = Instant::now();
         while !finished.load(Relaxed) {
             let worked = begun.elapsed().saturating_sub(self.progress.rested());
-            let over = self.order.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
+            let over =
+                self.settings.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
             if over && self.passes() > 0 {
                 self.progress.cancel();
             }
@@ -252,7 +253,7 @@ impl Job {
     }
 }
 
-impl Onlooker for Job {
+impl Onlooker for ExportJob {
     fn planned(&self, plan: &Plan) {
         let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
         self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
@@ -271,12 +272,12 @@ impl Onlooker for Job {
 }
 
 /// What came of the work.
-fn guarded(work: impl FnOnce() -> Result<Summary>) -> Stage {
+fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
     match catch_unwind(AssertUnwindSafe(work)) {
-        Ok(Ok(summary)) => Stage::Done(outcome(&summary)),
-        Ok(Err(Error::Cancelled)) => Stage::Cancelled,
-        Ok(Err(error)) => Stage::Failed(error.to_string()),
-        Err(panic) => Stage::Failed(format!("the export broke down: {}", words(&*panic))),
+        Ok(Ok(summary)) => Status::Done(outcome(&summary)),
+        Ok(Err(Error::Cancelled)) => Status::Cancelled,
+        Ok(Err(error)) => Status::Failed(error.to_string()),
+        Err(panic) => Status::Failed(format!("the export broke down: {}", words(&*panic))),
     }
 }
 
@@ -311,7 +312,7 @@ mod tests {
     #[test]
     fn a_panic_is_a_failure_with_its_words() {
         let failed = guarded(|| panic!("index {} out of range", 7));
-        assert_eq!(failed, Stage::Failed("the export broke down: index 7 out of range".into()));
-        assert_eq!(guarded(|| Err(Error::Cancelled)), Stage::Cancelled);
+        assert_eq!(failed, Status::Failed("the export broke down: index 7 out of range".into()));
+        assert_eq!(guarded(|| Err(Error::Cancelled)), Status::Cancelled);
     }
 }

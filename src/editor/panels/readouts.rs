@@ -5,7 +5,8 @@ use lightloom_core::flow::FlowReport;
 use lightloom_core::pipeline::{Detail, Sketch};
 
 use super::setting::{NAMES, format_number};
-use super::{Desk, fold, section};
+use super::{fold, section};
+use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
 /// Energy farther than this from what is asked for is to be looked at.
@@ -127,21 +128,21 @@ fn percent(share: f64) -> String {
 }
 
 /// The panel of readouts.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    if let Some(problem) = desk.preview.problem() {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    if let Some(problem) = editor.preview.problem() {
         ui.colored_label(theme::BAD, problem);
         ui.add_space(4.0);
     }
-    let Some(sketch) = desk.preview.sketch() else {
+    let Some(sketch) = editor.preview.sketch() else {
         ui.weak("Nothing is worked out yet.");
         return;
     };
-    let frame = desk.session.playhead;
+    let frame = editor.session.playhead;
     section(ui, &format!("Frame {frame}"));
-    if !desk.preview.is_current() {
+    if !editor.preview.is_current() {
         ui.weak("Of the version before the last change.");
     }
-    for readout in of(sketch, frame, desk.document.project().flow.tolerance) {
+    for readout in of(sketch, frame, editor.document.project().flow.tolerance) {
         let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
         line(ui, readout.name, &readout.value, colour, readout.help);
     }
@@ -181,9 +182,9 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
 }
 
 /// The most important of it for the status bar, from right to left.
-pub(in crate::editor) fn strip(ui: &mut Ui, desk: &Desk) {
-    let Some(sketch) = desk.preview.sketch() else { return };
-    for readout in in_short(sketch, desk.session.playhead).into_iter().rev() {
+pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
+    let Some(sketch) = editor.preview.sketch() else { return };
+    for readout in in_short(sketch, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
         let text = if readout.is_bad { text.color(theme::WARN) } else { text.weak() };
         ui.label(text).on_hover_text(readout.help);

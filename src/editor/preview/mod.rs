@@ -24,7 +24,8 @@ pub use subject::Subject;
 pub use target::TargetPicture;
 pub use wishes::Wanted;
 
-use super::session::{Other, Session};
+use super::session::{Comparison, Session};
+use super::target_image::TargetImage;
 use animator::{Animator, Found};
 use flow::FlowViewer;
 use looker::Looker;
@@ -39,7 +40,7 @@ pub struct Preview {
     animator: Animator,
     /// What the wipe compares with.
     other: Animator,
-    compared: Option<(Subject, Other)>,
+    compared: Option<(Subject, Comparison)>,
     painter: Painter,
     stager: Stager,
     looker: Looker,
@@ -113,7 +114,7 @@ impl Preview {
         }
         self.compare(subject, session);
         self.receive();
-        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        let shown = TargetImage::at_playhead(&subject.project, session).map(|target| target.image);
         self.targets.follow(subject, shown);
         let sketch = self.sketch().cloned();
         self.flow.follow(sketch.as_ref(), &subject.project, session);
@@ -250,9 +251,9 @@ impl Preview {
 }
 
 /// The project as it is compared with.
-fn other(project: &Project, with: Other) -> Project {
+fn other(project: &Project, with: Comparison) -> Project {
     match with {
-        Other::Method(method) => Project { method, ..project.clone() },
-        Other::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
+        Comparison::Method(method) => Project { method, ..project.clone() },
+        Comparison::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }

@@ -8,9 +8,9 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use lightloom_core::project::{Project, ProjectFile};
 use lightloom_core::{Error, Result};
-use serde::{Deserialize, Serialize};
 
-use super::slot::Slot;
+use super::record::Record;
+use super::slot::JournalSlot;
 use super::{Fingerprint, Recovery, disk};
 
 /// How long a change waits for others to be written with it.
@@ -31,18 +31,6 @@ pub struct Note {
     pub project: Arc<Project>,
     /// The content of the document's file when it was last read or saved; none where it was never saved.
     pub seen: Option<Fingerprint>,
-}
-
-/// A journal's file.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Entry {
-    pub(super) path: Option<PathBuf>,
-    pub(super) title: String,
-    /// When the change was made, seconds since 1970.
-    pub(super) time: u64,
-    pub(super) seen: Option<Fingerprint>,
-    /// The project file as it would have been saved.
-    pub(super) text: String,
 }
 
 /// The journal of one open document. Dropped without [`clean`](Self::clean), it writes what it still has and leaves its
@@ -72,7 +60,7 @@ impl Journal {
         Self::run(slot.file().parent().unwrap_or(Path::new(".")).to_owned(), Some(slot))
     }
 
-    fn run(folder: PathBuf, slot: Option<Slot>) -> Self {
+    fn run(folder: PathBuf, slot: Option<JournalSlot>) -> Self {
         let (messages, inbox) = channel();
         let problem = Problem::default();
         let writer = Writer { folder, slot, problem: problem.clone() };
@@ -140,7 +128,7 @@ impl Problem {
 
 struct Writer {
     folder: PathBuf,
-    slot: Option<Slot>,
+    slot: Option<JournalSlot>,
     problem: Problem,
 }
 
@@ -169,7 +157,7 @@ impl Writer {
                 }
                 Ok(Message::Clean) => {
                     pending = None;
-                    let cleared = self.slot.as_ref().map_or(Ok(()), Slot::clear);
+                    let cleared = self.slot.as_ref().map_or(Ok(()), JournalSlot::clear);
                     self.problem.set(cleared.err().map(|error| error.to_string()));
                 }
                 Err(RecvTimeoutError::Timeout) => pending = pending.and_then(|pending| self.attempt(pending)),
@@ -192,7 +180,7 @@ impl Writer {
     }
 
     fn write(&mut self, Pending { note, time, .. }: &Pending) -> Result<()> {
-        let entry = Entry {
+        let record = Record {
             // JSON knows no path that is not UTF-8: such a document is offered as one without file.
             path: note.path.as_ref().filter(|path| path.to_str().is_some()).map(|path| absolute(path)),
             title: note.title.clone(),
@@ -200,11 +188,11 @@ impl Writer {
             seen: note.seen,
             text: note.file.text_of(&note.project)?,
         };
-        let bytes = serde_json::to_vec(&entry)
+        let bytes = serde_json::to_vec(&record)
             .map_err(|e| Error::value("journal", format!("cannot be written as JSON: {e}")))?;
         let slot = match self.slot.take() {
             Some(slot) => slot,
-            None => Slot::new(&self.folder)?,
+            None => JournalSlot::new(&self.folder)?,
         };
         let slot = self.slot.insert(slot);
         disk::write(slot.file(), &bytes)

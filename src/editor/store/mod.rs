@@ -15,6 +15,7 @@ pub mod recovery;
 pub mod saver;
 
 mod disk;
+mod record;
 mod slot;
 
 pub use disk::Fingerprint;
@@ -22,4 +23,4 @@ pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
-pub use saver::{Answer, Opened, Request, Save, Saved, Saver};
+pub use saver::{Opened, SaveRequest, Saved, Saver, StoreReply, StoreRequest};

@@ -111,7 +111,7 @@ impl Preferences {
     }
 
     /// Puts a file at the head of the recent ones. A path that is not UTF-8 is not remembered: JSON cannot hold it.
-    pub fn remember(&mut self, path: &Path) {
+    pub fn add_recent(&mut self, path: &Path) {
         let Ok(path) = std::path::absolute(path) else { return };
         if path.to_str().is_none() {
             return;
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(Preferences::load(&config), (Preferences::default(), None));
         let mut preferences = Preferences { theme: Theme::Light, snapping: false, ..Preferences::default() };
         preferences.other.insert("later".into(), 1.into());
-        (0..30).for_each(|i| preferences.remember(Path::new(&format!("{}.json", i % 25))));
+        (0..30).for_each(|i| preferences.add_recent(Path::new(&format!("{}.json", i % 25))));
         preferences.save(&config).unwrap();
         let (read, note) = Preferences::load(&config);
         assert_eq!((&read, note), (&preferences, None));

@@ -16,11 +16,11 @@ const MOST_BYTES: u64 = 64 << 20;
 
 /// What the saver is asked to do; answers come in the same order.
 #[derive(Debug)]
-pub enum Request {
+pub enum StoreRequest {
     /// Read a project file.
     Open(PathBuf),
     /// Write one.
-    Save(Save),
+    Save(SaveRequest),
     /// Look for work that a crash left.
     LookForLost,
     /// Remove such work for good.
@@ -31,7 +31,7 @@ pub enum Request {
 
 /// A project to be saved.
 #[derive(Clone, Debug)]
-pub struct Save {
+pub struct SaveRequest {
     /// Where to.
     pub path: PathBuf,
     /// The file it came from.
@@ -44,14 +44,14 @@ pub struct Save {
 
 /// What came of a request.
 #[derive(Debug)]
-pub enum Answer {
+pub enum StoreReply {
     /// A file was read, or not.
     Opened(PathBuf, Result<Opened>),
     /// A project was written, or not; then the old file is as it was.
-    Saved(Save, Result<Saved>),
+    Saved(SaveRequest, Result<Saved>),
     /// Nothing was written: another program changed the file since this one last read or wrote it. Sent again with `seen`
     /// none, the request replaces the other program's work.
-    ChangedOnDisk(Save),
+    ChangedOnDisk(SaveRequest),
     /// What can be recovered, the newest first.
     Lost(Vec<Recovery>),
     /// A request without an answer of its own failed, for this reason.
@@ -81,8 +81,8 @@ pub struct Saved {
 /// Opens and saves on a thread of its own. Dropped, it first does all that it was asked.
 #[derive(Debug)]
 pub struct Saver {
-    requests: Option<Sender<Request>>,
-    answers: Receiver<Answer>,
+    requests: Option<Sender<StoreRequest>>,
+    answers: Receiver<StoreReply>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -92,12 +92,13 @@ impl Saver {
     /// # Errors
     /// The system gives no thread.
     pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
-        let (requests, inbox) = channel::<Request>();
+        let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
         let serve = move || {
             for request in inbox {
                 let answer = catch_unwind(AssertUnwindSafe(|| answer(&folders, request)));
-                let failed = || Some(Answer::Failed("an internal error; the file may not be saved".into()));
+                let failed =
+                    || Some(StoreReply::Failed("an internal error; the file may not be saved".into()));
                 let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
                 if outbox.send(answer).is_err() {
                     // The window is gone; what it asked for is done all the same.
@@ -112,7 +113,7 @@ impl Saver {
     }
 
     /// Asks for something to be done; returns at once.
-    pub fn ask(&self, request: Request) {
+    pub fn ask(&self, request: StoreRequest) {
         if let Some(requests) = &self.requests {
             // The thread ends only after this sender.
             let _ = requests.send(request);
@@ -120,7 +121,7 @@ impl Saver {
     }
 
     /// The next answer that is there; none while there is none.
-    pub fn answer(&self) -> Option<Answer> {
+    pub fn answer(&self) -> Option<StoreReply> {
         self.answers.try_recv().ok()
     }
 }
@@ -134,21 +135,21 @@ impl Drop for Saver {
     }
 }
 
-fn answer(folders: &Folders, request: Request) -> Option<Answer> {
-    let failed = |result: Result<()>| result.err().map(|error| Answer::Failed(error.to_string()));
+fn answer(folders: &Folders, request: StoreRequest) -> Option<StoreReply> {
+    let failed = |result: Result<()>| result.err().map(|error| StoreReply::Failed(error.to_string()));
     match request {
-        Request::Open(path) => {
+        StoreRequest::Open(path) => {
             let opened = open(&path);
-            Some(Answer::Opened(path, opened))
+            Some(StoreReply::Opened(path, opened))
         }
-        Request::Save(request) => Some(match save(folders, &request) {
-            Ok(Some(saved)) => Answer::Saved(request, Ok(saved)),
-            Ok(None) => Answer::ChangedOnDisk(request),
-            Err(error) => Answer::Saved(request, Err(error)),
+        StoreRequest::Save(request) => Some(match save(folders, &request) {
+            Ok(Some(saved)) => StoreReply::Saved(request, Ok(saved)),
+            Ok(None) => StoreReply::ChangedOnDisk(request),
+            Err(error) => StoreReply::Saved(request, Err(error)),
         }),
-        Request::LookForLost => Some(Answer::Lost(recoverable(&folders.recovery()))),
-        Request::Discard(recovery) => failed(recovery.discard()),
-        Request::Remember(preferences) => failed(preferences.save(&folders.config)),
+        StoreRequest::LookForLost => Some(StoreReply::Lost(recoverable(&folders.recovery()))),
+        StoreRequest::Discard(recovery) => failed(recovery.discard()),
+        StoreRequest::Remember(preferences) => failed(preferences.save(&folders.config)),
     }
 }
 
@@ -159,7 +160,7 @@ fn open(path: &Path) -> Result<Opened> {
 }
 
 /// Saves; none where the file holds something else than was seen.
-fn save(folders: &Folders, request: &Save) -> Result<Option<Saved>> {
+fn save(folders: &Folders, request: &SaveRequest) -> Result<Option<Saved>> {
     // Through a link the file behind it is written; the link stays.
     let path = request.path.canonicalize().unwrap_or_else(|_| request.path.clone());
     let old = present(&path)?;

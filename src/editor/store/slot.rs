@@ -13,13 +13,13 @@ const TRIES: usize = 16;
 
 /// A journal's file, held by its lock.
 #[derive(Debug)]
-pub(super) struct Slot {
+pub(super) struct JournalSlot {
     file: PathBuf,
     lock_path: PathBuf,
     _lock: File,
 }
 
-impl Slot {
+impl JournalSlot {
     /// A new one with a random name; the file itself does not exist yet.
     pub(super) fn new(folder: &Path) -> Result<Self> {
         disk::make_private(folder)?;
@@ -76,7 +76,7 @@ impl Slot {
     }
 }
 
-impl Drop for Slot {
+impl Drop for JournalSlot {
     fn drop(&mut self) {
         if !self.file.exists() {
             let _ = std::fs::remove_file(&self.lock_path);
@@ -98,13 +98,13 @@ mod tests {
     #[test]
     fn a_slot_is_abandoned_once_its_holder_is_gone() {
         let folder = tempfile::tempdir().unwrap();
-        let slot = Slot::new(folder.path()).unwrap();
+        let slot = JournalSlot::new(folder.path()).unwrap();
         std::fs::write(slot.file(), b"work").unwrap();
-        assert!(Slot::abandoned(folder.path()).is_empty());
+        assert!(JournalSlot::abandoned(folder.path()).is_empty());
         drop(slot);
-        let found = Slot::abandoned(folder.path());
+        let found = JournalSlot::abandoned(folder.path());
         assert_eq!(found.len(), 1);
-        assert!(Slot::abandoned(folder.path()).is_empty(), "held by the one who found it");
+        assert!(JournalSlot::abandoned(folder.path()).is_empty(), "held by the one who found it");
         found[0].clear().unwrap();
         drop(found);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -115,7 +115,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.lock"), b"").unwrap();
         std::fs::write(folder.path().join("b.json"), b"work").unwrap();
-        let found = Slot::abandoned(folder.path());
+        let found = JournalSlot::abandoned(folder.path());
         assert!(matches!(&found[..], [one] if one.file().ends_with("b.json")));
         assert!(!folder.path().join("a.lock").exists());
     }

@@ -2,10 +2,10 @@
 
 use egui::{Key, Modifiers, Response, Ui};
 
-use super::moves::Part;
+use super::edits::BarPart;
 use super::scale::Scale;
 use crate::editor::action::Action;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use lightloom_core::constraint::Span;
 
 /// What can be dragged.
@@ -14,7 +14,7 @@ pub(super) enum Drag {
     /// A key frame, by index.
     Key(usize),
     /// A part of the bar of a constraint, by index.
-    Bar(usize, Part),
+    Bar(usize, BarPart),
 }
 
 /// What is being dragged.
@@ -30,11 +30,11 @@ pub(super) struct Dragging {
 
 impl Dragging {
     /// Takes hold of something; the change until it is let go is one step.
-    pub(super) fn begin(&mut self, desk: &mut Desk, what: Drag, scale: &Scale, ui: &Ui) {
+    pub(super) fn begin(&mut self, editor: &mut EditorContext, what: Drag, scale: &Scale, ui: &Ui) {
         let Some(at) = ui.input(|i| i.pointer.press_origin()) else { return };
-        desk.session.playing = false;
-        desk.ask(Action::Settle);
-        let project = desk.document.project();
+        editor.session.playing = false;
+        editor.ask(Action::Settle);
+        let project = editor.document.project();
         let from = match what {
             Drag::Key(index) => project.keys.get(index).map_or(0, |key| key.frame),
             Drag::Bar(..) => 0,
@@ -43,8 +43,15 @@ impl Dragging {
     }
 
     /// As [`Self::begin`], for a bar that stood at `span`.
-    pub(super) fn begin_bar(&mut self, desk: &mut Desk, what: Drag, span: Span, scale: &Scale, ui: &Ui) {
-        self.begin(desk, what, scale, ui);
+    pub(super) fn begin_bar(
+        &mut self,
+        editor: &mut EditorContext,
+        what: Drag,
+        span: Span,
+        scale: &Scale,
+        ui: &Ui,
+    ) {
+        self.begin(editor, what, scale, ui);
         self.span = Some(span);
     }
 
@@ -70,19 +77,19 @@ impl Dragging {
         response: &Response,
         what: Drag,
         scale: &Scale,
-        desk: &mut Desk,
+        editor: &mut EditorContext,
     ) -> Option<i32> {
         if !self.holds(what) {
             return None;
         }
         if ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
             *self = Self::default();
-            desk.ask(Action::Abort);
+            editor.ask(Action::Abort);
             return None;
         }
         if !response.dragged() {
             *self = Self::default();
-            desk.ask(Action::Settle);
+            editor.ask(Action::Settle);
             return None;
         }
         let at = response.interact_pointer_pos()?;

@@ -26,14 +26,14 @@ pub(super) struct Scale {
 
 /// The part of the time axis that is seen: its first frame and how many there are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct VisibleRange {
     pub(super) first: f64,
     pub(super) frames: f64,
 }
 
 impl Scale {
     /// `seen` over the points `x`.
-    pub(super) fn new(x: Rangef, seen: Seen) -> Self {
+    pub(super) fn new(x: Rangef, seen: VisibleRange) -> Self {
         let width = f64::from(x.span()).max(1.0);
         Self { left: f64::from(x.min), width, first: seen.first, per_frame: width / seen.frames.max(1e-6) }
     }
@@ -59,16 +59,19 @@ impl Scale {
     }
 
     /// What is seen after zooming by `factor` about a place, which stays where it is.
-    pub(super) fn zoomed(&self, factor: f64, about: f32) -> Seen {
+    pub(super) fn zoomed(&self, factor: f64, about: f32) -> VisibleRange {
         let now = self.width / self.per_frame;
         let frames = (now / factor.max(1e-6)).clamp(FEWEST, MOST);
         let fixed = self.moment(about);
-        Seen { first: fixed - (fixed - self.first) * frames / now, frames }
+        VisibleRange { first: fixed - (fixed - self.first) * frames / now, frames }
     }
 
     /// What is seen after dragging the axis by points.
-    pub(super) fn panned(&self, points: f32) -> Seen {
-        Seen { first: self.first - f64::from(points) / self.per_frame, frames: self.width / self.per_frame }
+    pub(super) fn panned(&self, points: f32) -> VisibleRange {
+        VisibleRange {
+            first: self.first - f64::from(points) / self.per_frame,
+            frames: self.width / self.per_frame,
+        }
     }
 
     /// Frames between two numbers on the ruler, and between two ticks.
@@ -94,7 +97,7 @@ impl Scale {
     }
 }
 
-impl Seen {
+impl VisibleRange {
     /// All of `frames` with some room at both ends of an axis of this width, points.
     pub(super) fn all(frames: &RangeInclusive<i32>, width: f32) -> Self {
         let count = (f64::from(*frames.end()) - f64::from(*frames.start())).max(FEWEST);
@@ -118,7 +121,7 @@ mod tests {
     use super::*;
 
     fn scale() -> Scale {
-        Scale::new(Rangef::new(100.0, 900.0), Seen { first: -3.5, frames: 160.0 })
+        Scale::new(Rangef::new(100.0, 900.0), VisibleRange { first: -3.5, frames: 160.0 })
     }
 
     #[test]
@@ -139,7 +142,7 @@ mod tests {
     #[test]
     fn numbers_on_the_ruler_never_touch() {
         for frames in [4.0, 30.0, 60.0, 240.0, 1e4, 2e6] {
-            let scale = Scale::new(Rangef::new(0.0, 800.0), Seen { first: 0.0, frames });
+            let scale = Scale::new(Rangef::new(0.0, 800.0), VisibleRange { first: 0.0, frames });
             let [step, tick] = scale.steps();
             assert!(step as f64 * f64::from(scale.per_frame()) >= LABEL * 0.999, "{frames}");
             assert_eq!(step % tick, 0);
@@ -148,7 +151,7 @@ mod tests {
 
     #[test]
     fn all_frames_fit_with_room_for_a_thumbnail() {
-        let scale = Scale::new(Rangef::new(0.0, 800.0), Seen::all(&(1..=60), 800.0));
+        let scale = Scale::new(Rangef::new(0.0, 800.0), VisibleRange::all(&(1..=60), 800.0));
         assert!(scale.x(1.0) >= 30.0 && scale.x(60.0) <= 770.0);
     }
 }

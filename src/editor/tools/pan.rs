@@ -2,7 +2,8 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{PointerMode, Tool};
 
 /// Moves the view; so does the middle button, and Space, with any tool.
 pub(super) struct Pan;
@@ -36,7 +37,7 @@ impl Tool for Pan {
         CursorIcon::Grab
     }
 
-    fn grip(&self) -> Grip {
-        Grip::Pan
+    fn pointer_mode(&self) -> PointerMode {
+        PointerMode::Pan
     }
 }

@@ -1,7 +1,22 @@
 //! The tools, and the one in hand.
 
-use super::{Gesture, Ghost, Grip, Look, Tool, all};
+use super::tool::{Gesture, Ghost, PointerMode, Tool, ToolContext};
+use super::{directed_line, erase, pan, probe, select, target, wall, zoom};
 use crate::editor::action::Action;
+
+/// All tools, as they stand in the bar: a new one is a file and a line here.
+pub fn all() -> Vec<Box<dyn Tool>> {
+    vec![
+        Box::<select::Select>::default(),
+        Box::<directed_line::DrawLine>::default(),
+        Box::<wall::DrawWall>::default(),
+        Box::<erase::Erase>::default(),
+        Box::<target::Place>::default(),
+        Box::<probe::Probe>::default(),
+        Box::new(pan::Pan),
+        Box::new(zoom::Zoom),
+    ]
+}
 
 /// The tools, and the one in hand.
 pub struct Toolbox {
@@ -46,18 +61,18 @@ impl Toolbox {
     }
 
     /// Gives a gesture to the tool in hand.
-    pub fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        self.tools[self.in_hand].gesture(gesture, look)
+    pub fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        self.tools[self.in_hand].gesture(gesture, context)
     }
 
     /// What the tool in hand shows.
-    pub fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        self.tool().ghosts(look)
+    pub fn ghosts(&self, context: &ToolContext) -> Vec<Ghost> {
+        self.tool().ghosts(context)
     }
 
     /// Who answers the pointer now.
-    pub fn grip(&self) -> Grip {
-        self.tool().grip()
+    pub fn pointer_mode(&self) -> PointerMode {
+        self.tool().pointer_mode()
     }
 }
 

@@ -2,7 +2,8 @@
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{PointerMode, Tool};
 
 /// Brings the view nearer; so does the wheel, with any tool.
 pub(super) struct Zoom;
@@ -31,7 +32,7 @@ impl Tool for Zoom {
         CursorIcon::ZoomIn
     }
 
-    fn grip(&self) -> Grip {
-        Grip::Zoom
+    fn pointer_mode(&self) -> PointerMode {
+        PointerMode::Zoom
     }
 }

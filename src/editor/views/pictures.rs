@@ -10,16 +10,16 @@ use crate::editor::preview::Preview;
 /// The newest pictures on the card: this flow, and what it is compared with.
 #[derive(Default)]
 pub(super) struct Pictures {
-    pub(super) plane: [Slot; 2],
-    pub(super) shot: [Slot; 2],
-    pub(super) look: Slot,
-    target: Slot,
+    pub(super) plane: [TextureSlot; 2],
+    pub(super) shot: [TextureSlot; 2],
+    pub(super) look: TextureSlot,
+    target: TextureSlot,
     target_size: Option<Vec2>,
 }
 
 /// One texture, and the picture that is on it.
 #[derive(Default)]
-pub(super) struct Slot {
+pub(super) struct TextureSlot {
     of: Option<Arc<ColorImage>>,
     texture: Option<TextureHandle>,
 }
@@ -35,7 +35,7 @@ impl Pictures {
         let target = preview.target();
         self.target.put(ctx, "target", target.as_ref().map(|target| &target.picture));
         self.target_size = target.map(|target| target.size);
-        self.look.put(ctx, "free look", preview.look().picture.as_ref());
+        self.look.put(ctx, "orbit view", preview.look().picture.as_ref());
     }
 
     /// The picture towards which the light flows, with the size of its file in pixels.
@@ -44,7 +44,7 @@ impl Pictures {
     }
 }
 
-impl Slot {
+impl TextureSlot {
     /// Keeps the last picture while there is no newer one.
     fn put(&mut self, ctx: &Context, name: &str, picture: Option<&Arc<ColorImage>>) {
         let Some(picture) = picture else { return };

@@ -5,7 +5,7 @@ use egui::{
 };
 use lightloom_core::flow::Movement;
 
-use crate::editor::session::{Other, Wipe};
+use crate::editor::session::{Comparison, Wipe};
 use crate::editor::theme;
 
 /// Width of the place where the handle is caught, points.
@@ -50,7 +50,7 @@ fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
     let mut ui = ui.new_child(UiBuilder::new().id_salt("compared").max_rect(place));
     let box_ = ComboBox::from_id_salt("compared with").selected_text(name(wipe.with)).width(place.width());
     let response = box_.show_ui(&mut ui, |ui| {
-        for with in OTHERS {
+        for with in COMPARISONS {
             ui.selectable_value(&mut wipe.with, with, name(with));
         }
     });
@@ -58,15 +58,15 @@ fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
 }
 
 /// All that a flow can be compared with.
-const OTHERS: [Other; 3] =
-    [Other::Method(Movement::Linear), Other::Method(Movement::Stylized), Other::NothingDrawn];
+const COMPARISONS: [Comparison; 3] =
+    [Comparison::Method(Movement::Linear), Comparison::Method(Movement::Stylized), Comparison::NothingDrawn];
 
 /// What something is called that a flow is compared with.
-fn name(other: Other) -> &'static str {
-    match other {
-        Other::Method(Movement::Flow) => "The flow",
-        Other::Method(Movement::Stylized) => "Method of 2016",
-        Other::Method(Movement::Linear) => "Straight lines",
-        Other::NothingDrawn => "Nothing drawn",
+fn name(comparison: Comparison) -> &'static str {
+    match comparison {
+        Comparison::Method(Movement::Flow) => "The flow",
+        Comparison::Method(Movement::Stylized) => "Method of 2016",
+        Comparison::Method(Movement::Linear) => "Straight lines",
+        Comparison::NothingDrawn => "Nothing drawn",
     }
 }

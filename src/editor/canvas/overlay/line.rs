@@ -4,7 +4,7 @@ use egui::{Color32, Pos2, Shape, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::stroke;
 
-use super::{Manner, Overlay};
+use super::{ConstraintStyle, Overlay};
 use crate::editor::theme;
 
 /// Width of the line, points.
@@ -22,14 +22,14 @@ const BAND: f32 = 0.2;
 
 impl Overlay<'_> {
     /// How far a line pulls, plane units: ever less, as the fit weighs it.
-    pub(super) fn influence(&self, points: &[Vec2], width: f32, manner: Manner) {
-        if manner.off || points.len() < 2 {
+    pub(super) fn influence(&self, points: &[Vec2], width: f32, style: ConstraintStyle) {
+        if style.off || points.len() < 2 {
             return;
         }
-        let strength = BAND * if manner.selected || manner.hovered { 1.6 } else { 1.0 };
+        let strength = BAND * if style.selected || style.hovered { 1.6 } else { 1.0 };
         let colour = |x: f32| {
             let pull = (1.0 - x * x) * (1.0 - x * x);
-            manner.tint(theme::LINE.gamma_multiply(strength * pull))
+            style.tint(theme::LINE.gamma_multiply(strength * pull))
         };
         // Bumps far smaller than the band would only fold its borders.
         let smooth = stroke::simplify(points, 0.05 * width);
@@ -37,15 +37,15 @@ impl Overlay<'_> {
     }
 
     /// The line itself.
-    pub(super) fn line(&self, points: &[Vec2], manner: Manner) {
-        if manner.selected {
+    pub(super) fn line(&self, points: &[Vec2], style: ConstraintStyle) {
+        if style.selected {
             self.polyline(points, Stroke::new(WIDTH + 6.0, theme::ACCENT.gamma_multiply(0.6)), false);
-        } else if manner.hovered {
+        } else if style.hovered {
             self.polyline(points, Stroke::new(WIDTH + 5.0, Color32::from_white_alpha(110)), false);
         }
-        self.polyline(points, Stroke::new(RIM, manner.tint(Color32::from_black_alpha(130))), manner.off);
-        let colour = manner.tint(theme::LINE);
-        self.polyline(points, Stroke::new(WIDTH, colour), manner.off);
+        self.polyline(points, Stroke::new(RIM, style.tint(Color32::from_black_alpha(130))), style.off);
+        let colour = style.tint(theme::LINE);
+        self.polyline(points, Stroke::new(WIDTH, colour), style.off);
         self.heads(points, colour);
     }
 

@@ -19,7 +19,7 @@ use lightloom_core::project::Project;
 
 use crate::editor::preview::FlowPicture;
 use crate::editor::session::Session;
-use crate::editor::tools::{Ghost, Look, target_corners};
+use crate::editor::tools::{Ghost, ToolContext, target_corners};
 
 /// How much is left of the colours of what does not act at this moment.
 const DIM: f32 = 0.38;
@@ -40,7 +40,7 @@ pub struct Overlay<'a> {
 
 /// How one constraint is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Manner {
+struct ConstraintStyle {
     /// Switched off: dashed.
     off: bool,
     /// Whether it acts at this moment; else it is dim.
@@ -49,7 +49,7 @@ struct Manner {
     hovered: bool,
 }
 
-impl Manner {
+impl ConstraintStyle {
     const DRAWING: Self = Self { off: false, acts: true, selected: false, hovered: false };
 
     fn of(constraint: &Constraint, index: usize, session: &Session, hovered: Option<usize>) -> Self {
@@ -70,22 +70,28 @@ impl Manner {
 
 impl Overlay<'_> {
     /// Everything over the light, in its order: map, grid, target, flow, what was drawn, what the tool in hand shows.
-    pub fn all(&self, look: &Look, target: Option<TextureId>, flow: &FlowPicture, ghosts: &[Ghost]) {
-        let (project, show) = (look.project, &look.session.show);
+    pub fn all(
+        &self,
+        context: &ToolContext,
+        target: Option<TextureId>,
+        flow: &FlowPicture,
+        ghosts: &[Ghost],
+    ) {
+        let (project, show) = (context.project, &context.session.overlays);
         if let Some(map) = &flow.map {
-            self.heat(map, look.extent);
+            self.heat(map, context.extent);
         }
         if show.grid {
-            self.grid(project.flow.grid.cells(look.extent), look.extent);
+            self.grid(project.flow.grid.cells(context.extent), context.extent);
         }
         if let Some((texture, corners)) =
-            target.filter(|_| show.target && !look.session.playing).zip(target_corners(look))
+            target.filter(|_| show.target && !context.session.playing).zip(target_corners(context))
         {
             self.target(texture, corners);
         }
         self.flow(flow, self.painter.ctx().input(|input| input.time));
         if show.drawn {
-            self.drawn(project, look.session, hovered(ghosts));
+            self.drawn(project, context.session, hovered(ghosts));
         }
         if let Some(photon) = &flow.followed {
             self.followed(photon);
@@ -99,18 +105,18 @@ impl Overlay<'_> {
     /// Draws all lines and walls; `hovered` is the one under the pointer.
     pub(super) fn drawn(&self, project: &Project, session: &Session, hovered: Option<usize>) {
         let all = || project.constraints.iter().enumerate();
-        let manner = |i: usize, constraint: &Constraint| Manner::of(constraint, i, session, hovered);
+        let style = |i: usize, constraint: &Constraint| ConstraintStyle::of(constraint, i, session, hovered);
         for (i, constraint) in all() {
             let points = plane_points(constraint);
             match constraint {
-                Constraint::Wall(wall) => self.wall(&points, wall.thickness, manner(i, constraint)),
-                Constraint::DirectedLine(line) => self.influence(&points, line.width, manner(i, constraint)),
+                Constraint::Wall(wall) => self.wall(&points, wall.thickness, style(i, constraint)),
+                Constraint::DirectedLine(line) => self.influence(&points, line.width, style(i, constraint)),
             }
         }
         // Lines above all walls and bands: they are thin.
         for (i, constraint) in all() {
             if let Constraint::DirectedLine(_) = constraint {
-                self.line(&plane_points(constraint), manner(i, constraint));
+                self.line(&plane_points(constraint), style(i, constraint));
             }
         }
         for (i, constraint) in

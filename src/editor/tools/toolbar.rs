@@ -2,29 +2,30 @@
 
 use egui::{CornerRadius, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use super::{Tool, Toolbox};
+use super::tool::Tool;
+use super::toolbox::Toolbox;
 use crate::editor::action::Action;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
 /// Side of a button, points.
 const BUTTON: f32 = 34.0;
 /// Side of its icon, points.
 const ICON: f32 = 18.0;
-/// Tools between which a gap stands: those that draw, and those that look.
+/// Tools between which a gap stands: those that draw, and those that context.
 const GAPS: [usize; 2] = [0, 5];
 
 /// Width of the strip, points.
 pub const WIDTH: f32 = BUTTON + 8.0;
 
 /// Shows the tools below each other, and asks for the one that is clicked. Returns the places of the first two that draw.
-pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) -> [Rect; 2] {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, toolbox: &Toolbox) -> [Rect; 2] {
     let (mut wanted, mut places) = (None, Vec::new());
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.vertical_centered(|ui| {
         ui.add_space(4.0);
         for (i, tool) in toolbox.tools().enumerate() {
-            let (place, clicked) = button(ui, tool, desk.session.tool == i);
+            let (place, clicked) = button(ui, tool, editor.session.tool == i);
             places.push(place);
             if clicked {
                 wanted = Some(i);
@@ -35,7 +36,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, toolbox: &Toolbox) -> [Rect; 2] {
         }
     });
     if let Some(tool) = wanted {
-        desk.ask(Action::Tool(tool));
+        editor.ask(Action::Tool(tool));
     }
     [1, 2].map(|i| places.get(i).copied().unwrap_or(Rect::NOTHING))
 }

@@ -71,7 +71,7 @@ pub(super) fn span(project: &Project, index: usize, span: Option<Span>) -> Optio
 
 /// A part of a span's bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum BarPart {
     /// Its first frame.
     From,
     /// Its last.
@@ -80,7 +80,7 @@ pub(super) enum Part {
     Middle,
 }
 
-impl Part {
+impl BarPart {
     /// The span after this part of it was dragged by `frames`; ends do not pass each other.
     pub(super) fn dragged(self, span: Span, frames: i32) -> Span {
         let fit = |frame: i32| frame.clamp(*FRAMES.start(), *FRAMES.end());
@@ -151,9 +151,9 @@ mod tests {
     #[test]
     fn ends_of_a_span_do_not_pass_each_other() {
         let span = Span { from: 10, to: 20, fade: 2 };
-        assert_eq!(Part::From.dragged(span, 50), Span { from: 20, ..span });
-        assert_eq!(Part::To.dragged(span, -50), Span { to: 10, ..span });
-        assert_eq!(Part::Middle.dragged(span, -15), Span { from: -5, to: 5, ..span });
-        assert_eq!(Part::Middle.dragged(span, i32::MAX).to, 1_000_000);
+        assert_eq!(BarPart::From.dragged(span, 50), Span { from: 20, ..span });
+        assert_eq!(BarPart::To.dragged(span, -50), Span { to: 10, ..span });
+        assert_eq!(BarPart::Middle.dragged(span, -15), Span { from: -5, to: 5, ..span });
+        assert_eq!(BarPart::Middle.dragged(span, i32::MAX).to, 1_000_000);
     }
 }

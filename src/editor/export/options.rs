@@ -9,7 +9,7 @@ use lightloom_core::project::{Project, frames};
 
 /// What the user wants of an export; all else is as the project says.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct ExportOptions {
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
     pub frames: String,
     /// Picture size in pixels.
@@ -24,7 +24,7 @@ pub struct Wish {
     pub folder: PathBuf,
 }
 
-impl Wish {
+impl ExportOptions {
     /// What the project says itself, into a folder beside its file.
     pub fn of(project: &Project, file: Option<&Path>) -> Self {
         let first = project.keys.first().map_or(1, |key| key.frame);
@@ -159,8 +159,8 @@ mod tests {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
         let project = Project::load(&source).unwrap();
         project.save(&file).unwrap();
-        let own = Wish::of(&project, Some(&file));
-        let other = Wish {
+        let own = ExportOptions::of(&project, Some(&file));
+        let other = ExportOptions {
             frames: "-3-9x4,60".into(),
             size: [320, 200],
             passes: 3,
@@ -168,17 +168,17 @@ mod tests {
             formats: vec![FrameFormat::Png],
             folder: folder.path().join("two words $HOME \"and\" quotes'"),
         };
-        for wish in [own, other] {
-            let line = wish.command_line(&project, &file);
+        for options in [own, other] {
+            let line = options.command_line(&project, &file);
             let Some(Command::Render(args)) = Cli::try_parse_from(words(&line)).unwrap().command else {
                 panic!("{line}")
             };
             let mut run = args.project.load().unwrap();
-            let mut wanted = wish.apply(&project).unwrap();
+            let mut wanted = options.apply(&project).unwrap();
             // All frames by default are those that the window lists.
             assert_eq!(run.frames().unwrap(), wanted.frames().unwrap(), "{line}");
             (run.output.frames, wanted.output.frames) = (None, None);
-            assert_eq!((run, args.out), (wanted, wish.folder), "{line}");
+            assert_eq!((run, args.out), (wanted, options.folder), "{line}");
         }
     }
 
@@ -186,11 +186,11 @@ mod tests {
     fn a_wish_that_cannot_be_is_refused_by_its_place() {
         let project =
             Project::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json")).unwrap();
-        let wish = Wish::of(&project, None);
-        let refused = |wish: Wish| wish.apply(&project).unwrap_err().to_string();
-        assert!(refused(Wish { frames: "9-1".into(), ..wish.clone() }).starts_with("frames: "));
-        assert!(refused(Wish { size: [0, 10], ..wish.clone() }).contains("render.width"));
-        assert!(refused(Wish { formats: vec![], ..wish.clone() }).contains("output.formats"));
-        assert!(refused(Wish { folder: PathBuf::new(), ..wish }).starts_with("folder: "));
+        let options = ExportOptions::of(&project, None);
+        let refused = |options: ExportOptions| options.apply(&project).unwrap_err().to_string();
+        assert!(refused(ExportOptions { frames: "9-1".into(), ..options.clone() }).starts_with("frames: "));
+        assert!(refused(ExportOptions { size: [0, 10], ..options.clone() }).contains("render.width"));
+        assert!(refused(ExportOptions { formats: vec![], ..options.clone() }).contains("output.formats"));
+        assert!(refused(ExportOptions { folder: PathBuf::new(), ..options }).starts_with("folder: "));
     }
 }

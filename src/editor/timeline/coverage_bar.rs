@@ -3,7 +3,7 @@
 use egui::{Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::scale::Scale;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::preview::State;
 use crate::editor::theme;
 
@@ -36,9 +36,9 @@ fn words(state: State) -> &'static str {
 }
 
 /// Shows the stripe.
-pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &Desk) -> Response {
+pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &EditorContext) -> Response {
     let response = ui.interact(rect.expand2(vec2(0.0, 1.0)), ui.scope_id().with("stripe"), Sense::hover());
-    let coverage = desk.preview.coverage();
+    let coverage = editor.preview.coverage();
     let runs = coverage.runs();
     let done: i64 = runs.iter().filter(|(.., s)| *s >= State::Draft && *s < State::Failed).map(length).sum();
     let all: i64 = runs.iter().map(length).sum();

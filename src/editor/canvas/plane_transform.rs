@@ -3,7 +3,7 @@
 use egui::{Pos2, Rect, pos2};
 use glam::{Vec2, vec2};
 
-use crate::editor::session::PlaneEye;
+use crate::editor::session::PlaneViewport;
 
 /// Room around the plane where it fits the view, points.
 const MARGIN: f32 = 28.0;
@@ -12,20 +12,20 @@ pub const ZOOM: std::ops::RangeInclusive<f32> = 0.05..=200.0;
 
 /// The plane on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Space {
+pub struct PlaneTransform {
     middle: Pos2,
     centre: Vec2,
     /// Points per plane unit.
     scale: f32,
 }
 
-impl Space {
-    /// The plane of `extent` seen by `eye` in the rectangle `view`.
-    pub fn new(view: Rect, extent: Vec2, eye: &PlaneEye) -> Self {
+impl PlaneTransform {
+    /// The plane of `extent` seen by `viewport` in the rectangle `view`.
+    pub fn new(view: Rect, extent: Vec2, viewport: &PlaneViewport) -> Self {
         let room = (view.size() - egui::Vec2::splat(2.0 * MARGIN)).max(egui::Vec2::splat(16.0));
         let fit = (room.x / extent.x).min(room.y / extent.y);
-        let zoom = if eye.zoom > 0.0 { eye.zoom } else { 1.0 };
-        Self { middle: view.center(), centre: eye.centre.unwrap_or(extent / 2.0), scale: fit * zoom }
+        let zoom = if viewport.zoom > 0.0 { viewport.zoom } else { 1.0 };
+        Self { middle: view.center(), centre: viewport.centre.unwrap_or(extent / 2.0), scale: fit * zoom }
     }
 
     /// Where a plane point is on the screen; plane y points up.
@@ -49,17 +49,17 @@ impl Space {
         Rect::from_two_pos(self.screen_from_plane(Vec2::ZERO), self.screen_from_plane(extent))
     }
 
-    /// The eye after zooming by `factor` about a place of the screen, which stays where it is.
-    pub fn zoomed(&self, eye: &PlaneEye, factor: f32, about: Pos2) -> PlaneEye {
-        let old = if eye.zoom > 0.0 { eye.zoom } else { 1.0 };
+    /// The viewport after zooming by `factor` about a place of the screen, which stays where it is.
+    pub fn zoomed(&self, viewport: &PlaneViewport, factor: f32, about: Pos2) -> PlaneViewport {
+        let old = if viewport.zoom > 0.0 { viewport.zoom } else { 1.0 };
         let zoom = (old * factor).clamp(*ZOOM.start(), *ZOOM.end());
         let fixed = self.plane_from_screen(about);
-        PlaneEye { centre: Some(fixed + (self.centre - fixed) * (old / zoom)), zoom }
+        PlaneViewport { centre: Some(fixed + (self.centre - fixed) * (old / zoom)), zoom }
     }
 
-    /// The eye after dragging the plane by `by` points of the screen.
-    pub fn panned(&self, eye: &PlaneEye, by: egui::Vec2) -> PlaneEye {
-        PlaneEye { centre: Some(self.centre - vec2(by.x, -by.y) / self.scale), zoom: eye.zoom }
+    /// The viewport after dragging the plane by `by` points of the screen.
+    pub fn panned(&self, viewport: &PlaneViewport, by: egui::Vec2) -> PlaneViewport {
+        PlaneViewport { centre: Some(self.centre - vec2(by.x, -by.y) / self.scale), zoom: viewport.zoom }
     }
 }
 
@@ -73,21 +73,21 @@ mod tests {
 
     #[test]
     fn screen_and_plane_lead_back_to_each_other() {
-        let eye = PlaneEye { centre: Some(vec2(0.2, 0.7)), zoom: 3.0 };
-        let space = Space::new(view(), vec2(1.0, 0.75), &eye);
+        let viewport = PlaneViewport { centre: Some(vec2(0.2, 0.7)), zoom: 3.0 };
+        let transform = PlaneTransform::new(view(), vec2(1.0, 0.75), &viewport);
         for p in [vec2(0.0, 0.0), vec2(0.3, 0.9), vec2(-2.0, 4.0)] {
             // f32 on a screen of a thousand points.
-            assert!(space.plane_from_screen(space.screen_from_plane(p)).distance(p) < 1e-5);
+            assert!(transform.plane_from_screen(transform.screen_from_plane(p)).distance(p) < 1e-5);
         }
     }
 
     #[test]
     fn zooming_keeps_the_point_under_the_pointer() {
-        let eye = PlaneEye::default();
+        let viewport = PlaneViewport::default();
         let (extent, at) = (vec2(1.0, 0.5), pos2(320.0, 410.0));
-        let space = Space::new(view(), extent, &eye);
-        let closer = Space::new(view(), extent, &space.zoomed(&eye, 2.5, at));
-        assert!(closer.plane_from_screen(at).distance(space.plane_from_screen(at)) < 1e-5);
-        assert!((closer.scale() / space.scale() - 2.5).abs() < 1e-4);
+        let transform = PlaneTransform::new(view(), extent, &viewport);
+        let closer = PlaneTransform::new(view(), extent, &transform.zoomed(&viewport, 2.5, at));
+        assert!(closer.plane_from_screen(at).distance(transform.plane_from_screen(at)) < 1e-5);
+        assert!((closer.scale() / transform.scale() - 2.5).abs() < 1e-4);
     }
 }

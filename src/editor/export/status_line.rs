@@ -2,15 +2,15 @@
 
 use egui::{Button, ProgressBar, Response, RichText, Ui};
 
-use super::{Exports, Job, Stage};
+use super::{ExportJob, Exports, Status};
 use crate::editor::theme;
 
 /// Shows the export at work, or the last one that is over, in one line of the status bar. Returns whether it was clicked:
 /// then the window of exports is wanted.
-pub fn strip(ui: &mut Ui, exports: &Exports) -> bool {
+pub fn status_line(ui: &mut Ui, exports: &Exports) -> bool {
     let jobs = exports.jobs();
     let Some(job) = jobs.iter().find(|job| job.is_open()).or(jobs.last()) else { return false };
-    let waiting = jobs.iter().filter(|job| job.stage() == Stage::Waiting).count();
+    let waiting = jobs.iter().filter(|job| job.status() == Status::Waiting).count();
     let mut wanted = false;
     ui.horizontal(|ui| {
         if job.is_open() {
@@ -23,7 +23,7 @@ pub fn strip(ui: &mut Ui, exports: &Exports) -> bool {
             wanted |= ui.add(bar).accessible_name("Export").interact(egui::Sense::click()).clicked();
             controls(ui, job);
         } else {
-            let text = RichText::new(words(job)).color(colour(&job.stage(), ui));
+            let text = RichText::new(words(job)).color(colour(&job.status(), ui));
             wanted |= ui.add(Button::new(text).frame(false)).clicked();
         }
     });
@@ -31,7 +31,7 @@ pub fn strip(ui: &mut Ui, exports: &Exports) -> bool {
 }
 
 /// Pause and cancel; stopping with what is complete, once something is.
-pub(super) fn controls(ui: &mut Ui, job: &Job) {
+pub(super) fn controls(ui: &mut Ui, job: &ExportJob) {
     let paused = job.is_paused();
     if ui.button(if paused { "Go on" } else { "Pause" }).clicked() {
         if paused { job.resume() } else { job.pause() }
@@ -51,17 +51,17 @@ pub(super) fn controls(ui: &mut Ui, job: &Job) {
 }
 
 /// How a job stands, in words.
-pub(super) fn words(job: &Job) -> String {
-    match job.stage() {
-        Stage::Waiting => "Waiting".into(),
-        Stage::Running if job.is_paused() => format!("Paused{}", passes(job)),
-        Stage::Running => {
+pub(super) fn words(job: &ExportJob) -> String {
+    match job.status() {
+        Status::Waiting => "Waiting".into(),
+        Status::Running if job.is_paused() => format!("Paused{}", passes(job)),
+        Status::Running => {
             let seen = job.progress();
             let written =
                 if seen.stage == Some("write") { format!(", {} files", job.files()) } else { passes(job) };
             format!("{}{written}, {} left", stage(seen.stage), time(seen.remaining))
         }
-        Stage::Done(outcome) => {
+        Status::Done(outcome) => {
             let bad = if outcome.bad { "; some values had to be replaced, see summary.json" } else { "" };
             let part = if outcome.passes < outcome.planned {
                 format!(" with {} of {} passes", outcome.passes, outcome.planned)
@@ -70,21 +70,21 @@ pub(super) fn words(job: &Job) -> String {
             };
             format!("{} frames exported{part}{bad}", outcome.frames)
         }
-        Stage::Cancelled => "Export cancelled".into(),
-        Stage::Failed(why) => format!("Export failed: {why}"),
+        Status::Cancelled => "Export cancelled".into(),
+        Status::Failed(why) => format!("Export failed: {why}"),
     }
 }
 
-pub(super) fn colour(stage: &Stage, ui: &Ui) -> egui::Color32 {
-    match stage {
-        Stage::Done(outcome) if outcome.bad => theme::WARN,
-        Stage::Done(_) => theme::GOOD,
-        Stage::Failed(_) => theme::BAD,
-        Stage::Waiting | Stage::Running | Stage::Cancelled => ui.visuals().text_color(),
+pub(super) fn colour(status: &Status, ui: &Ui) -> egui::Color32 {
+    match status {
+        Status::Done(outcome) if outcome.bad => theme::WARN,
+        Status::Done(_) => theme::GOOD,
+        Status::Failed(_) => theme::BAD,
+        Status::Waiting | Status::Running | Status::Cancelled => ui.visuals().text_color(),
     }
 }
 
-fn passes(job: &Job) -> String {
+fn passes(job: &ExportJob) -> String {
     let planned = job.cost().map_or(0, |cost| cost.passes);
     let at_passes = job.progress().stage == Some("render");
     if at_passes { format!(", pass {} of {planned}", (job.passes() + 1).min(planned)) } else { String::new() }

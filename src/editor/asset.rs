@@ -8,27 +8,27 @@ use super::document::Edit;
 
 /// What a file is picked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Pick {
+pub enum AssetUse {
     /// A new mesh.
     Mesh,
     /// Another file for the mesh of this index.
     MeshFile(usize),
     /// A picture that a key frame shows.
-    Picture(At),
+    Picture(TargetSlot),
     /// Points that a key frame shows.
-    Points(At),
+    Points(TargetSlot),
 }
 
 /// Whose target it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct At {
+pub struct TargetSlot {
     /// Index of the key frame.
     pub key: usize,
     /// Name of the caustic; none for all that have none of their own.
     pub caustic: Option<String>,
 }
 
-impl At {
+impl TargetSlot {
     /// What is shown there.
     pub fn shows<'a>(&self, keys: &'a [KeyFrame]) -> Option<&'a Shows> {
         keys.get(self.key).map(|key| key.shown_by(self.caustic.as_deref()))
@@ -44,7 +44,7 @@ impl At {
     }
 }
 
-impl Pick {
+impl AssetUse {
     /// What the dialog calls these files, and their endings.
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
@@ -62,7 +62,7 @@ impl Pick {
                 let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
                 let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
                 let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
-                let name = super::panels::free_name(&name, taken);
+                let name = super::unique_name::unique_name(&name, taken);
                 scene.meshes.push(MeshDesc {
                     name,
                     file,
@@ -93,7 +93,7 @@ impl Pick {
     }
 }
 
-fn show(project: &Project, at: &At, shows: Shows) -> Edit {
+fn show(project: &Project, at: &TargetSlot, shows: Shows) -> Edit {
     let mut keys = project.keys.clone();
     at.set(&mut keys, shows);
     Edit::Keys(keys)

@@ -11,14 +11,12 @@ use super::commands::{add_key, go, step};
 use super::drag::Drag;
 use super::scale::Scale;
 use super::thumbnails::Thumbnail;
-use super::{Timeline, icons, moves};
+use super::{Timeline, edits, icons};
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::panels::Desk;
 use crate::editor::templates;
 use crate::editor::theme;
 
-/// Height of the lane, points.
-pub(super) const HEIGHT: f32 = 74.0;
 /// Height of a thumbnail.
 const PICTURE: f32 = 44.0;
 /// Distance of the middle of the diamonds from the lower end of the lane.
@@ -30,14 +28,14 @@ const EASES: [(Ease, &str); 4] =
 
 impl Timeline {
     /// Shows the lane and asks for what is done with the keys.
-    pub(super) fn keys(&mut self, ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
-        let project = desk.document.project().clone();
+    pub(super) fn keys(&mut self, ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
+        let project = editor.document.project().clone();
         let lane = ui.interact(rect, ui.scope_id().with("key lane"), Sense::click());
         lane.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Key frames"));
         if lane.double_clicked()
             && let Some(at) = lane.interact_pointer_pos()
         {
-            add_key(desk, &project, scale.frame(at.x));
+            add_key(editor, &project, scale.frame(at.x));
         }
         lane.on_hover_text_at_pointer(
             "Double click to add a key frame, or press K to add one at the playhead.",
@@ -47,7 +45,7 @@ impl Timeline {
             between(ui, rect, scale, &pair[0], &pair[1]);
         }
         for index in 0..project.keys.len() {
-            self.key(ui, rect, scale, index, desk, &project);
+            self.key(ui, rect, scale, index, editor, &project);
         }
     }
 
@@ -57,7 +55,7 @@ impl Timeline {
         lane: Rect,
         scale: &Scale,
         index: usize,
-        desk: &mut Desk,
+        editor: &mut EditorContext,
         project: &Project,
     ) {
         let key = &project.keys[index];
@@ -73,27 +71,27 @@ impl Timeline {
         let name = format!("Key frame at {}, shows {}", key.frame, words(&key.shows));
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         if response.clicked() {
-            desk.session.focus.key = Some(index);
-            go(desk, key.frame);
+            editor.session.focus.key = Some(index);
+            go(editor, key.frame);
         }
         if response.drag_started() {
-            self.drag.begin(desk, Drag::Key(index), scale, ui);
+            self.drag.begin(editor, Drag::Key(index), scale, ui);
         }
-        if let Some(by) = self.drag.frames(ui, &response, Drag::Key(index), scale, desk)
-            && let Some(edit) = moves::retime(&project.keys, index, self.drag.from().saturating_add(by))
+        if let Some(by) = self.drag.frames(ui, &response, Drag::Key(index), scale, editor)
+            && let Some(edit) = edits::retime(&project.keys, index, self.drag.from().saturating_add(by))
         {
-            desk.ask(edit);
+            editor.ask(edit);
         }
         let thumbnail = self.thumbnails.of(
             ui.ctx(),
             &key.shows,
-            &templates::file_of(desk.document),
+            &templates::file_of(editor.document),
             self.external,
             extent,
         );
-        let chosen = desk.session.focus.key == Some(index);
-        let look = Look { x, size, chosen, hot: response.hovered() || response.dragged() };
-        paint(ui, lane, &look, &thumbnail);
+        let chosen = editor.session.focus.key == Some(index);
+        let style = KeyStyle { x, size, chosen, hot: response.hovered() || response.dragged() };
+        paint(ui, lane, &style, &thumbnail);
         response = response.on_hover_cursor(CursorIcon::Grab).on_hover_ui(|ui| {
             ui.strong(&name);
             if let Thumbnail::Failed(why) = &thumbnail {
@@ -101,7 +99,7 @@ impl Timeline {
             }
             ui.label("Drag to retime, click to go there, right click for easing and more.");
         });
-        menu(&response, index, desk, project);
+        menu(&response, index, editor, project);
     }
 }
 
@@ -127,26 +125,26 @@ fn words(shows: &Shows) -> String {
     }
 }
 
-struct Look {
+struct KeyStyle {
     x: f32,
     size: egui::Vec2,
     chosen: bool,
     hot: bool,
 }
 
-fn paint(ui: &Ui, lane: Rect, look: &Look, thumbnail: &Thumbnail) {
+fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
     let painter = ui.painter_at(lane);
     let visuals = ui.visuals();
-    let outline = if look.chosen {
+    let outline = if style.chosen {
         Stroke::new(1.5, theme::ACCENT)
-    } else if look.hot {
+    } else if style.hot {
         visuals.widgets.hovered.bg_stroke
     } else {
         Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color)
     };
-    if look.size.x >= 14.0 {
-        let middle = pos2(look.x, lane.top() + 4.0 + look.size.y / 2.0);
-        let rect = Rect::from_center_size(middle, look.size);
+    if style.size.x >= 14.0 {
+        let middle = pos2(style.x, lane.top() + 4.0 + style.size.y / 2.0);
+        let rect = Rect::from_center_size(middle, style.size);
         painter.rect_filled(rect, 3.0, theme::SURROUND);
         let sign = rect.shrink2(vec2(rect.width() * 0.12, rect.height() * 0.2));
         match thumbnail {
@@ -170,9 +168,9 @@ fn paint(ui: &Ui, lane: Rect, look: &Look, thumbnail: &Thumbnail) {
         }
         painter.rect_stroke(rect, CornerRadius::same(3), outline, StrokeKind::Outside);
     }
-    let fill = if look.chosen { theme::ACCENT } else { visuals.widgets.inactive.fg_stroke.color };
-    let radius = if look.hot { 7.5 } else { 6.5 };
-    let at = pos2(look.x, lane.bottom() - DIAMOND);
+    let fill = if style.chosen { theme::ACCENT } else { visuals.widgets.inactive.fg_stroke.color };
+    let radius = if style.hot { 7.5 } else { 6.5 };
+    let at = pos2(style.x, lane.bottom() - DIAMOND);
     icons::diamond(&painter, at, radius, fill, Stroke::new(1.0, visuals.extreme_bg_color));
 }
 
@@ -190,7 +188,7 @@ fn between(ui: &Ui, lane: Rect, scale: &Scale, from: &KeyFrame, to: &KeyFrame) {
     }
 }
 
-fn menu(response: &Response, index: usize, desk: &mut Desk, project: &Project) {
+fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: &Project) {
     response.context_menu(|ui| {
         ui.weak(if index + 1 < project.keys.len() {
             "Easing to the next key"
@@ -201,27 +199,27 @@ fn menu(response: &Response, index: usize, desk: &mut Desk, project: &Project) {
             if ease_item(ui, ease, name, project.keys[index].ease == ease) {
                 let mut keys = project.keys.clone();
                 keys[index].ease = ease;
-                step(desk, Edit::Keys(keys));
+                step(editor, Edit::Keys(keys));
             }
         }
         ui.separator();
         if ui.button("Show").clicked() {
-            desk.session.focus.key = Some(index);
-            go(desk, project.keys[index].frame);
+            editor.session.focus.key = Some(index);
+            go(editor, project.keys[index].frame);
         }
-        let copy = moves::duplicate(project, index);
+        let copy = edits::duplicate(project, index);
         if ui.add_enabled(copy.is_some(), Button::new("Duplicate")).clicked()
             && let Some(edit) = copy
         {
-            step(desk, edit);
+            step(editor, edit);
         }
-        let rest = moves::remove_key(project, index);
+        let rest = edits::remove_key(project, index);
         let delete = ui.add_enabled(rest.is_some(), Button::new("Delete"));
         if delete.on_disabled_hover_text("A project needs one key frame.").clicked()
             && let Some(edit) = rest
         {
-            desk.session.focus.key = None;
-            step(desk, edit);
+            editor.session.focus.key = None;
+            step(editor, edit);
         }
     });
 }

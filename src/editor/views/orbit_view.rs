@@ -6,8 +6,8 @@ use lightloom_core::render::{Mark, MarkKind};
 use lightloom_core::scene::CameraDesc;
 
 use super::Views;
-use super::plane::WHOLE;
-use crate::editor::panels::Desk;
+use super::fit::WHOLE;
+use crate::editor::context::EditorContext;
 use crate::editor::session::Orbit;
 use crate::editor::theme;
 
@@ -18,13 +18,13 @@ const WHEEL: f32 = 240.0;
 
 impl Views {
     /// The free look, and how the pointer moves it.
-    pub(super) fn look_view(&mut self, ui: &mut Ui, desk: &mut Desk) {
+    pub(super) fn orbit_view(&mut self, ui: &mut Ui, editor: &mut EditorContext) {
         let view = ui.available_rect_before_wrap();
-        let scene = desk.document.project().scene.as_ref();
+        let scene = editor.document.project().scene.as_ref();
         let shot = scene.map_or_else(CameraDesc::default, |scene| scene.camera.clone());
         let response = ui.allocate_rect(view, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Look around"));
-        let mut orbit = desk.session.orbit.unwrap_or_else(|| Orbit::of(&shot));
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Orbit view"));
+        let mut orbit = editor.session.orbit.unwrap_or_else(|| Orbit::of(&shot));
         let (by, shift) = (response.drag_delta(), ui.input(|input| input.modifiers.shift));
         if response.dragged_by(PointerButton::Middle) || (shift && response.dragged()) {
             orbit = orbit.moved(Vec2::new(by.x, by.y), view.height(), shot.fov_deg);
@@ -36,7 +36,7 @@ impl Views {
                 ui.input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y / WHEEL).exp2());
             orbit = orbit.zoomed(factor);
         }
-        desk.session.orbit = Some(orbit);
+        editor.session.orbit = Some(orbit);
         let pixels = view.size() * ui.pixels_per_point();
         let shrink = (MOST / pixels.max_elem()).min(1.0);
         let size = [pixels.x, pixels.y].map(|n| ((n * shrink).round() as u32).max(16));
@@ -46,7 +46,7 @@ impl Views {
         if let Some(texture) = self.pictures.look.texture() {
             painter.image(texture.id(), view, WHOLE, Color32::WHITE);
             let scale = view.width() / texture.size()[0].max(1) as f32;
-            for Mark { kind, at } in desk.preview.look().marks {
+            for Mark { kind, at } in editor.preview.look().marks {
                 let at = view.min + vec2(at.x, at.y) * scale;
                 let colour = match kind {
                     MarkKind::Light(_) => theme::WARN,

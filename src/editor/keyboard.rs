@@ -78,7 +78,7 @@ fn asked(
                 return None;
             }
             if let Some(command) = command(*key, *modifiers) {
-                let kept = typing && !command.entry()?.shortcut.as_ref().is_some_and(means_nothing_in_text);
+                let kept = typing && !command.info()?.shortcut.as_ref().is_some_and(means_nothing_in_text);
                 let again = *repeat && !REPEATED.contains(&command);
                 return (!kept && !again).then(|| command.into());
             }

@@ -3,7 +3,7 @@
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::Look;
+use super::tool::ToolContext;
 use crate::editor::selection::Selection;
 
 /// How near a line catches, points of the screen.
@@ -32,17 +32,17 @@ impl Hit {
 }
 
 /// What lies under the pointer at `p`, the nearest first; handles go before lines.
-pub(super) fn hit(p: Vec2, look: &Look) -> Option<Hit> {
-    handle(p, look).or_else(|| piece(p, look))
+pub(super) fn hit(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    handle(p, context).or_else(|| piece(p, context))
 }
 
-fn free<'a>(look: &Look<'a>) -> impl Iterator<Item = (usize, &'a Constraint)> {
-    let drawn = look.session.show.drawn;
-    look.project.constraints.iter().enumerate().filter(move |(_, c)| drawn && !c.is_locked())
+fn free<'a>(context: &ToolContext<'a>) -> impl Iterator<Item = (usize, &'a Constraint)> {
+    let drawn = context.session.overlays.drawn;
+    context.project.constraints.iter().enumerate().filter(move |(_, c)| drawn && !c.is_locked())
 }
 
-fn handle(p: Vec2, look: &Look) -> Option<Hit> {
-    let selected = free(look).filter(|(i, _)| look.session.selection.contains(*i));
+fn handle(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    let selected = free(context).filter(|(i, _)| context.session.selection.contains(*i));
     let near = selected.flat_map(|(i, constraint)| {
         let points = constraint.points();
         points.iter().enumerate().filter_map(move |(k, &point)| {
@@ -51,20 +51,20 @@ fn handle(p: Vec2, look: &Look) -> Option<Hit> {
             };
             let reach = room(k.checked_sub(1).map(|k| &points[k])).min(room(points.get(k + 1)));
             let distance = p.distance(point.into());
-            (distance <= reach.min(look.points(HANDLE))).then_some((distance, Hit::Point(i, k)))
+            (distance <= reach.min(context.points(HANDLE))).then_some((distance, Hit::Point(i, k)))
         })
     });
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
 /// The piece of a line under the pointer.
-pub(super) fn piece(p: Vec2, look: &Look) -> Option<Hit> {
-    let near = free(look).flat_map(|(i, constraint)| {
+pub(super) fn piece(p: Vec2, context: &ToolContext) -> Option<Hit> {
+    let near = free(context).flat_map(|(i, constraint)| {
         let half = match constraint {
             Constraint::Wall(wall) => 0.5 * wall.thickness,
             Constraint::DirectedLine(_) => 0.0,
         };
-        let reach = half.max(look.points(LINE));
+        let reach = half.max(context.points(LINE));
         constraint.points().windows(2).enumerate().filter_map(move |(k, piece)| {
             let on = stroke::nearest_on_segment(p, piece[0].into(), piece[1].into());
             (on.distance(p) <= reach).then_some((on.distance(p), Hit::Piece(i, k, on)))
@@ -74,14 +74,14 @@ pub(super) fn piece(p: Vec2, look: &Look) -> Option<Hit> {
 }
 
 /// The selection of what lies in the box between two corners: points, and wholes where all points do.
-pub(super) fn within(a: Vec2, b: Vec2, look: &Look) -> Selection {
+pub(super) fn within(a: Vec2, b: Vec2, context: &ToolContext) -> Selection {
     let (low, high) = (a.min(b), a.max(b));
     let inside = |p: &[f32; 2]| {
         let p = Vec2::from(*p);
         p.cmpge(low).all() && p.cmple(high).all()
     };
     let mut selection = Selection::default();
-    for (i, constraint) in free(look).filter(|(_, constraint)| !constraint.points().is_empty()) {
+    for (i, constraint) in free(context).filter(|(_, constraint)| !constraint.points().is_empty()) {
         let points = constraint.points();
         if points.iter().all(inside) {
             selection.toggle(i);

@@ -3,30 +3,22 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use lightloom_core::project::Project;
 
 use super::App;
 use crate::editor::preferences;
-use crate::editor::store::{Note, Preferences, Request};
-
-/// What was handed to the threads last.
-#[derive(Default)]
-pub(super) struct Noted {
-    project: Option<Arc<Project>>,
-    preferences: Option<Preferences>,
-}
+use crate::editor::store::{Note, StoreRequest};
 
 impl App {
     /// Notes what changed since the last frame of the window. Costs pointers.
-    pub(super) fn remember(&mut self, ctx: &egui::Context) {
+    pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.note_project();
-        let noted = &mut self.files.noted;
-        if noted.preferences.as_ref() != Some(&self.preferences) {
-            let first = noted.preferences.replace(self.preferences.clone()).is_none();
+        let last_sent = &mut self.files.last_sent;
+        if last_sent.preferences.as_ref() != Some(&self.preferences) {
+            let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
             preferences::apply(ctx, &self.preferences);
             self.recents.ask(self.preferences.recent.clone());
             if !first {
-                self.files.request(Request::Remember(Box::new(self.preferences.clone())));
+                self.files.request(StoreRequest::Remember(Box::new(self.preferences.clone())));
             }
         }
         let title = format!(
@@ -42,10 +34,10 @@ impl App {
 
     fn note_project(&mut self) {
         let project = self.document.project().clone();
-        if self.files.noted.project.as_ref().is_some_and(|noted| Arc::ptr_eq(noted, &project)) {
+        if self.files.last_sent.project.as_ref().is_some_and(|last_sent| Arc::ptr_eq(last_sent, &project)) {
             return;
         }
-        let first = self.files.noted.project.replace(project.clone()).is_none();
+        let first = self.files.last_sent.project.replace(project.clone()).is_none();
         let Ok(file) = self.document.file() else { return };
         let Some(journal) = &self.files.journal else { return };
         if !self.document.is_unsaved() {

@@ -4,13 +4,13 @@ use egui::{Pos2, Rect, Response, TextureId, Ui};
 use glam::Vec2;
 
 use super::ghosts;
-use super::input::{self, Move};
+use super::input::{self, ViewMove};
 use super::overlay::Overlay;
-use crate::editor::panels::Desk;
-use crate::editor::tools::{Look, Toolbox};
+use crate::editor::context::EditorContext;
+use crate::editor::tools::{ToolContext, Toolbox};
 
 /// How a view shows the plane.
-pub struct Glass<'a> {
+pub struct ProjectedPlane<'a> {
     /// The picture on the screen.
     pub view: Rect,
     /// Where a plane point is seen; none where it is not.
@@ -22,43 +22,43 @@ pub struct Glass<'a> {
 }
 
 /// Draws what was drawn over a view, lets the tool in hand work on it, and tells how the view shall be moved.
-pub fn over(
+pub fn show_projected(
     ui: &Ui,
     response: &Response,
-    desk: &mut Desk,
+    editor: &mut EditorContext,
     toolbox: &mut Toolbox,
-    glass: &Glass,
-) -> Vec<Move> {
-    let mut input = input::pointer(ui, response, toolbox.grip(), glass.plane);
+    projected: &ProjectedPlane,
+) -> Vec<ViewMove> {
+    let mut input = input::pointer(ui, response, toolbox.pointer_mode(), projected.plane);
     if response.has_focus() || response.hovered() {
         input.gestures.extend(input::keys(ui, response));
     }
-    let project = desk.document.project().clone();
-    let sketch = desk.preview.sketch().cloned();
-    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(desk.session.playhead));
-    let look = Look {
+    let project = editor.document.project().clone();
+    let sketch = editor.preview.sketch().cloned();
+    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
+    let context = ToolContext {
         project: &project,
-        session: desk.session,
+        session: editor.session,
         extent: project.extent(),
-        per_point: per_point(response, glass),
+        per_point: per_point(response, projected),
         held: input::held(ui),
-        picture: glass.target.map(|(_, size)| size),
+        picture: projected.target.map(|(_, size)| size),
         photons: photons.unwrap_or_default(),
     };
     for gesture in input.gestures {
-        desk.actions.extend(toolbox.gesture(gesture, &look));
+        editor.actions.extend(toolbox.gesture(gesture, &context));
     }
-    let ghosts = ghosts(response, toolbox, &look);
+    let ghosts = ghosts(response, toolbox, &context);
     let painter = ui.painter_at(response.rect);
-    let overlay = Overlay { painter: &painter, screen: glass.screen };
-    overlay.all(&look, glass.target.map(|(texture, _)| texture), &desk.preview.flow(), &ghosts);
+    let overlay = Overlay { painter: &painter, screen: projected.screen };
+    overlay.all(&context, projected.target.map(|(texture, _)| texture), &editor.preview.flow(), &ghosts);
     input.moves
 }
 
 /// Plane units per point of the screen where the pointer is, or in the middle of the picture.
-fn per_point(response: &Response, glass: &Glass) -> f32 {
-    let at = response.hover_pos().unwrap_or(glass.view.center());
-    let near = |by: egui::Vec2| (glass.plane)(at + by);
+fn per_point(response: &Response, projected: &ProjectedPlane) -> f32 {
+    let at = response.hover_pos().unwrap_or(projected.view.center());
+    let near = |by: egui::Vec2| (projected.plane)(at + by);
     let step = near(egui::vec2(1.0, 0.0)).zip(near(egui::vec2(0.0, 1.0))).zip(near(egui::Vec2::ZERO));
     step.map_or(0.002, |((right, down), here)| right.distance(here).max(down.distance(here)))
 }
