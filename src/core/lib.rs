@@ -28,8 +28,8 @@
 //! (`tests/tidy.rs` watches it).
 
 pub mod error;
-pub mod setting;
 pub mod progress;
+pub mod setting;
 
 pub mod files;
 

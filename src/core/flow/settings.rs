@@ -37,7 +37,7 @@ use crate::{Error, Result};
 /// The flow of the photons from one key frame to the next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(Fade::KIND))]
 pub struct FlowSettings {
     /// Kind of flow ([`Self::GAMMA`]).
     pub gamma: f32,

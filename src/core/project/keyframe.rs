@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::CausticKey;
-use crate::target::{ImageTarget, PointsTarget};
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
+use crate::target::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
 /// One key frame.
@@ -41,7 +41,7 @@ settings! { KeyFrame {
         Choice { value: "image", help: "a picture: its bright parts attract the light" },
         Choice { value: "points", help: "a file of points, one for each photon or fewer" },
         Choice { value: "", help: "what the key frame shows by all light" },
-    ]);
+    ]).required();
     /// How the time runs from this key frame to the next.
     EASE = Setting::choice("keys[].ease", &[
         Choice { value: "smooth", help: "starts and ends at rest" },

@@ -29,3 +29,6 @@ pub fn settings() -> impl Iterator<Item = &'static Setting> {
         CameraDesc::SETTINGS, ReceiverDesc::SETTINGS, EnvironmentDesc::SETTINGS, PlaneSettings::SETTINGS,
     ].into_iter().flatten()
 }
+
+#[cfg(test)]
+mod tests;

@@ -57,9 +57,9 @@ pub struct Setting {
     pub range: [f64; 2],
     /// Whether the range excludes its smallest value.
     pub above: bool,
-    /// Default: one number for each component, 1 or 0 for on or off; empty for none.
+    /// Default: one number for each component, 1 or 0 for on or off, 0 for the first choice; empty for none.
     pub default: &'static [f64],
-    /// All choices, the default first.
+    /// All choices; the first is the default, where there is one.
     pub choices: &'static [Choice],
 }
 
@@ -98,7 +98,13 @@ impl Setting {
 
     /// One of a few, the default first.
     pub const fn choice(place: &'static str, choices: &'static [Choice]) -> Self {
-        Self { choices, ..Self::new(Kind::Choice, place, [0.0; 2], &[]) }
+        Self { choices, ..Self::new(Kind::Choice, place, [0.0; 2], &[0.0]) }
+    }
+
+    /// Without a default: a project has to give it.
+    pub const fn required(mut self) -> Self {
+        self.default = &[];
+        self
     }
 
     /// Text.
@@ -163,7 +169,9 @@ impl Setting {
             let (low, high) = (low.to_f64(), high.to_f64());
             low <= number && number <= high && !(self.above && number == low)
         };
-        let Some(wrong) = value.numbers().iter().find(|number| !is_in(number.to_f64())) else { return Ok(()) };
+        let Some(wrong) = value.numbers().iter().find(|number| !is_in(number.to_f64())) else {
+            return Ok(());
+        };
         let range =
             if self.above { format!("above {low}, at most {high}") } else { format!("{low} to {high}") };
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
@@ -192,7 +200,10 @@ impl Setting {
     pub fn default_in_words(&self) -> String {
         match self.kind {
             Kind::Switch => self.is_on().to_string(),
-            Kind::Choice => self.choices.first().map_or("", |choice| choice.value).to_owned(),
+            Kind::Choice => {
+                let default = self.choices.first().filter(|_| !self.default.is_empty());
+                default.map_or("", |choice| choice.value).to_owned()
+            }
             _ => {
                 let number = |&value: &f64| format::number(value, self.kind == Kind::Whole);
                 self.default.iter().map(number).collect::<Vec<_>>().join(", ")

@@ -49,7 +49,7 @@ fn describe_property(object: &mut Map<String, Value>, setting: &Setting) {
     if !is_element {
         let words = format!("{} {}", setting.help, setting.in_words());
         property.insert("description".into(), words.trim().into());
-        if !matches!(setting.kind, Kind::Switch) && !setting.default.is_empty() {
+        if !matches!(setting.kind, Kind::Switch | Kind::Choice) && !setting.default.is_empty() {
             property.insert("default".into(), default(setting));
         }
     }

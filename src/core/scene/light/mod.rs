@@ -51,7 +51,7 @@ settings! { LightDesc {
         Choice { value: "directional", help: "the sun: parallel light, or nearly" },
         Choice { value: "rectangle", help: "a flat panel that shines to one side" },
         Choice { value: "sphere", help: "a glowing ball" },
-    ]);
+    ]).required();
     /// Name of the light in the list of caustics; each name once.
     NAME = Setting::text("scene.lights[].name");
     /// Power of the whole light. A narrower cone of the same power is brighter.

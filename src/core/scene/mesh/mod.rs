@@ -80,11 +80,7 @@ settings! { Transform {
 
 impl Default for Transform {
     fn default() -> Self {
-        Self {
-            translate: Self::TRANSLATE.value(),
-            rotate: Self::ROTATE.value(),
-            scale: Self::SCALE.value(),
-        }
+        Self { translate: Self::TRANSLATE.value(), rotate: Self::ROTATE.value(), scale: Self::SCALE.value() }
     }
 }
 
