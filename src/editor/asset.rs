@@ -1,40 +1,40 @@
-//! Files that the artist picks: what they are for, and the change of the project once one is picked.
+//! Asset files: their use in the project, and the edit that puts a picked file there.
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
 use lightloom_core::scene::MeshDesc;
-use lightloom_core::target::{ImageTarget, PointsTarget};
+use lightloom_core::targets::{ImageTarget, PointsTarget};
 
 use super::document::Edit;
 
-/// What a file is picked for.
+/// The use of a picked file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AssetUse {
     /// A new mesh.
     Mesh,
-    /// Another file for the mesh of this index.
+    /// Replaces the file of the mesh of this index.
     MeshFile(usize),
-    /// A picture that a key frame shows.
+    /// A target picture of a key frame.
     Picture(TargetSlot),
-    /// Points that a key frame shows.
+    /// Target points of a key frame.
     Points(TargetSlot),
 }
 
-/// Whose target it is.
+/// A target: of a key frame, or of one caustic in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TargetSlot {
     /// Index of the key frame.
     pub key: usize,
-    /// Name of the caustic; none for all that have none of their own.
+    /// Name of the caustic; none for the key frame's own target.
     pub caustic: Option<String>,
 }
 
 impl TargetSlot {
-    /// What is shown there.
+    /// The target there.
     pub fn shows<'a>(&self, keys: &'a [KeyFrame]) -> Option<&'a Shows> {
         keys.get(self.key).map(|key| key.shown_by(self.caustic.as_deref()))
     }
 
-    /// Shows something else there.
+    /// Replaces the target there.
     pub fn set(&self, keys: &mut [KeyFrame], shows: Shows) {
         let Some(key) = keys.get_mut(self.key) else { return };
         match &self.caustic {
@@ -45,7 +45,7 @@ impl TargetSlot {
 }
 
 impl AssetUse {
-    /// What the dialog calls these files, and their endings.
+    /// Name and extensions of these files.
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Mesh | Self::MeshFile(_) => ("Meshes", &["obj"]),
@@ -54,7 +54,7 @@ impl AssetUse {
         }
     }
 
-    /// The change of the project when `file` was picked, a path relative to the project; none where what it was for is gone.
+    /// The edit that uses `file`, a path relative to the project; none where its use no longer exists.
     pub fn edit(&self, project: &Project, file: String) -> Option<Edit> {
         match self {
             Self::Mesh => {

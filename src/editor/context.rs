@@ -2,7 +2,7 @@
 
 use super::action::Action;
 use super::document::Document;
-use super::preview::Preview;
+use super::preview::LivePreview;
 use super::session::Session;
 
 /// The editor as one part of the window sees it for one frame.
@@ -12,7 +12,9 @@ pub struct EditorContext<'a> {
     /// The unsaved state of the window.
     pub session: &'a mut Session,
     /// The newest results of the preview's workers.
-    pub preview: &'a Preview,
+    pub preview: &'a LivePreview,
+    /// The message in the status bar.
+    pub status: &'a str,
     /// The actions asked for so far, in order.
     pub actions: &'a mut Vec<Action>,
 }

@@ -1,11 +1,11 @@
-//! Key presses as commands and tools.
+//! Keyboard input as actions.
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
 use super::action::Action;
 use super::command::{COMMANDS, Command};
 
-/// What a tool with something in the making takes for itself.
+/// Keys that a busy tool handles itself.
 const BUSY: [Key; 9] = [
     Key::Enter,
     Key::Escape,
@@ -18,7 +18,7 @@ const BUSY: [Key; 9] = [
     Key::ArrowRight,
 ];
 
-/// Commands that a held key repeats.
+/// Commands that repeat while their key is held.
 const REPEATED: [Command; 6] = [
     Command::NextFrame,
     Command::PreviousFrame,
@@ -28,13 +28,13 @@ const REPEATED: [Command; 6] = [
     Command::ZoomOut,
 ];
 
-/// What the keys of this frame of the window ask for. `tools` are the tools' names and keys in their order; `busy` tells
-/// that the tool in hand has something in the making. A focused text field keeps all keys for itself but those that
-/// mean nothing there.
+/// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
+/// that the active tool has an unfinished gesture. A focused text field keeps all keys except shortcuts that have
+/// no meaning in text.
 pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<Action> {
     let typing = ctx.text_edit_focused();
     let focused = ctx.memory(|memory| memory.focused().is_some());
-    if egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some()) {
+    if is_covered(ctx) {
         return Vec::new();
     }
     let events = ctx.input(|i| i.events.clone());
@@ -46,7 +46,12 @@ pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<
     events.iter().filter_map(action).collect()
 }
 
-/// What the space bar asks for when it is let go: held while the pointer drags, it moves the view.
+/// Whether a dialog or a menu is open that receives the keys.
+pub(super) fn is_covered(ctx: &Context) -> bool {
+    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
+}
+
+/// The action of the space bar on release: held while the pointer drags, it pans the view instead.
 fn tapped(ctx: &Context, event: &Event, action: Option<Action>) -> Option<Action> {
     let id = egui::Id::unique("space bar");
     if matches!(event, Event::Key { pressed: true, .. }) {
@@ -89,7 +94,7 @@ fn asked(
     }
 }
 
-/// The command of a key: where several fit, the one whose modifiers are all held.
+/// The command of a key with modifiers; an exact match wins.
 fn command(key: Key, held: Modifiers) -> Option<Command> {
     let fits = |exact: bool| {
         COMMANDS.iter().find(|entry| {
@@ -105,7 +110,7 @@ fn command(key: Key, held: Modifiers) -> Option<Command> {
     fits(true).or_else(|| fits(false)).map(|entry| entry.command)
 }
 
-/// Whether a shortcut can be used while text is typed.
+/// Whether a shortcut works while text is typed.
 fn means_nothing_in_text(shortcut: &KeyboardShortcut) -> bool {
     let editing = [Key::Z, Key::Y, Key::X, Key::C, Key::V, Key::A, Key::D, Key::J, Key::H];
     let function = shortcut.logical_key == Key::F1;

@@ -12,10 +12,10 @@ use super::shortcuts;
 use super::templates::TEMPLATES;
 use crate::editor::context::EditorContext;
 
-/// The menus in their order.
+/// The menus in order.
 const MENUS: [Menu; 5] = [Menu::File, Menu::Edit, Menu::Play, Menu::View, Menu::Help];
 
-/// Before these a line parts the menu.
+/// Commands that follow a separator.
 const PARTED: [Command; 14] = [
     Command::Save,
     Command::Export,
@@ -33,16 +33,16 @@ const PARTED: [Command; 14] = [
     Command::Larger,
 ];
 
-/// A file that was open lately.
+/// A recently opened file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recent {
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// Whether it is still there; a missing one is shown grey.
+    /// Whether it still exists; missing files are disabled.
     pub is_there: bool,
 }
 
-/// Shows the menu bar and asks for what is chosen.
+/// Shows the menu bar and asks for the chosen command.
 pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
@@ -90,7 +90,7 @@ fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &CommandInfo) {
     }
 }
 
-/// Undo and redo say what they would take back.
+/// The name of a command; undo and redo name their step.
 fn title(entry: &CommandInfo, document: &Document) -> String {
     let what = match entry.command {
         Command::Undo => document.history().undoes(),
@@ -122,9 +122,8 @@ fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let folder = path.parent().unwrap_or(Path::new("")).to_string_lossy();
             let shown = ui.add_enabled(*is_there, Button::new(name.as_ref()));
-            let shown = shown
-                .on_hover_text(folder.as_ref())
-                .on_disabled_hover_text(format!("{folder}: not there now"));
+            let shown =
+                shown.on_hover_text(folder.as_ref()).on_disabled_hover_text(format!("{folder}: not found"));
             if shown.clicked() {
                 editor.ask(Action::Open(path.clone()));
                 ui.close();
@@ -134,7 +133,7 @@ fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     ui.add_enabled_ui(!recent.is_empty(), |ui| ui.menu_button("      Open recent", list));
 }
 
-/// Whether what a command switches is on; none for commands that switch nothing.
+/// The state of a toggle command; none for other commands.
 pub fn is_on(command: Command, session: &Session) -> Option<bool> {
     let show = &session.overlays;
     Some(match command {
@@ -158,7 +157,7 @@ pub fn is_on(command: Command, session: &Session) -> Option<bool> {
     })
 }
 
-/// Whether a command would do something now.
+/// Whether a command has an effect now.
 pub fn is_enabled(command: Command, document: &Document, session: &Session) -> bool {
     let chosen = !session.selection.is_empty();
     match command {

@@ -1,5 +1,5 @@
-//! The window: draw, tune, scrub, compare, export, save. No algorithm of light lives here: it shows and changes a
-//! project and calls the core.
+//! The editor: draw, tune, scrub, compare, export, save. It shows and edits a project and calls the core;
+//! no algorithm of light lives here.
 
 pub mod action;
 mod app;
@@ -10,6 +10,7 @@ pub mod command;
 pub mod context;
 pub mod dialogs;
 pub mod document;
+pub mod engine;
 pub mod export;
 pub mod keyboard;
 pub mod menu;
@@ -23,6 +24,7 @@ pub mod selection;
 pub mod session;
 pub mod shortcuts;
 mod start;
+pub mod state;
 pub mod store;
 mod target_image;
 pub mod templates;

@@ -1,10 +1,10 @@
-//! Paths as a project writes them: relative to its file, with forward slashes.
+//! Relative paths as projects store them: from the project file, with forward slashes.
 
 use std::path::{Component, Path, PathBuf};
 
 use lightloom_core::project::Project;
 
-/// How the project file `project` names `file`; both absolute. A file on another drive keeps its whole path.
+/// Path of `file` relative to the project file `project`; both absolute. On another drive the path stays absolute.
 pub(super) fn relative(file: &Path, project: &Path) -> String {
     let folder = plain(project.parent().unwrap_or(Path::new("")));
     let file = plain(file);
@@ -16,7 +16,7 @@ pub(super) fn relative(file: &Path, project: &Path) -> String {
     written(&up.chain(file[common..].iter().copied()).collect::<Vec<_>>())
 }
 
-/// The project for another place of its file: it names the same files from there.
+/// The project with its file paths rewritten for another location of the project file.
 pub(super) fn relocated(project: &Project, from: &Path, to: &Path) -> Project {
     let mut project = project.clone();
     let folder = from.parent().unwrap_or(Path::new(""));
@@ -26,7 +26,7 @@ pub(super) fn relocated(project: &Project, from: &Path, to: &Path) -> Project {
     project
 }
 
-/// The components without `.`, and without `..` where there is something to leave.
+/// The components without `.`, and with `..` resolved where possible.
 fn plain(path: &Path) -> Vec<Component<'_>> {
     let mut plain: Vec<Component> = Vec::new();
     for part in path.components() {

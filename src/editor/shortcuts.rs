@@ -1,24 +1,24 @@
-//! Keys in words, and the sheet of all of them.
+//! Shortcuts in words, and the window that lists them.
 
 use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
 
 use super::command::{COMMANDS, CommandInfo, Menu};
 
-/// A key and what it does.
+/// A key and its effect.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShortcutLine {
     /// The group it is listed in.
     pub group: &'static str,
-    /// What it does.
+    /// Its effect.
     pub name: String,
-    /// The key in words.
+    /// The key, such as "Ctrl+S".
     pub key: String,
 }
 
-/// The sheet.
+/// The shortcuts window.
 #[derive(Clone, Debug, Default)]
 pub struct ShortcutSheet {
-    /// Whether it is seen.
+    /// Whether it is open.
     pub open: bool,
     filter: String,
 }
@@ -28,7 +28,7 @@ pub fn words(shortcut: &KeyboardShortcut) -> String {
     shortcut.format(&ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 
-/// The name of a command with its key, for tooltips.
+/// The name of a command with its shortcut, for tooltips.
 pub fn with_key(entry: &CommandInfo) -> String {
     entry
         .shortcut
@@ -36,16 +36,16 @@ pub fn with_key(entry: &CommandInfo) -> String {
         .map_or_else(|| entry.name.to_owned(), |s| format!("{} ({})", entry.name, words(s)))
 }
 
-/// What the mouse and held keys do everywhere, which no list of commands knows.
+/// Mouse gestures and modifier keys, which are not commands.
 const GESTURES: [(&str, &str); 10] = [
     ("Zoom at the pointer", "Wheel"),
-    ("Move the view", "Middle button, drag"),
+    ("Pan", "Middle button, drag"),
     ("Add to the selection", "Shift+Click"),
     ("Straight lines, steps of 15°", "Hold Shift"),
     ("Draw without snapping", "Hold Ctrl"),
-    ("End what is being drawn", "Enter"),
-    ("Break off what is being drawn or dragged", "Escape"),
-    ("Take the last point back", "Backspace"),
+    ("Finish the line", "Enter"),
+    ("Cancel the line or drag", "Escape"),
+    ("Remove the last point", "Backspace"),
     ("Nudge the selection", "Arrow keys"),
     ("Reset a setting to its default", "Double click"),
 ];
@@ -74,7 +74,7 @@ pub fn lines(tools: &[(&'static str, Key)]) -> Vec<ShortcutLine> {
         .collect()
 }
 
-/// What a menu is called.
+/// The name of a menu.
 pub fn group(menu: Menu) -> &'static str {
     match menu {
         Menu::File => "File",
@@ -86,7 +86,7 @@ pub fn group(menu: Menu) -> &'static str {
 }
 
 impl ShortcutSheet {
-    /// Shows the sheet where it is open.
+    /// Shows the window if it is open.
     pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
         if !self.open {
             return;
@@ -108,7 +108,7 @@ impl ShortcutSheet {
             ui.add_space(6.0);
             ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
                 if lines.is_empty() {
-                    ui.weak("No key does that.");
+                    ui.weak("No matches.");
                 }
                 ui.columns(2, |columns| {
                     let half = halves(&lines);
@@ -120,7 +120,7 @@ impl ShortcutSheet {
     }
 }
 
-/// Where the second column begins: at the group's begin that leaves both about as long.
+/// Index of the second column: the start of the group that balances the columns.
 fn halves(lines: &[ShortcutLine]) -> usize {
     let begins =
         (0..=lines.len()).filter(|&i| i == lines.len() || i == 0 || lines[i].group != lines[i - 1].group);

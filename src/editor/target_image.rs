@@ -1,7 +1,7 @@
 //! The target picture towards which the light flows at the playhead.
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
-use lightloom_core::target::{ImageTarget, Placement};
+use lightloom_core::targets::{ImageTarget, Placement};
 
 use super::session::Session;
 

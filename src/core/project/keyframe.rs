@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::CausticKey;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
-use crate::target::{ImageTarget, PointsTarget};
+use crate::targets::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
 /// One key frame.

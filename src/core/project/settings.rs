@@ -13,7 +13,7 @@ use crate::scene::material::{Diffuse, Glass, Material, Mirror};
 use crate::scene::mesh::{MeshDesc, Transform};
 use crate::scene::receiver::ReceiverDesc;
 use crate::setting::Setting;
-use crate::target::{ImageTarget, Placement, PointsTarget};
+use crate::targets::{ImageTarget, Placement, PointsTarget};
 
 /// All settings of a project, in the order of the README's table.
 #[rustfmt::skip]

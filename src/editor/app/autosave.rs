@@ -1,4 +1,4 @@
-//! Keeps what must not be lost: each change in the journal, the preferences in their file.
+//! Autosave: every change goes to the journal, the preferences to their file.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::editor::preferences;
 use crate::editor::store::{Note, StoreRequest};
 
 impl App {
-    /// Notes what changed since the last frame of the window. Costs pointers.
+    /// Sends changes since the last frame to the file threads. Copies pointers only.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.note_project();
         let last_sent = &mut self.files.last_sent;
@@ -23,8 +23,8 @@ impl App {
         }
         let title = format!(
             "{}{} – Lightloom",
-            if self.document.is_unsaved() { "● " } else { "" },
-            self.document.title()
+            if self.editor.document.is_unsaved() { "● " } else { "" },
+            self.editor.document.title()
         );
         if self.files.title != title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
@@ -33,25 +33,25 @@ impl App {
     }
 
     fn note_project(&mut self) {
-        let project = self.document.project().clone();
+        let project = self.editor.document.project().clone();
         if self.files.last_sent.project.as_ref().is_some_and(|last_sent| Arc::ptr_eq(last_sent, &project)) {
             return;
         }
         let first = self.files.last_sent.project.replace(project.clone()).is_none();
-        let Ok(file) = self.document.file() else { return };
+        let Ok(file) = self.editor.document.file() else { return };
         let Some(journal) = &self.files.journal else { return };
-        if !self.document.is_unsaved() {
+        if !self.editor.document.is_unsaved() {
             if !first {
                 journal.clean();
             }
             return;
         }
         journal.note(Note {
-            path: self.document.path().map(ToOwned::to_owned),
-            title: self.document.title(),
+            path: self.editor.document.path().map(ToOwned::to_owned),
+            title: self.editor.document.title(),
             file,
             project,
-            seen: self.document.seen(),
+            seen: self.editor.document.seen(),
         });
     }
 }

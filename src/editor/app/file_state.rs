@@ -1,4 +1,4 @@
-//! What the window knows of its files: the threads that read and write them, and what it waits for.
+//! State of the window's files: the threads that read and write them, and pending requests.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,25 +8,25 @@ use lightloom_core::project::Project;
 use crate::editor::dialogs::Question;
 use crate::editor::store::{Folders, Journal, Preferences, Recovery, SaveRequest, Saver, StoreRequest};
 
-/// The threads that read and write, and what is waited for.
+/// The file threads, and the requests they have not answered yet.
 pub(super) struct Files {
     pub(super) saver: Option<Saver>,
     pub(super) journal: Option<Journal>,
-    /// The question that is open, and what its answer decides.
+    /// The open question, and what its answer decides.
     pub(super) question: Option<(Question, PendingQuestion)>,
-    /// What shall be done once the document is saved.
+    /// What follows once the document is saved.
     pub(super) after_save: Option<Leave>,
-    /// The example that is being read.
+    /// The template being read.
     pub(super) template: Option<PathBuf>,
-    /// Work of earlier runs that is still to be asked for.
+    /// Unsaved work of earlier runs that was not offered yet.
     pub(super) lost: Vec<Recovery>,
-    /// What was handed to the threads last, and the window's title.
+    /// The last state sent to the threads, and the window's title.
     pub(super) last_sent: LastSent,
     pub(super) title: String,
     pub(super) closing: bool,
 }
 
-/// What an answer decides.
+/// The decision that an answered question makes.
 pub(super) enum PendingQuestion {
     Leave(Leave),
     Recover(Box<Recovery>),
@@ -34,7 +34,7 @@ pub(super) enum PendingQuestion {
     Nothing,
 }
 
-/// Why the document is left.
+/// What follows when the document is left.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Leave {
     Quit,
@@ -43,7 +43,7 @@ pub(super) enum Leave {
 }
 
 impl Files {
-    /// Starts the threads and looks for work that a crash left. Without folders the documents can be shown, not saved.
+    /// Starts the threads and looks for work that a crash left. Without folders nothing can be saved.
     pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
         let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
         if let Some(saver) = &saver {
@@ -63,13 +63,13 @@ impl Files {
         }
     }
 
-    /// Asks the saver; false where there is none.
+    /// Sends a request to the saver; false where there is none.
     pub(super) fn request(&self, request: StoreRequest) -> bool {
         self.saver.as_ref().map(|saver| saver.ask(request)).is_some()
     }
 }
 
-/// What was handed to the threads last.
+/// The project and preferences that were sent to the threads last.
 #[derive(Default)]
 pub(super) struct LastSent {
     pub(super) project: Option<Arc<Project>>,

@@ -1,4 +1,4 @@
-//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver answers when it has done something.
+//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver replies when it is done.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::editor::store::{Fingerprint, Journal, Recovery, SaveRequest, Saver, S
 use crate::editor::templates::{self, TEMPLATES};
 
 impl App {
-    /// Takes the answers of the threads, of dialogs and of questions.
+    /// Handles the replies of threads, file dialogs and questions.
     pub(super) fn receive(&mut self, ctx: &egui::Context) {
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
@@ -51,7 +51,7 @@ impl App {
                     self.preferences.add_recent(&path);
                 }
                 if !opened.notes.is_empty() {
-                    self.status = opened.notes.join("; ");
+                    self.editor.status = opened.notes.join("; ");
                 }
             }
             StoreReply::Opened(path, Err(error)) => {
@@ -59,13 +59,15 @@ impl App {
                 self.show_message(format!("'{}' cannot be opened", name(&path)), error.to_string());
             }
             StoreReply::Saved(save, Ok(saved)) => {
-                let from = templates::file_of(&self.document);
+                let from = templates::file_of(&self.editor.document);
                 if from.parent() != save.path.parent() {
-                    self.document.relocate(|project| relative_path::relocated(project, &from, &save.path));
+                    self.editor
+                        .document
+                        .relocate(|project| relative_path::relocated(project, &from, &save.path));
                 }
-                self.document.mark_saved(save.project, save.path.clone(), saved.seen);
+                self.editor.document.mark_saved(save.project, save.path.clone(), saved.seen);
                 self.preferences.add_recent(&save.path);
-                self.status = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
+                self.editor.status = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
                 if let Some(leave) = self.files.after_save.take() {
                     self.leave(ctx, leave);
                 }
@@ -79,7 +81,7 @@ impl App {
                 self.files.question = Some((question, PendingQuestion::Changed(Box::new(save))));
             }
             StoreReply::Lost(lost) => self.files.lost = lost,
-            StoreReply::Failed(why) => self.status = why,
+            StoreReply::Failed(why) => self.editor.status = why,
         }
     }
 
@@ -105,7 +107,7 @@ impl App {
         }
     }
 
-    /// Takes up work that a crash left.
+    /// Opens work recovered from a crash.
     fn recover(&mut self, recovery: Recovery) {
         match &recovery.work {
             Ok(file) => {
@@ -115,7 +117,7 @@ impl App {
                 self.replace(document);
                 self.files.journal = Some(Journal::resume(recovery));
             }
-            Err(error) => self.show_message("The work cannot be read".into(), error.to_string()),
+            Err(error) => self.show_message("The recovery file cannot be read".into(), error.to_string()),
         }
     }
 
@@ -131,10 +133,10 @@ impl App {
         self.files.question = Some((question, PendingQuestion::Recover(Box::new(recovery))));
     }
 
-    /// Leaves the document, after asking where it holds unsaved work.
+    /// Leaves the document, after a question where it has unsaved changes.
     pub(super) fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
-        if self.document.is_unsaved() {
-            let question = Question::Unsaved { title: self.document.title() };
+        if self.editor.document.is_unsaved() {
+            let question = Question::Unsaved { title: self.editor.document.title() };
             self.files.question = Some((question, PendingQuestion::Leave(leave)));
         } else {
             self.go(ctx, leave);
@@ -155,7 +157,7 @@ impl App {
                 let Some(folder) = templates::folder() else {
                     let what =
                         "their folder 'projects' is neither beside the program nor in the current folder";
-                    return self.show_message("The examples are not there".into(), what.into());
+                    return self.show_message("The examples are missing".into(), what.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
                 self.files.template = Some(path.clone());
@@ -166,35 +168,35 @@ impl App {
 
     /// Asks for a project to open.
     pub(super) fn ask_what_to_open(&mut self, ctx: &egui::Context) {
-        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
         self.picker.ask(PickRequest::new(Purpose::OpenProject).in_folder(folder), ctx);
     }
 
     /// Saves to the document's file, or asks for one.
     pub(super) fn save(&mut self, ctx: &egui::Context) {
-        match self.document.path().map(Path::to_owned) {
-            Some(path) => self.save_to(path, self.document.seen()),
+        match self.editor.document.path().map(Path::to_owned) {
+            Some(path) => self.save_to(path, self.editor.document.seen()),
             None => self.save_as(ctx),
         }
     }
 
     /// Asks for a file to save to.
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
-        let folder = self.document.path().and_then(Path::parent).map(Path::to_owned);
-        let name = match self.document.path() {
+        let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
+        let name = match self.editor.document.path() {
             Some(path) => name(path),
-            None => format!("{}.json", self.document.title().to_lowercase().replace([' ', ','], "_")),
+            None => format!("{}.json", self.editor.document.title().to_lowercase().replace([' ', ','], "_")),
         };
         self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
     }
 
     fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {
-        let from = templates::file_of(&self.document);
+        let from = templates::file_of(&self.editor.document);
         let project = match from.parent() == path.parent() {
-            true => self.document.project().clone(),
-            false => Arc::new(relative_path::relocated(self.document.project(), &from, &path)),
+            true => self.editor.document.project().clone(),
+            false => Arc::new(relative_path::relocated(self.editor.document.project(), &from, &path)),
         };
-        match self.document.file() {
+        match self.editor.document.file() {
             Ok(file) => self.request(StoreRequest::Save(SaveRequest { path, file, project, seen })),
             Err(error) => self.show_message("The project cannot be saved".into(), error.to_string()),
         }
@@ -202,7 +204,8 @@ impl App {
 
     fn request(&mut self, request: StoreRequest) {
         if !self.files.request(request) {
-            self.status = "no thread could be started for files; nothing is opened or saved".into();
+            self.editor.status =
+                "no thread could be started for file access; nothing can be opened or saved".into();
         }
     }
 
@@ -215,20 +218,20 @@ impl App {
         }
     }
 
-    /// Lets the artist pick a file for the project.
+    /// Asks for a file for the project.
     pub(super) fn pick_file(&mut self, ctx: &egui::Context, pick: AssetUse) {
-        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
         self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
     }
 
-    /// Puts a file into the project. Who picks a file allows that it is read.
+    /// Puts a file into the project. Picking a file outside the project folder allows external files.
     fn insert(&mut self, pick: &AssetUse, file: &Path) {
-        let base = templates::file_of(&self.document);
+        let base = templates::file_of(&self.editor.document);
         let written = relative_path::relative(file, &base);
         self.external = true;
-        if let Some(edit) = pick.edit(self.document.project(), written) {
-            self.edit(edit);
-            self.document.settle();
+        if let Some(edit) = pick.edit(self.editor.document.project(), written) {
+            self.editor.edit(edit);
+            self.editor.document.settle();
         }
     }
 
@@ -237,8 +240,8 @@ impl App {
     fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let ends = |pick: &AssetUse| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
-        let keys = &self.document.project().keys;
-        let after = keys.iter().position(|key| key.frame >= self.session.playhead);
+        let keys = &self.editor.document.project().keys;
+        let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
         let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
         if ending.as_deref() == Some("json") {
             return self.leave(ctx, Leave::Open(file));
@@ -248,11 +251,14 @@ impl App {
             .find(|pick| ends(pick))
         {
             Some(pick) => self.insert(pick, &file),
-            None => self.status = format!("'{}' is no project, mesh, picture or file of points", name(&file)),
+            None => {
+                self.editor.status =
+                    format!("'{}' is not a project, mesh, picture or point file", name(&file))
+            }
         }
     }
 
-    /// Says something that must be read.
+    /// Shows a message window.
     pub(super) fn show_message(&mut self, title: String, text: String) {
         self.files.question = Some((Question::Message { title, text }, PendingQuestion::Nothing));
     }

@@ -1,4 +1,4 @@
-//! What stands where in the window.
+//! The layout of the window.
 
 use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
@@ -19,14 +19,9 @@ use crate::editor::{menu, theme};
 const PANEL: [f32; 2] = [330.0, 290.0];
 
 impl App {
-    /// Shows everything; what is asked for comes into `actions`.
+    /// Shows everything; actions are appended to `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let mut editor = EditorContext {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions,
-        };
+        let mut editor = self.editor.context(actions);
         let editor = &mut editor;
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found()));
         if let Some(problem) = editor.preview.problem().map(str::to_owned) {
@@ -35,7 +30,7 @@ impl App {
             });
         }
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-            if status(ui, editor, &self.status, self.gpu, self.preferences.photon_renderer, &self.exports) {
+            if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
                 editor.ask(Command::Export);
             }
         });
@@ -66,25 +61,21 @@ fn banner(ui: &Ui) -> Frame {
         .inner_margin(Margin::symmetric(12, 6))
 }
 
-/// What is wrong with the project, and what can be done at once.
+/// The preview's problem, with a button for what can be done at once.
 fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("This cannot be worked out").strong());
+        ui.label(RichText::new("The preview cannot be computed").strong());
         ui.label(problem);
-        if problem.contains("--allow-external")
-            && !*external
-            && ui.button("Allow files from elsewhere").clicked()
-        {
+        if problem.contains("--allow-external") && !*external && ui.button("Allow external files").clicked() {
             *external = true;
         }
     });
 }
 
-/// What goes on, what the tool in hand does, and what draws. Tells whether the export was clicked.
+/// The status bar: activity, message, export, renderer. Returns whether the export was clicked.
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
-    status_text: &str,
     gpu: Gpu,
     renderer: PhotonRenderer,
     exports: &export::Exports,
@@ -106,21 +97,21 @@ fn status(
             ui.separator();
             clicked = export::status_line(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(egui::Label::new(status_text).truncate());
+                ui.add(egui::Label::new(editor.status).truncate());
             });
         });
     });
     clicked
 }
 
-/// What the worker does, in a word.
+/// The name of the preview's stage.
 fn doing(stage: &str) -> &'static str {
     match stage {
         "trace" => "tracing photons",
         "match" => "matching",
         "fit" => "fitting the flow",
-        "visible" | "background" => "looking at the scene",
-        "render" | "carry" => "carrying photons",
+        "visible" | "background" => "rendering the background",
+        "render" | "carry" => "moving photons",
         _ => "loading",
     }
 }
@@ -130,16 +121,15 @@ fn drawn_by(gpu: Gpu, renderer: PhotonRenderer) -> (&'static str, &'static str) 
         (Gpu::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
             ("Graphics card", "The graphics card draws the light of the plane view.")
         }
-        (Gpu::Software, PhotonRenderer::Gpu) => (
-            "Software graphics",
-            "There is no graphics card; a program that behaves like one draws the light.",
-        ),
+        (Gpu::Software, PhotonRenderer::Gpu) => {
+            ("Software graphics", "There is no graphics card; a software renderer draws the light.")
+        }
         (Gpu::Hardware, PhotonRenderer::Cpu) => {
-            ("Processor", "The processor works the light out, as the preferences say.")
+            ("Processor", "The processor draws the light, as set in the preferences.")
         }
         (Gpu::Software | Gpu::None, _) => (
             "No graphics card",
-            "The processor works the light out: the same picture, some frames per second less. All else is as with a card.",
+            "The processor draws the light: the same picture at a lower frame rate. Everything else is the same.",
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! The windows over the window, and which of them are open.
+//! The secondary windows, and which of them are open.
 
 use crate::editor::export::ExportWindow;
 use crate::editor::palette::Palette;
@@ -6,7 +6,7 @@ use crate::editor::shortcuts::ShortcutSheet;
 use crate::editor::tour::{Anchors, Tour};
 use crate::editor::welcome::Welcome;
 
-/// The windows, and which of them are open.
+/// The secondary windows, and which of them are open.
 #[derive(Default)]
 pub(super) struct Windows {
     pub(super) export: ExportWindow,
@@ -15,6 +15,6 @@ pub(super) struct Windows {
     pub(super) preferences: bool,
     pub(super) welcome: Welcome,
     pub(super) tour: Tour,
-    /// Where the things are that the first steps speak of.
+    /// The rectangles that the tour points at.
     pub(super) anchors: Option<Anchors>,
 }

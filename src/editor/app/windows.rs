@@ -1,11 +1,10 @@
-//! Windows over the window: export, palette, shortcuts, preferences, examples, first steps.
+//! The secondary windows: export, palette, shortcuts, preferences, examples, tour.
 
 use eframe::egui;
 use egui::Key;
 
 use super::App;
 use crate::editor::action::Action;
-use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::palette;
 use crate::editor::panels::PRESETS;
@@ -19,12 +18,7 @@ impl App {
         tools: &[(&'static str, Key)],
         actions: &mut Vec<Action>,
     ) {
-        let mut editor = EditorContext {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions,
-        };
+        let mut editor = self.editor.context(actions);
         let windows = &mut self.windows;
         windows.export.external = self.external;
         windows.export.show(ctx, &mut editor, &mut self.exports, &mut self.picker);
@@ -36,20 +30,16 @@ impl App {
             PRESETS.iter().map(preset).collect()
         };
         let chosen = windows.palette.show(ctx, || palette::items(&editor, tools, &presets()));
-        actions_from(editor.actions, chosen);
+        editor.actions.extend(chosen);
         windows.shortcuts.show(ctx, tools);
         preferences::show(ctx, &mut windows.preferences, &mut self.preferences);
-        self.session.snapping = self.preferences.snapping;
+        self.editor.session.snapping = self.preferences.snapping;
         let chosen = windows.welcome.show(ctx, &self.recents.found());
-        actions_from(actions, chosen);
+        actions.extend(chosen);
         if let Some(anchors) = &windows.anchors
-            && windows.tour.show(ctx, anchors, self.document.project(), &self.session)
+            && windows.tour.show(ctx, anchors, self.editor.document.project(), &self.editor.session)
         {
             self.preferences.first_start_seen = true;
         }
     }
-}
-
-fn actions_from(actions: &mut Vec<Action>, chosen: Option<Action>) {
-    actions.extend(chosen);
 }

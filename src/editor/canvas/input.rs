@@ -1,57 +1,58 @@
-//! Pointer and keys over a view become gestures of the plane and movements of the view.
+//! Pointer and keys over a view, as gestures on the plane and moves of the view.
 
 use egui::{Event, Key, MouseWheelSource, PointerButton, Pos2, Response, Ui, Vec2};
 use glam::Vec2 as PlanePoint;
 
-use crate::editor::tools::{Gesture, HeldKeys, PointerMode, is_covered};
+use crate::editor::keyboard::is_covered;
+use crate::editor::tools::{Gesture, HeldKeys, PointerMode};
 
-/// Points of the wheel that double the size.
+/// Wheel scroll that doubles the zoom, points.
 const WHEEL: f32 = 240.0;
-/// Points of a drag that double the size.
+/// Drag distance that doubles the zoom, points.
 const DRAG: f32 = 120.0;
-/// Factor of a click with the zoom tool.
+/// Zoom factor of a click with the zoom tool.
 const CLICK_ZOOM: f32 = 1.6;
 /// A drag shorter than this is a click, points.
 const CLICK: f32 = 4.0;
 
-/// How a view is moved.
+/// A move of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ViewMove {
-    /// What is seen moves by so many points.
+    /// Pans by a vector in points.
     Pan(Vec2),
-    /// What is seen grows by a factor about a place of the screen.
+    /// Zooms by a factor about a screen position.
     Zoom(f32, Pos2),
 }
 
-/// What pointer and keys asked for in one frame of the window.
+/// The input of one frame.
 #[derive(Clone, Debug, Default)]
 pub struct Input {
-    /// For the tool in hand.
+    /// Gestures for the active tool.
     pub gestures: Vec<Gesture>,
-    /// For the view.
+    /// Moves of the view.
     pub moves: Vec<ViewMove>,
     /// Whether the view is being dragged.
     pub dragging: bool,
 }
 
-/// What the buttons do that are down.
+/// What the pressed buttons are doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum PointerDrag {
     #[default]
     Free,
     Tool,
     Pan(Pos2),
-    /// Where it began, where it is, and whether it is a drag.
+    /// Start, current position, and whether the drag threshold was passed.
     Zoom(Pos2, Pos2, bool),
 }
 
-/// What is held beside the pointer.
+/// The modifier keys.
 pub fn held(ui: &Ui) -> HeldKeys {
     let modifiers = ui.input(|input| input.modifiers);
     HeldKeys { shift: modifiers.shift, alt: modifiers.alt, ctrl: modifiers.command || modifiers.ctrl }
 }
 
-/// Reads the pointer over the view of `response`. `plane` tells the plane point at a place of the screen, if there is
+/// Reads the pointer over the view of `response`. `plane` maps a screen position to a plane point, if there is
 /// one.
 pub fn pointer(
     ui: &Ui,
@@ -77,7 +78,7 @@ pub fn pointer(
             _ => (),
         }
     }
-    // A button that came up outside of the window is told to nobody.
+    // No event reports a button released outside of the window.
     if drag != PointerDrag::Free && !ui.input(|input| input.pointer.any_down()) {
         let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(response.rect.center());
         release(ui, std::mem::take(&mut drag), at, plane, &mut input);
@@ -163,7 +164,7 @@ fn release(
     }
 }
 
-/// The wheel brings nearer, two fingers on a trackpad move, and both of them apart bring nearer.
+/// The wheel zooms, two-finger scrolling pans, pinching zooms.
 fn wheel(ui: &Ui, response: &Response) -> Option<ViewMove> {
     let pointer = response.hover_pos().filter(|_| response.hovered())?;
     let (scroll, pinch, source) =
@@ -175,7 +176,7 @@ fn wheel(ui: &Ui, response: &Response) -> Option<ViewMove> {
     (factor != 1.0 && factor.is_finite()).then_some(ViewMove::Zoom(factor, pointer))
 }
 
-/// The keys that tools answer, unless another widget has them.
+/// Key presses for tools, unless another widget has the focus.
 pub fn keys(ui: &Ui, response: &Response) -> Vec<Gesture> {
     const KEYS: [Key; 8] = [
         Key::Enter,

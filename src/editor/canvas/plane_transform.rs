@@ -1,16 +1,13 @@
-//! Screen and plane: where the plane view shows a plane point.
+//! The transform between plane and screen in the plane view.
 
 use egui::{Pos2, Rect, pos2};
 use glam::{Vec2, vec2};
 
-use crate::editor::session::PlaneViewport;
+use crate::editor::session::{PlaneViewport, ZOOM_RANGE};
 
-/// Room around the plane where it fits the view, points.
+/// Margin around the plane at zoom 1, points.
 const MARGIN: f32 = 28.0;
-/// Smallest and largest zoom.
-pub const ZOOM: std::ops::RangeInclusive<f32> = 0.05..=200.0;
-
-/// The plane on the screen.
+/// The transform from plane coordinates to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneTransform {
     middle: Pos2,
@@ -20,7 +17,7 @@ pub struct PlaneTransform {
 }
 
 impl PlaneTransform {
-    /// The plane of `extent` seen by `viewport` in the rectangle `view`.
+    /// The transform of a plane of `extent` in the rectangle `view`.
     pub fn new(view: Rect, extent: Vec2, viewport: &PlaneViewport) -> Self {
         let room = (view.size() - egui::Vec2::splat(2.0 * MARGIN)).max(egui::Vec2::splat(16.0));
         let fit = (room.x / extent.x).min(room.y / extent.y);
@@ -28,13 +25,13 @@ impl PlaneTransform {
         Self { middle: view.center(), centre: viewport.centre.unwrap_or(extent / 2.0), scale: fit * zoom }
     }
 
-    /// Where a plane point is on the screen; plane y points up.
+    /// Screen position of a plane point; plane y points up.
     pub fn screen_from_plane(&self, p: Vec2) -> Pos2 {
         let offset = (p - self.centre) * self.scale;
         pos2(self.middle.x + offset.x, self.middle.y - offset.y)
     }
 
-    /// The plane point at a place of the screen.
+    /// Plane point at a screen position.
     pub fn plane_from_screen(&self, p: Pos2) -> Vec2 {
         self.centre + vec2(p.x - self.middle.x, self.middle.y - p.y) / self.scale
     }
@@ -49,15 +46,15 @@ impl PlaneTransform {
         Rect::from_two_pos(self.screen_from_plane(Vec2::ZERO), self.screen_from_plane(extent))
     }
 
-    /// The viewport after zooming by `factor` about a place of the screen, which stays where it is.
+    /// The viewport zoomed by `factor` about a fixed screen position.
     pub fn zoomed(&self, viewport: &PlaneViewport, factor: f32, about: Pos2) -> PlaneViewport {
         let old = if viewport.zoom > 0.0 { viewport.zoom } else { 1.0 };
-        let zoom = (old * factor).clamp(*ZOOM.start(), *ZOOM.end());
+        let zoom = (old * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
         let fixed = self.plane_from_screen(about);
         PlaneViewport { centre: Some(fixed + (self.centre - fixed) * (old / zoom)), zoom }
     }
 
-    /// The viewport after dragging the plane by `by` points of the screen.
+    /// The viewport panned by `by` screen points.
     pub fn panned(&self, viewport: &PlaneViewport, by: egui::Vec2) -> PlaneViewport {
         PlaneViewport { centre: Some(self.centre - vec2(by.x, -by.y) / self.scale), zoom: viewport.zoom }
     }

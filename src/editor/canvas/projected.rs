@@ -1,27 +1,27 @@
-//! A view of the plane through a camera: the same tools and drawings, on whatever shows plane points.
+//! The plane seen through a camera: the same tools and overlays, under any projection.
 
 use egui::{Pos2, Rect, Response, TextureId, Ui};
 use glam::Vec2;
 
-use super::ghosts;
 use super::input::{self, ViewMove};
+use super::interaction::{Surface, run_tool};
 use super::overlay::Overlay;
 use crate::editor::context::EditorContext;
-use crate::editor::tools::{ToolContext, Toolbox};
+use crate::editor::tools::Toolbox;
 
-/// How a view shows the plane.
+/// A projection of the plane to the screen.
 pub struct ProjectedPlane<'a> {
     /// The picture on the screen.
     pub view: Rect,
-    /// Where a plane point is seen; none where it is not.
+    /// Screen position of a plane point; none where it is not visible.
     pub screen: &'a dyn Fn(Vec2) -> Option<Pos2>,
-    /// The plane point that is seen at a place of the screen.
+    /// Plane point at a screen position.
     pub plane: &'a dyn Fn(Pos2) -> Option<Vec2>,
-    /// The picture of the target that follows the playhead, with its size in pixels.
+    /// The target picture at the playhead, with its size in pixels.
     pub target: Option<(TextureId, Vec2)>,
 }
 
-/// Draws what was drawn over a view, lets the tool in hand work on it, and tells how the view shall be moved.
+/// Draws the overlays over a projected view, passes gestures to the active tool, and returns the moves of the view.
 pub fn show_projected(
     ui: &Ui,
     response: &Response,
@@ -33,29 +33,22 @@ pub fn show_projected(
     if response.has_focus() || response.hovered() {
         input.gestures.extend(input::keys(ui, response));
     }
-    let project = editor.document.project().clone();
-    let sketch = editor.preview.sketch().cloned();
-    let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
-    let context = ToolContext {
-        project: &project,
-        session: editor.session,
-        extent: project.extent(),
+    let preview = editor.preview.preview().cloned();
+    let photons = preview.as_ref().and_then(|preview| preview.positions(editor.session.playhead));
+    let surface = Surface {
         per_point: per_point(response, projected),
-        held: input::held(ui),
         picture: projected.target.map(|(_, size)| size),
         photons: photons.unwrap_or_default(),
     };
-    for gesture in input.gestures {
-        editor.actions.extend(toolbox.gesture(gesture, &context));
-    }
-    let ghosts = ghosts(response, toolbox, &context);
     let painter = ui.painter_at(response.rect);
     let overlay = Overlay { painter: &painter, screen: projected.screen };
-    overlay.all(&context, projected.target.map(|(texture, _)| texture), &editor.preview.flow(), &ghosts);
+    run_tool((ui, response), editor, toolbox, input.gestures, &surface, |context, flow, ghosts| {
+        overlay.all(context, projected.target.map(|(texture, _)| texture), flow, ghosts);
+    });
     input.moves
 }
 
-/// Plane units per point of the screen where the pointer is, or in the middle of the picture.
+/// Plane units per screen point at the pointer, or at the centre of the picture.
 fn per_point(response: &Response, projected: &ProjectedPlane) -> f32 {
     let at = response.hover_pos().unwrap_or(projected.view.center());
     let near = |by: egui::Vec2| (projected.plane)(at + by);

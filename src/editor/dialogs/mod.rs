@@ -1,6 +1,6 @@
-//! Questions to the user: which file, and what shall become of changes.
+//! Dialogs: file selection, questions and messages.
 //!
-//! [`Picker`] asks the system for its own file dialog, and shows a plain one of ours where the system has none.
+//! [`Picker`] uses the system's file dialog, or a built-in one where the system has none.
 
 mod browser;
 mod modal;

@@ -1,4 +1,4 @@
-//! Asks for one file at a time: through the system's dialog, or our own where the system has none.
+//! File selection through the system's dialog, or the built-in one where the system has none.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use egui::Context;
 use super::browser::Browser;
 use super::request::{Dialogs, PickRequest, PickResult, Purpose, with_ending};
 
-/// Asks for files, one at a time.
+/// A file picker with at most one open dialog.
 pub struct Picker {
     dialogs: Arc<dyn Dialogs>,
     state: PickerState,
@@ -19,28 +19,28 @@ enum PickerState {
     Idle,
     /// The system's dialog is open.
     Asked(PickRequest, Receiver<PickResult>),
-    /// Ours is.
+    /// The built-in dialog is open.
     Browsing(PickRequest, Box<Browser>),
 }
 
 impl Picker {
-    /// A picker that asks through these dialogs.
+    /// A picker that uses these dialogs.
     pub fn new(dialogs: Arc<dyn Dialogs>) -> Self {
         Self { dialogs, state: PickerState::Idle }
     }
 
-    /// Asks; a question that is open already is dropped.
+    /// Opens a dialog; one that is already open is dropped.
     pub fn ask(&mut self, request: PickRequest, ctx: &Context) {
         let answer = self.dialogs.pick(&request, ctx.clone());
         self.state = PickerState::Asked(request, answer);
     }
 
-    /// Whether a question is open.
+    /// Whether a dialog is open.
     pub fn is_open(&self) -> bool {
         !matches!(self.state, PickerState::Idle)
     }
 
-    /// Shows our own dialog where the system has none; returns what was chosen.
+    /// Shows the built-in dialog where it is needed; returns the chosen file.
     pub fn show(&mut self, ctx: &Context) -> Option<(Purpose, PathBuf)> {
         match std::mem::replace(&mut self.state, PickerState::Idle) {
             PickerState::Idle => None,

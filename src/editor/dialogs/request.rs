@@ -1,4 +1,4 @@
-//! What a file is asked for, and where: the system's dialogs, or answers of a test.
+//! File requests, and the dialogs that answer them.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -9,53 +9,53 @@ use egui::Context;
 
 use crate::editor::asset::AssetUse;
 
-/// What a file is asked for.
+/// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A project to open.
     OpenProject,
     /// Where to save the project.
     SaveProject,
-    /// The folder to which frames are written.
+    /// The output folder for frames.
     ExportFolder,
-    /// A file that the project is to use.
+    /// A file for the project to use.
     Asset(AssetUse),
 }
 
-/// What to ask for.
+/// A request for a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PickRequest {
-    /// What it is asked for.
+    /// The purpose.
     pub purpose: Purpose,
-    /// The folder at which to begin.
+    /// The initial folder.
     pub folder: Option<PathBuf>,
-    /// The name that a saved file has at first; empty where none is saved.
+    /// The initial file name for saving; empty otherwise.
     pub name: String,
 }
 
-/// What came of it.
+/// The result of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PickResult {
-    /// The user chose this.
+    /// The chosen path.
     Picked(PathBuf),
-    /// The user wants nothing.
+    /// The user cancelled.
     Cancelled,
-    /// There is nobody to ask: the system has no file dialog.
+    /// The system has no file dialog.
     Unavailable,
 }
 
-/// Where files are asked for.
+/// A source of file dialogs.
 pub trait Dialogs: Send + Sync {
-    /// Asks; the answer comes when the user has given it.
+    /// Opens a dialog; the result arrives when the user has answered.
     fn pick(&self, request: &PickRequest, wake: Context) -> Receiver<PickResult>;
 }
 
-/// Answers that were written down before, for tests; when they are used up there is nobody to ask.
+/// Predefined results for tests; unavailable when they are used up.
 #[derive(Debug, Default)]
 pub struct Scripted(Mutex<VecDeque<PickResult>>);
 
 impl Scripted {
-    /// Gives these answers, in their order.
+    /// Dialogs with these results, in order.
     pub fn new(answers: impl IntoIterator<Item = PickResult>) -> Self {
         Self(Mutex::new(answers.into_iter().collect()))
     }
@@ -72,17 +72,17 @@ impl Dialogs for Scripted {
 }
 
 impl PickRequest {
-    /// Asks for a file at no particular place.
+    /// A request without initial folder or name.
     pub fn new(purpose: Purpose) -> Self {
         Self { purpose, folder: None, name: String::new() }
     }
 
-    /// The request, to begin in a folder.
+    /// With an initial folder.
     pub fn in_folder(self, folder: Option<PathBuf>) -> Self {
         Self { folder, ..self }
     }
 
-    /// The request, with a name for the file to be saved.
+    /// With an initial file name.
     pub fn named(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
@@ -100,7 +100,7 @@ impl Purpose {
         }
     }
 
-    /// What the wanted files are called, and how their names end; no end means a folder.
+    /// Name and extensions of the wanted files; no extension means a folder.
     pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
@@ -114,7 +114,7 @@ impl Purpose {
     }
 }
 
-/// A project is saved with its ending, also where the user typed none.
+/// The path with the extension of projects where the user typed none.
 pub(super) fn with_ending(purpose: &Purpose, path: PathBuf) -> PathBuf {
     if purpose.saves() && path.extension().is_none() { path.with_extension("json") } else { path }
 }

@@ -7,11 +7,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use lightloom_core::pipeline::{Onlooker, Pipeline, Plan, Summary, prepare_folder, write_report};
+use lightloom_core::engine::{Client, Plan, RenderObserver, Summary, prepare_folder, write_report};
 use lightloom_core::progress::Snapshot;
-use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::project::Project;
 use lightloom_core::render::Image;
 use lightloom_core::{Error, Progress, Result};
+
+use crate::editor::engine::SharedEngine;
 
 /// Longest side of the growing picture, pixels.
 const PICTURE: usize = 480;
@@ -88,6 +90,7 @@ pub struct Growing {
 /// An export, as the window sees it.
 pub struct ExportJob {
     settings: ExportSettings,
+    engine: SharedEngine,
     progress: Progress,
     stop_asked: AtomicBool,
     shown: AtomicI32,
@@ -103,11 +106,12 @@ struct State {
 }
 
 impl ExportJob {
-    pub(super) fn new(settings: ExportSettings) -> Self {
+    pub(super) fn new(settings: ExportSettings, engine: SharedEngine) -> Self {
         let state = State { status: Status::Waiting, cost: None, passes: 0, files: 0, picture: None };
         Self {
             shown: AtomicI32::new(settings.shown),
             settings,
+            engine,
             progress: Progress::new(),
             stop_asked: AtomicBool::new(false),
             state: Mutex::new(state),
@@ -169,7 +173,7 @@ impl ExportJob {
         self.progress.resume();
     }
 
-    /// Breaks it off: nothing more is written. Frames that are complete already stay.
+    /// Cancels the export; nothing more is written. Frames that are complete already stay.
     pub fn cancel(&self) {
         self.progress.abandon();
         let mut state = self.state();
@@ -220,7 +224,7 @@ impl ExportJob {
 
     fn render(&self) -> Result<Summary> {
         let ExportSettings { project, file, external, folder, .. } = &self.settings;
-        let assets = AssetFolder::new(file, *external)?;
+        let engine = self.engine.of(file, *external)?.on_behalf_of(Client::Export);
         prepare_folder(folder, file, project, "folder")?;
         let saved = |_: &Path| self.state().files += 1;
         // Threads of its own, one less than the machine has: they may rest without those of the preview, and leave
@@ -231,8 +235,8 @@ impl ExportJob {
         let pool = pool
             .build()
             .map_err(|e| Error::value("threads", format!("the system does not start them: {e}")))?;
-        let summary = pool
-            .install(|| Pipeline::new(assets).render_before(project, folder, &self.progress, &saved, self))?;
+        let summary =
+            pool.install(|| engine.render_observed(project, folder, &self.progress, &saved, self))?;
         write_report(folder, "summary.json", &summary.to_json())?;
         Ok(summary)
     }
@@ -253,7 +257,7 @@ impl ExportJob {
     }
 }
 
-impl Onlooker for ExportJob {
+impl RenderObserver for ExportJob {
     fn planned(&self, plan: &Plan) {
         let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
         self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
@@ -277,7 +281,7 @@ fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
         Ok(Ok(summary)) => Status::Done(outcome(&summary)),
         Ok(Err(Error::Cancelled)) => Status::Cancelled,
         Ok(Err(error)) => Status::Failed(error.to_string()),
-        Err(panic) => Status::Failed(format!("the export broke down: {}", words(&*panic))),
+        Err(panic) => Status::Failed(format!("the export failed: {}", words(&*panic))),
     }
 }
 
@@ -312,7 +316,7 @@ mod tests {
     #[test]
     fn a_panic_is_a_failure_with_its_words() {
         let failed = guarded(|| panic!("index {} out of range", 7));
-        assert_eq!(failed, Status::Failed("the export broke down: index 7 out of range".into()));
+        assert_eq!(failed, Status::Failed("the export failed: index 7 out of range".into()));
         assert_eq!(guarded(|| Err(Error::Cancelled)), Status::Cancelled);
     }
 }

@@ -1,4 +1,4 @@
-//! What an export shall be, and the command line that does the same.
+//! Options of an export, and the equivalent command line.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use lightloom_core::Result;
 use lightloom_core::export::FrameFormat;
 use lightloom_core::project::{Project, frames};
 
-/// What the user wants of an export; all else is as the project says.
+/// The options that a user can set for an export; all else is taken from the project.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportOptions {
     /// Frames, such as 1-100, 1-100x5 or 1,5-10.
@@ -25,7 +25,7 @@ pub struct ExportOptions {
 }
 
 impl ExportOptions {
-    /// What the project says itself, into a folder beside its file.
+    /// The options of the project, with a folder beside its file.
     pub fn of(project: &Project, file: Option<&Path>) -> Self {
         let first = project.keys.first().map_or(1, |key| key.frame);
         let last = project.keys.last().map_or(first, |key| key.frame);
@@ -40,7 +40,7 @@ impl ExportOptions {
         }
     }
 
-    /// Takes from `now` what is as it was `before`: what the user did not set follows the project.
+    /// Takes fields from `now` that still equal `before`: what the user did not set follows the project.
     pub fn follow(&mut self, before: &Self, now: &Self) {
         fn take<T: Clone + PartialEq>(own: &mut T, before: &T, now: &T) {
             if own == before {
@@ -55,10 +55,10 @@ impl ExportOptions {
         take(&mut self.folder, &before.folder, &now.folder);
     }
 
-    /// The project as this export shall do it.
+    /// The project with these options.
     ///
     /// # Errors
-    /// A value that cannot be used, by its place.
+    /// An invalid value, by its place.
     pub fn apply(&self, project: &Project) -> Result<Project> {
         frames::parse(&self.frames, "frames")?;
         if self.folder.as_os_str().is_empty() {
@@ -74,7 +74,7 @@ impl ExportOptions {
         Ok(project)
     }
 
-    /// The command line that renders the same frames of the project file `file`. What the project says itself is left out.
+    /// The command line that renders the same frames of the project file `file`, without the project's own values.
     pub fn command_line(&self, project: &Project, file: &Path) -> String {
         let own = Self::of(project, Some(file));
         let path = |path: &Path| quoted(&path.to_string_lossy());
@@ -100,7 +100,7 @@ impl ExportOptions {
     }
 }
 
-/// A folder beside the project file, or among the user's own files.
+/// A folder beside the project file, or in the user's home folder.
 fn folder(project: &Project, file: Option<&Path>) -> PathBuf {
     let home =
         || directories::UserDirs::new().map_or_else(|| PathBuf::from("."), |dirs| dirs.home_dir().to_owned());

@@ -1,30 +1,32 @@
-//! The exports of this run of the program, rendered one after the other on a thread of their own.
+//! The export queue: exports are rendered one after the other on a thread of their own.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
 use super::job::{ExportJob, ExportSettings};
+use crate::editor::engine::SharedEngine;
 
-/// The exports of this run of the program, oldest first.
+/// The exports of this session, oldest first.
 pub struct Exports {
+    engine: SharedEngine,
     jobs: Vec<Arc<ExportJob>>,
     queue: Option<Sender<Arc<ExportJob>>>,
     worker: Option<JoinHandle<()>>,
 }
 
 impl Exports {
-    /// No export yet. `wake` is called whenever something may have changed, from other threads.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (queue, orders) = channel::<Arc<ExportJob>>();
-        let work = move || orders.into_iter().for_each(|job| job.run(&wake));
+    /// An empty queue. `wake` is called from other threads whenever something may have changed.
+    pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let (queue, jobs) = channel::<Arc<ExportJob>>();
+        let work = move || jobs.into_iter().for_each(|job| job.run(&wake));
         let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
-        Self { jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
+        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
     }
 
-    /// Puts an export at the end of the queue.
-    pub fn add(&mut self, order: ExportSettings) -> Arc<ExportJob> {
-        let job = Arc::new(ExportJob::new(order));
+    /// Appends an export to the queue.
+    pub fn add(&mut self, settings: ExportSettings) -> Arc<ExportJob> {
+        let job = Arc::new(ExportJob::new(settings, self.engine.clone()));
         if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
             job.fail("the system starts no thread for it");
         }
@@ -37,12 +39,12 @@ impl Exports {
         &self.jobs
     }
 
-    /// Whether one waits or is being rendered.
+    /// Whether an export is waiting or running.
     pub fn is_busy(&self) -> bool {
         self.jobs.iter().any(|job| job.is_open())
     }
 
-    /// Takes those from the list that are over.
+    /// Removes finished exports from the list.
     pub fn clear(&mut self) {
         self.jobs.retain(|job| job.is_open());
     }
@@ -51,10 +53,10 @@ impl Exports {
 impl Drop for Exports {
     fn drop(&mut self) {
         self.jobs.iter().for_each(|job| job.cancel());
-        // Without orders to come the worker ends after the one that it was told to break off.
+        // With the queue closed the worker ends after the cancelled export.
         self.queue = None;
         if let Some(worker) = self.worker.take() {
-            // It catches panics of its jobs; if it broke down nonetheless there is nothing to undo.
+            // It catches panics of its jobs; after any other there is nothing to undo.
             let _ = worker.join();
         }
     }

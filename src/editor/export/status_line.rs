@@ -1,12 +1,12 @@
-//! The export that is at work, in one line.
+//! The status line of the active export.
 
 use egui::{Button, ProgressBar, Response, RichText, Ui};
 
 use super::{ExportJob, Exports, Status};
 use crate::editor::theme;
 
-/// Shows the export at work, or the last one that is over, in one line of the status bar. Returns whether it was clicked:
-/// then the window of exports is wanted.
+/// Shows the active export, or the last finished one, in one line of the status bar. Returns whether it was clicked
+/// to open the export window.
 pub fn status_line(ui: &mut Ui, exports: &Exports) -> bool {
     let jobs = exports.jobs();
     let Some(job) = jobs.iter().find(|job| job.is_open()).or(jobs.last()) else { return false };
@@ -30,27 +30,26 @@ pub fn status_line(ui: &mut Ui, exports: &Exports) -> bool {
     wanted
 }
 
-/// Pause and cancel; stopping with what is complete, once something is.
+/// The buttons to pause, stop with the completed passes, and cancel.
 pub(super) fn controls(ui: &mut Ui, job: &ExportJob) {
     let paused = job.is_paused();
-    if ui.button(if paused { "Go on" } else { "Pause" }).clicked() {
+    if ui.button(if paused { "Resume" } else { "Pause" }).clicked() {
         if paused { job.resume() } else { job.pause() }
     }
     let passes = job.passes();
     let stop = ui.add_enabled(passes > 0, Button::new("Stop"));
-    let stop = stop.on_hover_text(format!(
-        "Ends it now: all frames are written with the {passes} passes that are complete."
-    ));
-    if stop.on_disabled_hover_text("Once the first pass is complete, all frames can be written.").clicked() {
+    let stop =
+        stop.on_hover_text(format!("Stops now and writes all frames with the {passes} completed passes."));
+    if stop.on_disabled_hover_text("Frames can be written once the first pass is complete.").clicked() {
         job.stop();
     }
     let cancel: Response = ui.button("Cancel");
-    if cancel.on_hover_text("Breaks it off: nothing more is written.").clicked() {
+    if cancel.on_hover_text("Cancels the export; nothing more is written.").clicked() {
         job.cancel();
     }
 }
 
-/// How a job stands, in words.
+/// The status of a job in words.
 pub(super) fn words(job: &ExportJob) -> String {
     match job.status() {
         Status::Waiting => "Waiting".into(),
@@ -90,12 +89,12 @@ fn passes(job: &ExportJob) -> String {
     if at_passes { format!(", pass {} of {planned}", (job.passes() + 1).min(planned)) } else { String::new() }
 }
 
-/// The stages of the pipeline in words.
+/// The name of an engine stage in words.
 fn stage(name: Option<&'static str>) -> &'static str {
     match name {
         None => "Reading files",
-        Some("visible") => "Looking at the receiver",
-        Some("background") => "Lighting the background",
+        Some("visible") => "Finding the visible receiver",
+        Some("background") => "Rendering the background",
         Some("trace") => "Tracing photons",
         Some("match") => "Matching",
         Some("fit") => "Fitting the flow",
@@ -105,7 +104,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
     }
 }
 
-/// Seconds in words, to two figures: an estimate knows no more.
+/// A duration in words, to two digits: it is an estimate.
 fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "a moment".into(),

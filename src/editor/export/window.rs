@@ -1,4 +1,4 @@
-//! The window of exports: what to export, and how the exports stand.
+//! The export window: settings of a new export, and the status of all exports.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,19 +21,19 @@ use crate::editor::{playback, templates, theme};
 /// Width of the settings, points.
 const LEFT: f32 = 350.0;
 
-/// The window of exports.
+/// The export window.
 pub struct ExportWindow {
-    /// Whether it is seen.
+    /// Whether it is open.
     pub open: bool,
-    /// Whether the project may read files from anywhere, not only from its own folder.
+    /// Whether the project may read files outside its folder.
     pub external: bool,
-    /// What was set here; none of what the project says itself.
+    /// The options as set by the user.
     options: Option<ExportOptions>,
-    /// What the project said itself when it was last looked at, and its file.
+    /// The project's own options and file when last shown.
     own: Option<(ExportOptions, Option<PathBuf>)>,
-    /// Minutes of the time limit, and whether there is one.
+    /// Time limit in minutes, and whether it is used.
     limit: (f64, bool),
-    /// The growing picture: of which job, which frame, with how many passes.
+    /// The preview texture, with its job and passes, and its frame.
     picture: Option<([usize; 2], i32, TextureHandle)>,
 }
 
@@ -44,14 +44,14 @@ impl Default for ExportWindow {
 }
 
 impl ExportWindow {
-    /// Takes the folder that was picked.
+    /// Sets the output folder.
     pub fn set_folder(&mut self, folder: PathBuf) {
         if let Some(options) = &mut self.options {
             options.folder = folder;
         }
     }
 
-    /// Shows the window where it is open.
+    /// Shows the window if it is open.
     pub fn show(
         &mut self,
         ctx: &Context,
@@ -86,7 +86,7 @@ impl ExportWindow {
         self.open = open;
     }
 
-    /// What was not set here follows the project; another file begins anew.
+    /// Options not set by the user follow the project; another file resets all.
     fn follow(&mut self, own: ExportOptions, file: Option<PathBuf>) {
         match (&mut self.options, &self.own) {
             (Some(options), Some((before, of))) if *of == file => options.follow(before, &own),
@@ -110,8 +110,8 @@ impl ExportWindow {
                 ui.add(field).accessible_name("Frames");
                 let played = playback::played(project, editor.session);
                 let marked = editor.session.marks != [None; 2];
-                let button = ui.add_enabled(marked, Button::new("Marked"));
-                if button.on_hover_text("From the in mark to the out mark of the time line.").clicked() {
+                let button = ui.add_enabled(marked, Button::new("Marked range"));
+                if button.on_hover_text("From the in point to the out point of the timeline.").clicked() {
                     options.frames = format!("{}-{}", played.start(), played.end());
                 }
             });
@@ -142,7 +142,7 @@ impl ExportWindow {
             name(
                 ui,
                 "Photons",
-                "Photons of one pass. More of them make the picture finer and the memory larger.",
+                "Photons of one pass. More photons make a finer picture and need more memory.",
                 &mut options.photons,
                 &own.photons,
             );
@@ -155,7 +155,7 @@ impl ExportWindow {
             name(
                 ui,
                 "Formats",
-                "EXR: linear half floats in layers, for compositing. PNG: as it is seen.",
+                "EXR: linear half floats in layers, for compositing. PNG: display values.",
                 &mut options.formats,
                 &own.formats,
             );
@@ -174,7 +174,7 @@ impl ExportWindow {
             name(
                 ui,
                 "Folder",
-                "Where the frames go; it is made if it is not there.",
+                "The output folder; created if it does not exist.",
                 &mut options.folder,
                 &own.folder,
             );
@@ -195,7 +195,7 @@ impl ExportWindow {
         });
     }
 
-    /// The button that begins, and the command line that does the same.
+    /// The export button, and the equivalent command line.
     fn begin(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, exports: &mut Exports) {
         let Some(options) = &self.options else { return };
         let applied = options.apply(project);
@@ -231,15 +231,13 @@ impl ExportWindow {
     fn jobs(&mut self, ui: &mut Ui, editor: &EditorContext, exports: &mut Exports) {
         let jobs = exports.jobs().to_vec();
         if jobs.is_empty() {
-            ui.weak("Exports run beside your work, from the project as it is when they begin. Each pass makes all frames better, so that you can stop at any time.");
+            ui.weak("Exports run in the background, from the project as it is when they start. Each pass refines all frames, so that you can stop at any time.");
             return;
         }
         ui.horizontal(|ui| {
             ui.strong("Exports");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if jobs.iter().any(|job| !job.is_open())
-                    && ui.small_button("Clear those that are over").clicked()
-                {
+                if jobs.iter().any(|job| !job.is_open()) && ui.small_button("Clear finished").clicked() {
                     exports.clear();
                     self.picture = None;
                 }
@@ -263,7 +261,7 @@ impl ExportWindow {
         });
     }
 
-    /// The picture of a job as it stands.
+    /// The preview picture of a running job.
     fn picture(&mut self, ui: &mut Ui, index: usize, job: &ExportJob) {
         let Some(Growing { frame, passes, image }) = job.picture() else { return };
         let now = [index, passes];
@@ -286,7 +284,10 @@ impl ExportWindow {
 fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, own: &T) {
     let text = if value == own { RichText::new(label) } else { RichText::new(label).strong() };
     let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
-    if response.on_hover_text(format!("{tip} Double click: as in the project.")).double_clicked() {
+    if response
+        .on_hover_text(format!("{tip} Double click resets it to the project's value."))
+        .double_clicked()
+    {
         value.clone_from(own);
     }
 }
@@ -321,9 +322,9 @@ fn command_line(
     options: &ExportOptions,
     external: bool,
 ) {
-    ui.label("The same from the command line");
+    ui.label("Equivalent command line");
     let Some(file) = editor.document.path() else {
-        ui.weak("Once the project is saved, its command line stands here.");
+        ui.weak("Save the project to see its command line.");
         return;
     };
     let mut line = options.command_line(project, file);
@@ -358,7 +359,7 @@ fn card(ui: &mut Ui, job: &ExportJob) {
         if let Some(cost) = job.cost() {
             let (memory, scratch) = (size(cost.memory_mib), size(cost.scratch_mib));
             let text = format!(
-                "Up to {memory} of memory, however many frames; {scratch} of scratch space in the folder."
+                "Up to {memory} of memory for any number of frames; {scratch} of scratch space in the folder."
             );
             ui.label(RichText::new(text).small().weak());
         }

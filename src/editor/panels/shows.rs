@@ -2,7 +2,7 @@
 
 use egui::Ui;
 use lightloom_core::project::{KeyFrame, Shows};
-use lightloom_core::target::{Channel, ImageTarget, Placement, PointsTarget};
+use lightloom_core::targets::{Channel, ImageTarget, Placement, PointsTarget};
 
 use super::control::Control;
 use crate::editor::action::Action;

@@ -1,4 +1,4 @@
-//! What a crash left: documents whose editor is gone.
+//! Recovery of unsaved documents after a crash.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -12,33 +12,33 @@ use super::record::Record;
 use super::slot::JournalSlot;
 use super::{Fingerprint, disk};
 
-/// A journal holds one project file of 64 MiB at most, with escapes.
+/// Maximum size of a journal: one project file of 64 MiB with JSON escapes.
 const MOST_BYTES: u64 = 160 << 20;
 
-/// Work that no editor has open and no file holds. While this exists no other editor offers it; dropped, it is offered
+/// Unsaved work of a crashed editor. While this exists no other editor offers it; dropped, it is offered
 /// again at the next start.
 pub struct Recovery {
     /// The user's file; none where the document was never saved.
     pub path: Option<PathBuf>,
-    /// What the document is called.
+    /// Title of the document.
     pub title: String,
-    /// How long ago the last change was made.
+    /// Age of the last change.
     pub age: Duration,
-    /// The project as it was last, or why it cannot be read.
+    /// The last state of the project, or why it cannot be read.
     pub work: Result<Arc<ProjectFile>>,
-    /// The content of the user's file when the lost editor last read or saved it.
+    /// Fingerprint of the user's file when the crashed editor last read or saved it.
     pub seen: Option<Fingerprint>,
-    /// Whether the user's file holds something else by now: the editor was lost right after saving, or another program
-    /// wrote it. Then the file may be newer than this work.
+    /// Whether the user's file has changed since: the editor crashed right after saving, or another program
+    /// wrote it. The file may be newer than this work.
     pub file_changed: bool,
     slot: JournalSlot,
 }
 
 impl Recovery {
-    /// Removes the work for good.
+    /// Deletes the work.
     ///
     /// # Errors
-    /// Names the file and the system's reason.
+    /// The file and the system's reason.
     pub fn discard(self) -> Result<()> {
         self.slot.clear()
     }
@@ -54,8 +54,8 @@ impl fmt::Debug for Recovery {
     }
 }
 
-/// What can be recovered from `folder`, the newest first. Reads files: not for the window's own thread. Work that stands in
-/// the user's file after all is cleared away and not offered.
+/// The recoverable work in `folder`, newest first. Reads files: not for the window's thread. Work that equals
+/// the user's file is deleted and not offered.
 pub fn recoverable(folder: &Path) -> Vec<Recovery> {
     disk::sweep(folder);
     let mut found: Vec<_> = JournalSlot::abandoned(folder).into_iter().filter_map(look_into).collect();
@@ -104,7 +104,7 @@ fn look_into(slot: JournalSlot) -> Option<Recovery> {
     })
 }
 
-/// How long ago it was; nothing where it is still to come.
+/// Time since; zero for a time in the future.
 fn since(time: SystemTime) -> Duration {
     time.elapsed().unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The thread that opens and saves, so that the window never waits for a disk.
+//! The file thread: opens and saves, so that the window never waits for a disk.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -11,74 +11,74 @@ use lightloom_core::{Error, Result, files};
 
 use super::{Fingerprint, Folders, Preferences, Recovery, disk, recoverable};
 
-/// No project file is larger; a larger file is not replaced by one.
+/// Maximum size of a project file; a larger file is not overwritten.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// What the saver is asked to do; answers come in the same order.
+/// A request to the saver; replies come in the same order.
 #[derive(Debug)]
 pub enum StoreRequest {
-    /// Read a project file.
+    /// Reads a project file.
     Open(PathBuf),
-    /// Write one.
+    /// Writes a project file.
     Save(SaveRequest),
-    /// Look for work that a crash left.
+    /// Looks for work that a crash left.
     LookForLost,
-    /// Remove such work for good.
+    /// Deletes such work.
     Discard(Box<Recovery>),
-    /// Write the preferences.
+    /// Writes the preferences.
     Remember(Box<Preferences>),
 }
 
-/// A project to be saved.
+/// A request to save a project.
 #[derive(Clone, Debug)]
 pub struct SaveRequest {
-    /// Where to.
+    /// Destination.
     pub path: PathBuf,
-    /// The file it came from.
+    /// The file it was read from.
     pub file: Arc<ProjectFile>,
-    /// The project as it is now.
+    /// The current project.
     pub project: Arc<Project>,
-    /// What the file at `path` must still hold; none: whatever is there may be replaced, for the user was asked.
+    /// Expected fingerprint of the file at `path`; none overwrites whatever is there.
     pub seen: Option<Fingerprint>,
 }
 
-/// What came of a request.
+/// The reply to a request.
 #[derive(Debug)]
 pub enum StoreReply {
-    /// A file was read, or not.
+    /// A file was read, or why not.
     Opened(PathBuf, Result<Opened>),
-    /// A project was written, or not; then the old file is as it was.
+    /// A project was written, or why not; then the old file is unchanged.
     Saved(SaveRequest, Result<Saved>),
-    /// Nothing was written: another program changed the file since this one last read or wrote it. Sent again with `seen`
-    /// none, the request replaces the other program's work.
+    /// Nothing was written: another program changed the file since it was last read or written. Repeated with `seen`
+    /// none, the request overwrites it.
     ChangedOnDisk(SaveRequest),
-    /// What can be recovered, the newest first.
+    /// Recoverable work, newest first.
     Lost(Vec<Recovery>),
-    /// A request without an answer of its own failed, for this reason.
+    /// Another request failed, for this reason.
     Failed(String),
 }
 
 /// A file that was read.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// Its project and text.
+    /// The file.
     pub file: Arc<ProjectFile>,
-    /// What of it this program does not know.
+    /// Notes on content that this program does not know.
     pub notes: Vec<String>,
-    /// Its content.
+    /// Its fingerprint.
     pub seen: Fingerprint,
 }
 
 /// A file that was written.
 #[derive(Clone, Debug)]
 pub struct Saved {
-    /// Its content now.
+    /// Its new fingerprint.
     pub seen: Fingerprint,
-    /// Why there is no backup of what stood there before, if there is none.
+    /// Why there is no backup of the previous version, if so.
     pub note: Option<String>,
 }
 
-/// Opens and saves on a thread of its own. Dropped, it first does all that it was asked.
+/// The handle of the file thread. Dropping it waits for all requests.
 #[derive(Debug)]
 pub struct Saver {
     requests: Option<Sender<StoreRequest>>,
@@ -87,10 +87,10 @@ pub struct Saver {
 }
 
 impl Saver {
-    /// Starts it. `wake` is called on its thread after each answer; the window then asks for it.
+    /// Starts the thread. `wake` is called on it after each reply.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system starts no thread.
     pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
         let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
@@ -112,7 +112,7 @@ impl Saver {
         Ok(Self { requests: Some(requests), answers, thread: Some(thread) })
     }
 
-    /// Asks for something to be done; returns at once.
+    /// Sends a request; returns at once.
     pub fn ask(&self, request: StoreRequest) {
         if let Some(requests) = &self.requests {
             // The thread ends only after this sender.
@@ -120,7 +120,7 @@ impl Saver {
         }
     }
 
-    /// The next answer that is there; none while there is none.
+    /// The next reply, if any.
     pub fn answer(&self) -> Option<StoreReply> {
         self.answers.try_recv().ok()
     }
@@ -159,7 +159,7 @@ fn open(path: &Path) -> Result<Opened> {
     Ok(Opened { file: Arc::new(file), notes, seen: Fingerprint::of(&bytes) })
 }
 
-/// Saves; none where the file holds something else than was seen.
+/// Saves a project; none where the file does not have the expected fingerprint.
 fn save(folders: &Folders, request: &SaveRequest) -> Result<Option<Saved>> {
     // Through a link the file behind it is written; the link stays.
     let path = request.path.canonicalize().unwrap_or_else(|_| request.path.clone());
@@ -178,7 +178,7 @@ fn save(folders: &Folders, request: &SaveRequest) -> Result<Option<Saved>> {
     Ok(Some(Saved { seen: Fingerprint::of(text.as_bytes()), note }))
 }
 
-/// What stands at `path` now; none where nothing does. Refuses what must not be replaced.
+/// The content of the file at `path`; none where there is none. Refuses a file that must not be overwritten.
 fn present(path: &Path) -> Result<Option<Vec<u8>>> {
     match std::fs::metadata(path) {
         Ok(data) if data.permissions().readonly() => {
@@ -189,7 +189,7 @@ fn present(path: &Path) -> Result<Option<Vec<u8>>> {
     }
 }
 
-/// Puts the last version of a file aside. Files of the same name from different folders do not get into each other's way.
+/// Writes a backup of the previous version. The name contains a hash of the folder, so that equal names do not collide.
 fn keep(folders: &Folders, path: &Path, old: &[u8]) -> Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = Fingerprint::of(path.as_os_str().as_encoded_bytes()).short();

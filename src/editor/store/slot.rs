@@ -1,5 +1,5 @@
-//! A place for one journal: a file, and a lock that says whose it is. The system lets go of the lock when its holder ends,
-//! however it ends, so a file whose lock is free has lost its editor.
+//! The file of one journal with a lock that marks its owner. The system releases the lock when its owner ends,
+//! so a file whose lock is free belongs to a crashed editor.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use lightloom_core::{Error, Result};
 
 use super::disk;
 
-/// Tries to find a name that no other editor clears away at the same moment.
+/// Attempts to create a name that no other editor removes at the same moment.
 const TRIES: usize = 16;
 
 /// A journal's file, held by its lock.
@@ -20,7 +20,7 @@ pub(super) struct JournalSlot {
 }
 
 impl JournalSlot {
-    /// A new one with a random name; the file itself does not exist yet.
+    /// A new slot with a random name; the file itself does not exist yet.
     pub(super) fn new(folder: &Path) -> Result<Self> {
         disk::make_private(folder)?;
         for _ in 0..TRIES {
@@ -41,10 +41,10 @@ impl JournalSlot {
         &self.file
     }
 
-    /// Removes the file and keeps the slot.
+    /// Deletes the file and keeps the slot.
     ///
     /// # Errors
-    /// Names the file and the system's reason.
+    /// The file and the system's reason.
     pub(super) fn clear(&self) -> Result<()> {
         match std::fs::remove_file(&self.file) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -54,7 +54,7 @@ impl JournalSlot {
         }
     }
 
-    /// All with a file and without an editor, now held by this one. Those without either are cleared away.
+    /// All slots with a file and without an owner, now owned by this editor. Those without a file are removed.
     pub(super) fn abandoned(folder: &Path) -> Vec<Self> {
         let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
         let mut files: Vec<_> = entries
@@ -84,8 +84,8 @@ impl Drop for JournalSlot {
     }
 }
 
-/// Whether nobody else holds the lock. Where the disk knows no locks, work that is offered twice is better than work that
-/// is never offered.
+/// Whether nobody else holds the lock. Without lock support it counts as free: work offered twice is better than work
+/// never offered.
 fn is_free(lock: Result<(), TryLockError>) -> bool {
     !matches!(lock, Err(TryLockError::WouldBlock))
 }

@@ -1,4 +1,4 @@
-//! The commands of time: what the transport buttons, the menu Play and its keys do.
+//! The playback commands of transport buttons, the menu Play and its shortcuts.
 
 use lightloom_core::project::Project;
 
@@ -8,7 +8,7 @@ use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
 use crate::editor::playback;
 
-/// Carries a command of time out; tells whether it was one.
+/// Carries out a playback command; returns whether it was one.
 pub fn carry_out(command: Command, editor: &mut EditorContext) -> bool {
     let project = editor.document.project().clone();
     let frames = playback::played(&project, editor.session);
@@ -34,25 +34,25 @@ pub fn carry_out(command: Command, editor: &mut EditorContext) -> bool {
     true
 }
 
-/// Asks for a key at `frame` as a step of its own.
+/// Asks for a key frame at `frame` as one undo step.
 pub(super) fn add_key(editor: &mut EditorContext, project: &Project, frame: i32) {
     match edits::add_key(project, frame) {
         Some(edit) => {
             editor.session.focus.key = Some(project.keys.partition_point(|key| key.frame < frame));
             step(editor, edit);
         }
-        None => editor.ask(Action::Say(format!("A key frame stands at frame {frame} already"))),
+        None => editor.ask(Action::Say(format!("There is already a key frame at frame {frame}"))),
     }
 }
 
-/// Asks for one change as a step of its own.
+/// Asks for one edit as one undo step.
 pub(super) fn step(editor: &mut EditorContext, edit: impl Into<Action>) {
     editor.ask(Action::Settle);
     editor.ask(edit);
     editor.ask(Action::Settle);
 }
 
-/// Goes to a frame and stops.
+/// Moves the playhead to a frame and pauses.
 pub(super) fn go(editor: &mut EditorContext, frame: i32) {
     editor.session.playing = false;
     editor.ask(Action::Playhead(frame));
@@ -64,7 +64,7 @@ fn go_to_key(editor: &mut EditorContext, frame: Option<i32>) {
     }
 }
 
-/// At the end of what is played it begins at the first frame.
+/// Toggles playback; from the end it restarts at the first frame.
 fn play_or_pause(editor: &mut EditorContext, project: &Project) {
     let frames = playback::played(project, editor.session);
     editor.session.playing = !editor.session.playing;
@@ -73,7 +73,7 @@ fn play_or_pause(editor: &mut EditorContext, project: &Project) {
     }
 }
 
-/// A mark at the playhead; the other one goes where it would stand on the wrong side.
+/// Sets a mark at the playhead; removes the other one if they would cross.
 fn mark(editor: &mut EditorContext, end: usize) {
     let session = &mut *editor.session;
     session.marks[end] = Some(session.playhead);
@@ -84,7 +84,7 @@ fn mark(editor: &mut EditorContext, end: usize) {
     }
 }
 
-/// Deletes the key in focus where nothing that was drawn is selected.
+/// Deletes the key frame in focus, unless constraints are selected.
 fn remove_key(editor: &mut EditorContext, project: &Project) -> bool {
     if !editor.session.selection.is_empty() {
         return false;

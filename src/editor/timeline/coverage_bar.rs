@@ -1,4 +1,4 @@
-//! The stripe that tells how far each frame is, after the cached playback of Maya.
+//! The coverage bar: the preview's state of each frame, after the cached playback of Maya.
 
 use egui::{Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
@@ -10,14 +10,14 @@ use crate::editor::theme;
 /// Height, points.
 pub(super) const HEIGHT: f32 = 6.0;
 
-/// All states with their colour and what they say.
+/// All states with colour and description.
 const STATES: [(State, &str); 6] = [
-    (State::Missing, "not worked out yet"),
-    (State::Stale, "of the project before the last change"),
-    (State::Draft, "a first, coarse answer"),
+    (State::Missing, "not computed yet"),
+    (State::Stale, "from before the last change"),
+    (State::Draft, "a coarse draft"),
     (State::Preview, "at preview quality"),
     (State::Fine, "with many photons"),
-    (State::Failed, "could not be worked out"),
+    (State::Failed, "could not be computed"),
 ];
 
 fn colour(state: State, ui: &Ui) -> Color32 {
@@ -35,14 +35,14 @@ fn words(state: State) -> &'static str {
     STATES.iter().find(|(other, _)| *other == state).map_or("", |(_, words)| words)
 }
 
-/// Shows the stripe.
+/// Shows the bar.
 pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &EditorContext) -> Response {
     let response = ui.interact(rect.expand2(vec2(0.0, 1.0)), ui.scope_id().with("stripe"), Sense::hover());
     let coverage = editor.preview.coverage();
     let runs = coverage.runs();
     let done: i64 = runs.iter().filter(|(.., s)| *s >= State::Draft && *s < State::Failed).map(length).sum();
     let all: i64 = runs.iter().map(length).sum();
-    let label = format!("{done} of {all} frames worked out");
+    let label = format!("{done} of {all} frames computed");
     response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, &label));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);

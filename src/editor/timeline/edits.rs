@@ -1,14 +1,14 @@
-//! What can be done to key frames and spans, as edits.
+//! Edits of key frames and spans.
 
 use lightloom_core::constraint::{Constraint, Span};
 use lightloom_core::project::{KeyFrame, Project};
 
 use crate::editor::document::Edit;
 
-/// The frames that a project may hold.
+/// Range of frames of a project.
 const FRAMES: std::ops::RangeInclusive<i32> = -1_000_000..=1_000_000;
 
-/// Key `index` at `frame`, or as near to it as its neighbours let it; none where it is there already.
+/// Moves key `index` to `frame`, clamped between its neighbours; none where nothing changes.
 pub(super) fn retime(keys: &[KeyFrame], index: usize, frame: i32) -> Option<Edit> {
     let lowest = index.checked_sub(1).map_or(*FRAMES.start(), |before| keys[before].frame + 1);
     let highest = keys.get(index + 1).map_or(*FRAMES.end(), |after| after.frame - 1);
@@ -19,7 +19,7 @@ pub(super) fn retime(keys: &[KeyFrame], index: usize, frame: i32) -> Option<Edit
     Some(Edit::Keys(keys))
 }
 
-/// A new key at `frame` that shows what the key before it shows; none where a key stands there.
+/// Adds a key at `frame` with the target of the key before; none where one exists.
 pub(super) fn add_key(project: &Project, frame: i32) -> Option<Edit> {
     let keys = &project.keys;
     let after = keys.partition_point(|key| key.frame < frame);
@@ -30,7 +30,7 @@ pub(super) fn add_key(project: &Project, frame: i32) -> Option<Edit> {
     Some(Edit::Keys(keys))
 }
 
-/// A copy of key `index` in the middle before the next, or ten frames after the last.
+/// Duplicates key `index` halfway to the next one, or ten frames after the last.
 pub(super) fn duplicate(project: &Project, index: usize) -> Option<Edit> {
     let keys = &project.keys;
     let key = keys.get(index)?;
@@ -48,7 +48,7 @@ pub(super) fn duplicate(project: &Project, index: usize) -> Option<Edit> {
     })
 }
 
-/// The keys without one of them; none where it is the only one.
+/// Removes a key; none where it is the only one.
 pub(super) fn remove_key(project: &Project, index: usize) -> Option<Edit> {
     let keys = &project.keys;
     (keys.len() > 1 && index < keys.len()).then(|| {
@@ -58,7 +58,7 @@ pub(super) fn remove_key(project: &Project, index: usize) -> Option<Edit> {
     })
 }
 
-/// Gives a constraint a span, or lets it act always.
+/// Sets or removes the span of a constraint.
 pub(super) fn span(project: &Project, index: usize, span: Option<Span>) -> Option<Edit> {
     let mut constraint = project.constraints.get(index)?.clone();
     let own = match &mut constraint {
@@ -69,7 +69,7 @@ pub(super) fn span(project: &Project, index: usize, span: Option<Span>) -> Optio
     changes.then(|| Edit::Change(vec![(index, constraint)]))
 }
 
-/// A part of a span's bar.
+/// A part of the bar of a span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarPart {
     /// Its first frame.
@@ -81,7 +81,7 @@ pub(super) enum BarPart {
 }
 
 impl BarPart {
-    /// The span after this part of it was dragged by `frames`; ends do not pass each other.
+    /// The span after dragging this part by `frames`; its ends do not cross.
     pub(super) fn dragged(self, span: Span, frames: i32) -> Span {
         let fit = |frame: i32| frame.clamp(*FRAMES.start(), *FRAMES.end());
         match self {

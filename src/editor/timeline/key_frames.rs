@@ -1,4 +1,4 @@
-//! The lane of the key frames: what each shows, when, and how the time runs from one to the next.
+//! The lane of key frames: thumbnails, positions and easing.
 
 use egui::{
     Align2, Atom, Button, Color32, CornerRadius, CursorIcon, FontId, Id, IdSalt, Rect, Response, Role, Sense,
@@ -19,15 +19,15 @@ use crate::editor::theme;
 
 /// Height of a thumbnail.
 const PICTURE: f32 = 44.0;
-/// Distance of the middle of the diamonds from the lower end of the lane.
+/// Distance of the diamonds' centres from the bottom of the lane.
 const DIAMOND: f32 = 13.0;
 
-/// The eases with their names, as menus list them.
+/// The easings with their names.
 const EASES: [(Ease, &str); 4] =
     [(Ease::Smooth, "Smooth"), (Ease::Linear, "Linear"), (Ease::In, "Ease in"), (Ease::Out, "Ease out")];
 
 impl Timeline {
-    /// Shows the lane and asks for what is done with the keys.
+    /// Shows the lane and asks for edits of the key frames.
     pub(super) fn keys(&mut self, ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
         let project = editor.document.project().clone();
         let lane = ui.interact(rect, ui.scope_id().with("key lane"), Sense::click());
@@ -107,7 +107,7 @@ fn picture_size(extent: Vec2) -> egui::Vec2 {
     vec2(PICTURE * (extent.x / extent.y).clamp(0.4, 2.0), PICTURE)
 }
 
-/// Width that a thumbnail may have beside those of its neighbours.
+/// Width available for a thumbnail between its neighbours.
 fn room(keys: &[KeyFrame], index: usize, scale: &Scale) -> f32 {
     let x = |key: &KeyFrame| scale.x(f64::from(key.frame));
     let own = x(&keys[index]);
@@ -174,7 +174,7 @@ fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
     icons::diamond(&painter, at, radius, fill, Stroke::new(1.0, visuals.extreme_bg_color));
 }
 
-/// The way from one key to the next, with the curve of its ease.
+/// Paints the segment between two keys, with its easing curve.
 fn between(ui: &Ui, lane: Rect, scale: &Scale, from: &KeyFrame, to: &KeyFrame) {
     let painter = ui.painter_at(lane);
     let (x0, x1) = (scale.x(f64::from(from.frame)), scale.x(f64::from(to.frame)));
@@ -203,7 +203,7 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
             }
         }
         ui.separator();
-        if ui.button("Show").clicked() {
+        if ui.button("Go to").clicked() {
             editor.session.focus.key = Some(index);
             go(editor, project.keys[index].frame);
         }
@@ -224,7 +224,7 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
     });
 }
 
-/// A line of the menu with the curve of an ease.
+/// A menu item with an easing curve.
 fn ease_item(ui: &mut Ui, ease: Ease, name: &str, chosen: bool) -> bool {
     let place = IdSalt::new("curve");
     let shown = Button::selectable(chosen, (Atom::custom(place, vec2(22.0, 16.0)), name)).atom_ui(ui);

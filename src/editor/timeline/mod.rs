@@ -1,4 +1,4 @@
-//! The time line: transport, ruler, key frames, what is worked out, and when each constraint acts.
+//! The timeline: transport, ruler, coverage of the preview, key frames, and spans of constraints.
 
 mod commands;
 mod coverage_bar;
@@ -24,19 +24,19 @@ use lanes::{GUTTER, KEYS, ROW, with_bar};
 use scale::{Scale, VisibleRange};
 use thumbnails::Thumbnails;
 
-/// The time line of the window.
+/// The timeline of the window.
 #[derive(Default)]
 pub struct Timeline {
-    /// The part of the time axis that is seen; none for all frames.
+    /// The visible part of the time axis; none for all frames.
     seen: Option<VisibleRange>,
     drag: Dragging,
-    /// Whether the pictures of the keys may stand anywhere, not only in the project's folder.
+    /// Whether thumbnails may read files outside the project's folder.
     pub external: bool,
     thumbnails: Thumbnails,
 }
 
 impl Timeline {
-    /// Shows the time line and asks for what is done with it. Returns where the play button is.
+    /// Shows the timeline. Returns the rectangle of the play button.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext) -> Rect {
         let play = self.transport(ui, editor);
         ui.add_space(2.0);
@@ -63,7 +63,7 @@ impl Timeline {
         play
     }
 
-    /// Height at which all bars are seen with as many lanes as the document has, points.
+    /// Preferred height for the bars of a document, points.
     pub fn height(editor: &EditorContext) -> f32 {
         let bars = with_bar(editor.document.project(), &editor.session.selection).len();
         30.0 + ruler::HEIGHT + coverage_bar::HEIGHT + KEYS + 8.0 + ROW * bars.clamp(1, 5) as f32
@@ -74,7 +74,7 @@ impl Timeline {
         Scale::new(track.x_range(), self.seen.unwrap_or_else(|| VisibleRange::all(&whole, track.width())))
     }
 
-    /// The wheel zooms about the pointer, with Shift or sideways it edits; so does dragging with the middle button.
+    /// The wheel zooms about the pointer; Shift, sideways scrolling and the middle button pan.
     fn navigate(&mut self, ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
         let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| rect.contains(*at)) else { return };
         if ui.ctx().layer_id_at(at) != Some(ui.layer_id()) {

@@ -1,4 +1,4 @@
-//! The ruler: frame numbers and seconds, scrubbing, the marks between which it is played, the playhead.
+//! The ruler: frame numbers and seconds, scrubbing, playback marks, playhead.
 
 use egui::{
     Align2, CursorIcon, FontId, Id, PointerButton, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
@@ -14,7 +14,7 @@ use crate::editor::theme;
 /// Height, points.
 pub(super) const HEIGHT: f32 = 34.0;
 
-/// Shows the ruler and asks for the frame to which it is dragged.
+/// Shows the ruler and asks for the frame scrubbed to.
 pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     let frame = editor.session.playhead;
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorCo
     }
     marks(ui, rect, scale, editor);
     response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(
-        "Drag to scrub. The wheel zooms, with Shift it moves along; I and O mark from where to where it plays.",
+        "Drag to scrub. The wheel zooms, with Shift it pans; I and O set the in and out points.",
     )
 }
 
@@ -67,7 +67,7 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
     }
 }
 
-/// What is not played is shaded; the handles of the marks can be dragged.
+/// Shades the frames outside of the marks, and shows the marks' handles.
 fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
     let project = editor.document.project().clone();
     let played = playback::played(&project, editor.session);
@@ -84,7 +84,7 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
         0.0,
         shade,
     );
-    for (end, name) in ["In mark", "Out mark"].into_iter().enumerate() {
+    for (end, name) in ["In point", "Out point"].into_iter().enumerate() {
         let Some(frame) = editor.session.marks[end] else { continue };
         let x = scale.x(f64::from(frame));
         let grip = Rect::from_center_size(pos2(x, rect.center().y), vec2(12.0, rect.height()));
@@ -107,13 +107,13 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
         let (top, bottom) = (rect.top() + 1.0, rect.bottom() - 1.0);
         let bracket = vec![pos2(x + inwards, top), pos2(x, top), pos2(x, bottom), pos2(x + inwards, bottom)];
         painter.add(Shape::line(bracket, Stroke::new(2.0, colour)));
-        response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
-            "{name} at frame {frame}. Drag to move it, double click to take it away."
-        ));
+        response
+            .on_hover_cursor(CursorIcon::ResizeHorizontal)
+            .on_hover_text(format!("{name} at frame {frame}. Drag to move it, double click to remove it."));
     }
 }
 
-/// Marks do not pass each other.
+/// Sets a mark; marks do not cross.
 fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
     match (end, other) {
         (0, Some(to)) => frame.min(to),
@@ -122,7 +122,7 @@ fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
     }
 }
 
-/// The playhead over all lanes, with its frame number in the ruler.
+/// Paints the playhead over all lanes, with its frame number.
 pub(super) fn playhead(ui: &Ui, area: Rect, scale: &Scale, frame: i32) {
     let painter = ui.painter_at(area);
     let x = painter.round_to_pixel_center(scale.x(f64::from(frame)));

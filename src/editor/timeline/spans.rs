@@ -1,4 +1,4 @@
-//! The bars of constraints: from which frame to which each acts.
+//! The bars of constraints: their spans of frames.
 
 use egui::{
     Align2, CursorIcon, FontId, Id, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui,
@@ -21,7 +21,7 @@ use crate::editor::selection::Selection;
 use crate::editor::theme;
 
 impl Timeline {
-    /// Shows the bars below each other in `area`, which includes the gutter of names.
+    /// Shows the bars in `area`, which includes the gutter of titles.
     pub(super) fn spans(&mut self, ui: &mut Ui, area: Rect, scale: &Scale, editor: &mut EditorContext) {
         let project = editor.document.project().clone();
         let rows = with_bar(&project, &editor.session.selection);
@@ -79,7 +79,7 @@ impl Timeline {
             let cursor =
                 if part == BarPart::Middle { CursorIcon::Grab } else { CursorIcon::ResizeHorizontal };
             response.on_hover_cursor(cursor).on_hover_text(format!(
-                "{info}. Drag the ends or the middle to retime; right click to let it act always."
+                "{info}. Drag the ends or the middle to retime; right click to keep it always active."
             ));
         }
     }
@@ -103,7 +103,7 @@ impl Timeline {
         if let Some(by) = self.drag.frames(ui, response, what, scale, editor)
             && let Some(before) = before
         {
-            // A bar without a span gets one when it is really moved.
+            // A bar without a span gets one once it is moved.
             let after = part.dragged(before, by);
             let edit = edits::span(editor.document.project(), index, Some(after));
             if let Some(edit) = edit.filter(|_| by != 0 || span != before) {
@@ -113,7 +113,7 @@ impl Timeline {
     }
 }
 
-/// The parts of a bar that can be taken hold of; ends lie over the middle.
+/// The draggable parts of a bar; its ends are above the middle.
 fn grips(bar: Rect) -> [(BarPart, Rect); 3] {
     let end = |x: f32| Rect::from_center_size(pos2(x, bar.center().y), vec2(10.0, bar.height() + 4.0));
     [(BarPart::Middle, bar), (BarPart::From, end(bar.left())), (BarPart::To, end(bar.right()))]
@@ -121,8 +121,8 @@ fn grips(bar: Rect) -> [(BarPart, Rect); 3] {
 
 fn words(part: BarPart, span: &Span, own: bool) -> String {
     match part {
-        BarPart::Middle if !own => "acts always".into(),
-        BarPart::Middle => format!("acts from frame {} to {}", span.from, span.to),
+        BarPart::Middle if !own => "always active".into(),
+        BarPart::Middle => format!("active from frame {} to {}", span.from, span.to),
         BarPart::From => format!("first frame {}", span.from),
         BarPart::To => format!("last frame {}", span.to),
     }
@@ -142,14 +142,14 @@ fn paint(ui: &Ui, track: Rect, bar: Rect, constraint: &Constraint, span: &Span, 
         return;
     }
     painter.rect_filled(bar, 4.0, colour.gamma_multiply(if strong { 0.85 } else { 0.55 }));
-    // A wall stands or does not.
+    // Walls do not fade.
     if matches!(constraint, Constraint::DirectedLine(_)) {
         fades(&painter, bar, span, ui.visuals().panel_fill);
     }
     painter.rect_stroke(bar, 4.0, Stroke::new(if strong { 1.8 } else { 1.0 }, colour), StrokeKind::Inside);
 }
 
-/// The corners are cut where a line sets in and fades out.
+/// Corners are cut where a line fades in and out.
 fn fades(painter: &egui::Painter, bar: Rect, span: &Span, behind: egui::Color32) {
     let frames = (f64::from(span.to) - f64::from(span.from) + 1.0) as f32;
     let width = bar.width() * (span.fade as f32 / frames).min(0.5);
@@ -167,9 +167,9 @@ fn menu(response: &Response, index: usize, own: Option<Span>, editor: &mut Edito
         let span = own.unwrap_or(Span { from: *whole.start(), to: *whole.end(), fade: 0 });
         let at = editor.session.playhead;
         let choices = [
-            ("Begin at the playhead", Some(Span { from: at, to: span.to.max(at), ..span })),
+            ("Start at the playhead", Some(Span { from: at, to: span.to.max(at), ..span })),
             ("End at the playhead", Some(Span { from: span.from.min(at), to: at, ..span })),
-            ("Act always", None),
+            ("Always active", None),
         ];
         for (name, wanted) in choices {
             let edit = edits::span(project, index, wanted);

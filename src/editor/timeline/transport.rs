@@ -1,4 +1,4 @@
-//! The transport: buttons, the number of the frame, the frame rate.
+//! The transport: playback buttons, frame number, frame rate.
 
 use egui::{Align, ComboBox, DragValue, Layout, Rect, RichText, Ui};
 use lightloom_core::project::OutputSettings;
@@ -11,7 +11,7 @@ use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::{playback, shortcuts};
 
-/// Frame rates in use, as fractions.
+/// Common frame rates, as fractions.
 const RATES: [[u32; 2]; 10] = [
     [12, 1],
     [24_000, 1001],
@@ -26,7 +26,7 @@ const RATES: [[u32; 2]; 10] = [
 ];
 
 impl Timeline {
-    /// Shows the row of the transport; returns where the play button is.
+    /// Shows the transport; returns the rectangle of the play button.
     pub(super) fn transport(&mut self, ui: &mut Ui, editor: &mut EditorContext) -> Rect {
         let mut play = Rect::NOTHING;
         ui.horizontal(|ui| {
@@ -48,12 +48,7 @@ impl Timeline {
             command(ui, editor, Icon::AddKey, Command::AddKey, false);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let fit = icons::button(ui, Icon::Fit, "Show all frames", false);
-                if fit
-                    .on_hover_text(
-                        "Show all frames: wheel zooms, dragging with the middle button moves the view.",
-                    )
-                    .clicked()
-                {
+                if fit.on_hover_text("Show all frames. The wheel zooms, the middle button pans.").clicked() {
                     self.seen = None;
                 }
                 ui.add_space(8.0);
@@ -79,8 +74,8 @@ fn number(ui: &mut Ui, editor: &mut EditorContext) {
     let mut frame = editor.session.playhead;
     let field =
         DragValue::new(&mut frame).speed(0.1).range(-1_000_000..=1_000_000).update_while_editing(false);
-    let shown = ui.add_sized([58.0, 22.0], field).accessible_name("Frame under the playhead");
-    if shown.on_hover_text("The frame that is shown. Drag, or click and type.").changed() {
+    let shown = ui.add_sized([58.0, 22.0], field).accessible_name("Current frame");
+    if shown.on_hover_text("The current frame. Drag, or click and type.").changed() {
         go(editor, frame);
     }
     let seconds = f64::from(editor.session.playhead - whole.start()) / fps;

@@ -1,4 +1,4 @@
-//! Draws directed lines.
+//! The tool that draws directed lines.
 
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, DirectedLine};
@@ -8,7 +8,7 @@ use super::pen::{Pen, add};
 use super::tool::{Gesture, Ghost, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// Draws directed lines: flow here, this way.
+/// The tool that draws directed lines.
 #[derive(Default)]
 pub(super) struct DrawLine {
     pen: Pen,
@@ -24,7 +24,7 @@ impl Tool for DrawLine {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point: Enter ends, Backspace takes back, Esc cancels, Shift is straight"
+        "Drag to draw freehand, or click point by point: Enter finishes, Backspace removes a point, Esc cancels, Shift draws straight"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

@@ -1,4 +1,4 @@
-//! Erases what it touches of lines and walls.
+//! The eraser of lines and walls.
 
 use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
@@ -10,27 +10,27 @@ use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// How far it reaches, points of the screen.
+/// Radius, screen points.
 const RADIUS: f32 = 9.0;
-/// Pieces shorter than this go as well, points of the screen.
+/// Pieces shorter than this are removed too, screen points.
 const CRUMB: f32 = 3.0;
 
-/// Erases what it touches of lines and walls, and splits them there.
+/// The eraser: removes the touched parts of lines and walls.
 #[derive(Default)]
 pub(super) struct Erase {
-    /// Where the pointer is.
+    /// Position of the pointer.
     at: Option<Vec2>,
-    /// What is left so far, while the button is down.
+    /// The remaining constraints, while the button is down.
     left: Option<Vec<Constraint>>,
 }
 
 impl Erase {
-    /// Erases on the way from where it was to `to`.
+    /// Erases from the last position to `to`.
     fn sweep(&mut self, to: Vec2, context: &ToolContext) -> Vec<Action> {
         let from = self.at.replace(to).unwrap_or(to);
         let Some(left) = &mut self.left else { return Vec::new() };
         let radius = context.points(RADIUS);
-        // So dense that the swept outline strays by less than a tenth of the radius.
+        // Dense enough that the swept outline deviates by less than a tenth of the radius.
         let steps = (from.distance(to) / (0.8 * radius)).ceil().clamp(1.0, 1000.0) as usize;
         let before = left.clone();
         for i in 1..=steps {
@@ -69,7 +69,7 @@ impl Tool for Erase {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag over lines and walls: what is touched goes, the rest stays"
+        "Drag over lines and walls to remove the touched parts"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

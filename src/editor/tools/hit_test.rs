@@ -1,4 +1,4 @@
-//! What lies under the pointer. Locked constraints do not.
+//! Hit testing of constraints; locked ones are not hit.
 
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
@@ -6,19 +6,19 @@ use lightloom_core::constraint::{Constraint, stroke};
 use super::tool::ToolContext;
 use crate::editor::selection::Selection;
 
-/// How near a line catches, points of the screen.
+/// Hit distance of a line, screen points.
 const LINE: f32 = 6.0;
-/// How near a handle catches, points of the screen.
+/// Hit distance of a handle, screen points.
 const HANDLE: f32 = 7.0;
-/// Most of the way to the next handle that one takes, so that the line between dense handles can be grabbed.
+/// Maximum hit distance of a handle as a fraction of the distance to the next, so that the line between can be grabbed.
 const SHARE: f32 = 0.35;
 
-/// What lies under the pointer.
+/// A hit: what is under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Hit {
-    /// A point of a selected constraint: constraint and point.
+    /// A point of a selected constraint: indices of constraint and point.
     Point(usize, usize),
-    /// A piece of a line: the constraint, the point at which the piece begins, and the place on it.
+    /// A segment of a polyline: indices of constraint and first point, and the position on it.
     Piece(usize, usize, Vec2),
 }
 
@@ -31,7 +31,7 @@ impl Hit {
     }
 }
 
-/// What lies under the pointer at `p`, the nearest first; handles go before lines.
+/// The nearest hit at `p`; handles win over lines.
 pub(super) fn hit(p: Vec2, context: &ToolContext) -> Option<Hit> {
     handle(p, context).or_else(|| piece(p, context))
 }
@@ -57,7 +57,7 @@ fn handle(p: Vec2, context: &ToolContext) -> Option<Hit> {
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
-/// The piece of a line under the pointer.
+/// The nearest segment at `p`.
 pub(super) fn piece(p: Vec2, context: &ToolContext) -> Option<Hit> {
     let near = free(context).flat_map(|(i, constraint)| {
         let half = match constraint {
@@ -73,7 +73,7 @@ pub(super) fn piece(p: Vec2, context: &ToolContext) -> Option<Hit> {
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, hit)| hit)
 }
 
-/// The selection of what lies in the box between two corners: points, and wholes where all points do.
+/// The selection within a box of two corners: points, and whole constraints where all points are inside.
 pub(super) fn within(a: Vec2, b: Vec2, context: &ToolContext) -> Selection {
     let (low, high) = (a.min(b), a.max(b));
     let inside = |p: &[f32; 2]| {

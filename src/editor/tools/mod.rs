@@ -1,4 +1,4 @@
-//! Tools receive gestures in plane coordinates and answer with actions, so each is tested without a window.
+//! Tools: they receive gestures in plane coordinates and return actions, so each is tested without a window.
 
 pub mod arrange;
 mod curve;
@@ -21,5 +21,4 @@ mod zoom;
 
 pub use target::target_corners;
 pub use tool::{Gesture, Ghost, HeldKeys, PointerMode, Tool, ToolContext};
-pub(crate) use toolbox::is_covered;
 pub use toolbox::{Toolbox, all};

@@ -1,4 +1,4 @@
-//! How lines are drawn, freehand or point by point; directed lines and walls share it.
+//! Drawing of polylines, freehand or point by point, for directed lines and walls.
 
 use egui::Key;
 use glam::Vec2;
@@ -11,25 +11,25 @@ use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// A drag shorter than this is a click, points of the screen.
+/// A drag shorter than this is a click, screen points.
 const CLICK: f32 = 4.0;
-/// How near to its begin a loop closes, points of the screen.
+/// Distance to the start at which a loop closes, screen points.
 const CLOSES: f32 = 8.0;
-/// How far a freehand curve may stray from the hand, points of the screen.
+/// Tolerance of a freehand curve, screen points.
 const STRAY: f32 = 1.0;
-/// Farthest place that can be drawn on, plane units.
+/// Maximum coordinate of a point, plane units.
 const FARTHEST: f32 = 10.0;
 
-/// A line in the making.
+/// An unfinished polyline.
 #[derive(Default)]
 pub(super) struct Pen {
-    /// Whether it closes where it comes back to its begin.
+    /// Whether it closes where it returns to its start.
     loops: bool,
-    /// The points that are set.
+    /// The placed points.
     placed: Vec<Vec2>,
-    /// The way of the pointer since its button went down.
+    /// The path of the pointer since its button went down.
     trail: Vec<Vec2>,
-    /// Where the next point would be, and whether something caught it there.
+    /// Position of the next point, and whether it snapped.
     next: Option<(Vec2, bool)>,
 }
 
@@ -39,7 +39,7 @@ impl Pen {
         Self { loops: true, ..Self::default() }
     }
 
-    /// Answers a gesture: with the points, at least two, when the line is done.
+    /// Handles a gesture; returns at least two points when the line is finished.
     pub(super) fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Option<Vec<Vec2>> {
         match gesture {
             Gesture::Hover(p) => self.aim(p, context),
@@ -59,24 +59,24 @@ impl Pen {
         None
     }
 
-    /// Whether something is begun.
+    /// Whether a line was begun.
     pub(super) fn is_busy(&self) -> bool {
         !self.placed.is_empty() || !self.trail.is_empty()
     }
 
-    /// Forgets what was begun.
+    /// Discards the line.
     pub(super) fn clear(&mut self) {
         *self = Self { loops: self.loops, ..Self::default() };
     }
 
-    /// The line as it would be now.
+    /// The line up to the pointer.
     pub(super) fn points(&self) -> Vec<Vec2> {
         let ahead = if self.trail.len() > 1 { &self.trail[..] } else { &[] };
         let next = self.next.filter(|_| ahead.is_empty() && !self.placed.is_empty()).map(|(at, _)| at);
         self.placed.iter().chain(ahead).copied().chain(next).collect()
     }
 
-    /// The points that are set, and the place that caught the pointer.
+    /// Markers of the placed points and of the snapping point.
     pub(super) fn marks(&self) -> Vec<Ghost> {
         let caught = self.next.filter(|(_, caught)| *caught).map(|(at, _)| Ghost::Snap(at));
         self.placed.iter().map(|&p| Ghost::Pin(p)).chain(caught).collect()
@@ -116,7 +116,7 @@ impl Pen {
         if alone { self.finish() } else { None }
     }
 
-    /// The end of a freehand stroke: closed where it came back, else where something catches it.
+    /// Places the end of a freehand stroke: on its start if it closes, else snapped.
     fn end(&self, stroke: &mut [Vec2], p: Vec2, context: &ToolContext) {
         let long = stroke.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>();
         let (first, near) = (stroke[0], context.points(CLOSES));
@@ -129,7 +129,7 @@ impl Pen {
         }
     }
 
-    /// Sets a point; on the first one a loop closes.
+    /// Places a point; on the first one a loop closes.
     fn set(&mut self, at: Vec2, context: &ToolContext) -> Option<Vec<Vec2>> {
         let first = self.placed.first().copied();
         if let Some(first) = first
@@ -140,7 +140,7 @@ impl Pen {
             self.placed.push(first);
             return self.finish();
         }
-        // The second half of a double click sets no second point.
+        // The second click of a double click places no second point.
         if self.placed.last().is_none_or(|last| last.distance(at) > context.points(1.0)) {
             self.placed.push(at);
         }
@@ -155,7 +155,7 @@ impl Pen {
     }
 }
 
-/// What adds a constraint that is drawn, and selects it.
+/// The actions that add a drawn constraint and select it.
 pub(super) fn add(constraint: Constraint, context: &ToolContext) -> Vec<Action> {
     let selected = Selection::one(context.project.constraints.len());
     vec![Edit::Add(vec![constraint]).into(), Action::Settle, Action::Select(selected)]

@@ -1,4 +1,4 @@
-//! Follows one photon.
+//! The tool that follows one photon.
 
 use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
@@ -7,10 +7,10 @@ use super::icon;
 use super::tool::{Gesture, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// How far from the pointer the photon may be, points of the screen.
+/// Maximum distance of the photon from the pointer, screen points.
 const REACH: f32 = 40.0;
 
-/// Follows the photon that is nearest to a click: its way, its target and its detour appear.
+/// The probe: follows the photon nearest to a click.
 #[derive(Default)]
 pub(super) struct Probe {
     down: bool,
@@ -26,7 +26,7 @@ impl Tool for Probe {
     }
 
     fn hint(&self) -> &'static str {
-        "Click light to follow its photon: the way it takes, its target, its detour around walls. Esc ends"
+        "Click light to follow its photon: its path, its target, the way around walls. Esc ends"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

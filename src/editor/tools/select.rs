@@ -1,4 +1,4 @@
-//! Selects, moves and changes what was drawn.
+//! The selection tool.
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
@@ -12,10 +12,10 @@ use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// A drag shorter than this is a click, points of the screen.
+/// A drag shorter than this is a click, screen points.
 const CLICK: f32 = 3.0;
 
-/// Selects lines, walls and points of them; moves them; sets and removes points.
+/// The selection tool: selects and moves constraints and points, adds and deletes points.
 #[derive(Default)]
 pub(super) struct Select {
     over: Option<Hit>,
@@ -23,16 +23,16 @@ pub(super) struct Select {
     caught: Option<Vec2>,
 }
 
-/// What goes on while the button is down.
+/// The gesture in progress.
 #[derive(Default)]
 enum Doing {
     #[default]
     Nothing,
-    /// The button went down, and nothing came of it yet.
+    /// The button is down without a drag yet.
     Pressed { at: Vec2, hit: Option<Hit>, selection: Selection },
-    /// What is selected follows the pointer.
+    /// The selection follows the pointer.
     Moving { from: Vec2, selection: Selection, base: Vec<(usize, Constraint)> },
-    /// A box is drawn.
+    /// A selection box is drawn.
     Boxing { from: Vec2, to: Vec2 },
 }
 
@@ -99,7 +99,7 @@ impl Select {
     }
 }
 
-/// The place that follows the pointer: of a point the point itself, so that it is what snaps.
+/// The position that follows the pointer: a hit point itself, so that it snaps.
 fn grabbed(hit: Hit, at: Vec2, context: &ToolContext) -> Vec2 {
     match hit {
         Hit::Point(i, k) => {
@@ -110,7 +110,7 @@ fn grabbed(hit: Hit, at: Vec2, context: &ToolContext) -> Vec2 {
     }
 }
 
-/// What is selected after a click: more with Shift, less with Alt; a click on what is selected keeps the rest, so that
+/// The selection after a click: Shift adds, Alt removes; a click on a selected constraint keeps the rest, so that
 /// all of it can be dragged.
 fn clicked(hit: Hit, before: &Selection, context: &ToolContext) -> Selection {
     let mut selection = before.clone();
@@ -126,7 +126,7 @@ fn clicked(hit: Hit, before: &Selection, context: &ToolContext) -> Selection {
     selection
 }
 
-/// The selection with more or less of it, or this instead.
+/// The selection combined with another: added with Shift, removed with Alt, else replaced.
 fn combined(other: &Selection, context: &ToolContext) -> Selection {
     let mut selection = context.session.selection.clone();
     if context.held.alt {
@@ -139,7 +139,7 @@ fn combined(other: &Selection, context: &ToolContext) -> Selection {
     selection
 }
 
-/// Sets a point on the line under the pointer.
+/// Inserts a point on the line under the pointer.
 fn insert(p: Vec2, context: &ToolContext) -> Vec<Action> {
     let Some(Hit::Piece(i, k, at)) = hit_test::hit(p, context) else { return Vec::new() };
     let Some(constraint) = context.project.constraints.get(i) else { return Vec::new() };
@@ -170,7 +170,7 @@ impl Tool for Select {
     }
 
     fn hint(&self) -> &'static str {
-        "Click or drag a box to select (Shift adds, Alt takes out), drag to move, double click a line to set a point"
+        "Click or drag a box to select (Shift adds, Alt removes), drag to move, double click a line to add a point"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

@@ -1,41 +1,41 @@
-//! Snapping: the pointer is caught by points, lines, directions and the grid that lie near.
+//! Snapping of the pointer to points, lines, directions and the grid.
 
 use glam::{Vec2, vec2};
 use lightloom_core::constraint::stroke;
 
 use super::tool::ToolContext;
 
-/// How near catches, points of the screen.
+/// Snapping distance, screen points.
 const REACH: f32 = 5.0;
-/// Directions that catch: multiples of this, radians.
+/// Step of the snapping directions, radians.
 const STEP: f32 = std::f32::consts::PI / 12.0;
-/// How near to such a direction, radians: close to where the way begins all directions are near in points.
+/// Snapping angle, radians: close to the start all directions are within the snapping distance.
 const NEAR: f32 = 0.05;
 
-/// Where the pointer counts as being.
+/// A snapped position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Snapped {
-    /// The place, plane units.
+    /// The position, plane units.
     pub(super) at: Vec2,
-    /// Whether something caught it.
+    /// Whether it snapped.
     pub(super) caught: bool,
 }
 
-/// What may catch the pointer.
+/// The candidates for snapping.
 pub(super) struct Snap<'a> {
-    /// Where the way to the pointer begins: directions from there catch.
+    /// Origin of the snapping directions.
     pub(super) from: Option<Vec2>,
-    /// Points besides those of the document.
+    /// Further points.
     pub(super) own: &'a [Vec2],
-    /// Points of the document that do not count: constraint and point.
+    /// Points of the document that are skipped: indices of constraint and point.
     pub(super) skip: &'a dyn Fn(usize, usize) -> bool,
 }
 
 impl Snap<'_> {
-    /// Everything of the document catches.
+    /// Snapping to everything in the document.
     pub(super) const ALL: Self = Self { from: None, own: &[], skip: &|_, _| false };
 
-    /// Where the pointer at `p` counts as being. Shift allows nothing but straight ways.
+    /// The snapped position of the pointer at `p`. Shift restricts it to the snapping directions.
     pub(super) fn find(&self, p: Vec2, context: &ToolContext) -> Snapped {
         if let Some(from) = self.from.filter(|_| context.held.shift) {
             return Snapped { at: straight(p, from), caught: false };
@@ -70,7 +70,7 @@ impl Snap<'_> {
     }
 }
 
-/// The point on the nearest straight way from `from`: a multiple of 15 degrees.
+/// The projection of `p` on the nearest snapping direction from `from`.
 pub(super) fn straight(p: Vec2, from: Vec2) -> Vec2 {
     let way = p - from;
     if way == Vec2::ZERO {

@@ -1,8 +1,8 @@
-//! Places the target's picture: moves, turns and scales it.
+//! The tool that moves, rotates and scales the target picture.
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
-use lightloom_core::target::Placement;
+use lightloom_core::targets::Placement;
 
 use super::icon;
 use super::snap::Snap;
@@ -11,16 +11,16 @@ use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::target_image::TargetImage;
 
-/// How near a handle catches, points of the screen.
+/// Hit distance of a handle, screen points.
 const HANDLE: f32 = 9.0;
-/// How far the handle that turns stands off the picture, points of the screen.
+/// Distance of the rotation handle from the picture, screen points.
 const STALK: f32 = 28.0;
-/// How near to multiples of 15 degrees a turn catches, degrees.
+/// Snapping angle about multiples of 15 degrees, degrees.
 const NEAR: f32 = 2.0;
-/// Smallest and largest width of a picture, plane units.
+/// Range of the width of a picture, plane units.
 const WIDTH: [f32; 2] = [0.005, 10.0];
 
-/// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
+/// Corners of the target picture at the playhead: lower left, lower right, upper right, upper left.
 pub fn target_corners(context: &ToolContext) -> Option<[Vec2; 4]> {
     Some(
         Frame::new(&TargetImage::at_playhead(context.project, context.session)?.image.placement, context)
@@ -28,18 +28,18 @@ pub fn target_corners(context: &ToolContext) -> Option<[Vec2; 4]> {
     )
 }
 
-/// A picture on the plane.
+/// The frame of a picture on the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     centre: Vec2,
-    /// Half of its width, with its direction.
+    /// Half of its width, as a vector.
     right: Vec2,
-    /// Half of its height, with its direction.
+    /// Half of its height, as a vector.
     up: Vec2,
 }
 
 impl Frame {
-    /// A picture whose size is not known yet counts as a square.
+    /// The frame of a placement; a picture of unknown size counts as a square.
     fn new(placement: &Placement, context: &ToolContext) -> Self {
         let size = context.picture.unwrap_or(Vec2::splat(100.0));
         let (centre, x, y) = placement.frame(size, context.extent);
@@ -73,7 +73,7 @@ impl Frame {
     }
 }
 
-/// Which handle was taken.
+/// A handle of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Handle {
     Inside,
@@ -81,10 +81,10 @@ enum Handle {
     Turn,
 }
 
-/// Places the picture of the key frame that follows the playhead.
+/// The tool that places the target picture at the playhead.
 #[derive(Default)]
 pub(super) struct Place {
-    /// What was taken: the handle, where, and the picture as it was.
+    /// The dragged handle, where it was grabbed, and the initial frame.
     taken: Option<(Handle, Vec2, Frame)>,
     over: Option<Handle>,
 }
@@ -113,7 +113,7 @@ fn moved(frame: Frame, from: Vec2, p: Vec2, context: &ToolContext) -> Frame {
     Frame { centre: snap.find(frame.centre + p - from, context).at, ..frame }
 }
 
-/// About the opposite corner; with Alt about the centre.
+/// Scales about the opposite corner; with Alt about the centre.
 fn scaled(frame: Frame, corner: usize, p: Vec2, context: &ToolContext) -> Frame {
     let corners = frame.corners();
     let fixed = if context.held.alt { frame.centre } else { corners[(corner + 2) % 4] };
@@ -128,7 +128,7 @@ fn scaled(frame: Frame, corner: usize, p: Vec2, context: &ToolContext) -> Frame 
     Frame { centre, right: frame.right * factor, up: frame.up * factor }
 }
 
-/// About the centre; near multiples of 15 degrees it catches, with Shift there is nothing else.
+/// Rotates about the centre; snaps near multiples of 15 degrees, and to them only with Shift.
 fn turned(frame: Frame, from: Vec2, p: Vec2, context: &ToolContext) -> Frame {
     let by = (p - frame.centre).to_angle() - (from - frame.centre).to_angle();
     let angle = (frame.right.to_angle() + by).to_degrees();
@@ -149,7 +149,7 @@ impl Tool for Place {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag the picture to move it, a corner to scale it (Alt: about the middle), the knob to turn it; double click fits it"
+        "Drag the picture to move it, a corner to scale it (Alt: about the centre), the knob to rotate it; double click resets it"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -176,7 +176,7 @@ impl Tool for Place {
         let Some(target) = TargetImage::at_playhead(context.project, context.session) else {
             self.put_down();
             let here = matches!(gesture, Gesture::Press(_));
-            let say = "The next key frame shows no picture that could be placed".to_owned();
+            let say = "The next key frame has no target picture to place".to_owned();
             return if here { vec![Action::Say(say)] } else { Vec::new() };
         };
         let frame = Frame::new(&target.image.placement, context);

@@ -1,4 +1,4 @@
-//! The interface of a tool: the gestures that it gets, what it sees, and what it shows while it works.
+//! The interface of a tool: gestures in, actions and temporary shapes out.
 
 use egui::Key;
 use glam::Vec2;
@@ -7,7 +7,7 @@ use lightloom_core::project::Project;
 use crate::editor::action::Action;
 use crate::editor::session::Session;
 
-/// What the pointer or a key does, plane coordinates.
+/// A pointer or key gesture, plane coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gesture {
     /// The pointer moves with no button down.
@@ -18,13 +18,13 @@ pub enum Gesture {
     Drag(Vec2),
     /// The primary button comes up.
     Release(Vec2),
-    /// The primary button was pressed and released twice in one place.
+    /// The primary button was clicked twice in one place.
     DoubleClick(Vec2),
     /// A key: Enter, Escape, Backspace, Delete, an arrow.
     Key(Key),
 }
 
-/// What is held beside the pointer.
+/// The modifier keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HeldKeys {
     /// Shift: straight, or add to the selection.
@@ -35,32 +35,32 @@ pub struct HeldKeys {
     pub ctrl: bool,
 }
 
-/// What a tool sees.
+/// The state that a tool reads.
 #[derive(Clone, Copy)]
 pub struct ToolContext<'a> {
-    /// The document.
+    /// The project.
     pub project: &'a Project,
-    /// The state of the window.
+    /// The session.
     pub session: &'a Session,
     /// Size of the plane; its longer side is 1.
     pub extent: Vec2,
-    /// Plane units per point of the screen: hit distances are in points.
+    /// Plane units per screen point: hit distances are in points.
     pub per_point: f32,
-    /// What is held.
+    /// The modifier keys.
     pub held: HeldKeys,
-    /// Pixels of the picture that the key after the playhead shows; none where it shows none, or it is not read yet.
+    /// Size in pixels of the target picture at the playhead; none where there is none, or it is not loaded yet.
     pub picture: Option<Vec2>,
-    /// Where the photons are now, by row; empty while unknown.
+    /// Photon positions at the playhead, by row; empty while unknown.
     pub photons: &'a [Vec2],
 }
 
 impl ToolContext<'_> {
-    /// A length of so many points of the screen, in plane units.
+    /// A length in screen points, as plane units.
     pub fn points(&self, count: f32) -> f32 {
         count * self.per_point
     }
 
-    /// The step of an arrow key: a point of the screen, with Shift ten; none for other keys.
+    /// The step of an arrow key: one screen point, ten with Shift; none for other keys.
     pub(super) fn arrow(&self, key: Key) -> Option<Vec2> {
         let direction = match key {
             Key::ArrowLeft => Vec2::NEG_X,
@@ -73,68 +73,68 @@ impl ToolContext<'_> {
     }
 }
 
-/// Something a tool shows while it works, plane coordinates.
+/// A temporary shape that a tool shows, plane coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ghost {
-    /// A directed line in the making.
+    /// An unfinished directed line.
     Line(Vec<Vec2>),
-    /// A wall in the making, with its thickness in plane units.
+    /// An unfinished wall, with its thickness in plane units.
     Wall(Vec<Vec2>, f32),
-    /// A box of selection: two corners.
+    /// A selection box: two corners.
     Box(Vec2, Vec2),
-    /// A place to which the pointer snapped.
+    /// A point that the pointer snapped to.
     Snap(Vec2),
-    /// A point that was set.
+    /// A placed point.
     Pin(Vec2),
-    /// The place around which something is erased, with its radius in plane units.
+    /// The eraser: centre, and radius in plane units.
     Eraser(Vec2, f32),
-    /// The constraint under the pointer, by index.
+    /// Index of the constraint under the pointer.
     Hover(usize),
-    /// The frame of a target: its corners, and the handle that turns it.
+    /// The frame of a target: its corners, and its rotation handle.
     Frame([Vec2; 4], Vec2),
 }
 
-/// Who answers the pointer.
+/// What handles the pointer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PointerMode {
-    /// The tool: it gets gestures.
+    /// The tool: it receives gestures.
     #[default]
     Tool,
-    /// The view: dragging moves it.
+    /// The view: dragging pans.
     Pan,
-    /// The view: a click comes closer, with Shift or Alt it goes back; dragging does either.
+    /// The view: a click zooms in, with Shift or Alt out; dragging does both.
     Zoom,
 }
 
 /// A tool.
 pub trait Tool: Send {
-    /// What it is called.
+    /// Its name.
     fn name(&self) -> &'static str;
-    /// The key that takes it.
+    /// The key that selects it.
     fn key(&self) -> Key;
-    /// One line on how it is used, for the status bar.
+    /// One line on its use, for the tooltip.
     fn hint(&self) -> &'static str;
-    /// Draws its icon into a square, with one stroke.
+    /// Paints its icon in a square, with one stroke.
     fn icon(&self, painter: &egui::Painter, square: egui::Rect, stroke: egui::Stroke);
     /// The cursor over the plane.
     fn cursor(&self) -> egui::CursorIcon {
         egui::CursorIcon::Crosshair
     }
-    /// Who answers the pointer while this is in hand.
+    /// What handles the pointer while it is active.
     fn pointer_mode(&self) -> PointerMode {
         PointerMode::Tool
     }
-    /// Answers a gesture.
+    /// Handles a gesture.
     fn gesture(&mut self, _gesture: Gesture, _look: &ToolContext) -> Vec<Action> {
         Vec::new()
     }
-    /// What it shows now.
+    /// The temporary shapes it shows.
     fn ghosts(&self, _look: &ToolContext) -> Vec<Ghost> {
         Vec::new()
     }
-    /// Another tool is taken, or the document is another: forget what was begun.
+    /// Discards an unfinished gesture: another tool or document is active.
     fn put_down(&mut self) {}
-    /// Whether it has something in the making, which Escape and Enter end.
+    /// Whether it has an unfinished gesture, which Escape and Enter end.
     fn is_busy(&self) -> bool {
         false
     }

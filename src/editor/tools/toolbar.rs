@@ -1,4 +1,4 @@
-//! The strip of tools beside the plane.
+//! The toolbar beside the plane view.
 
 use egui::{CornerRadius, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
@@ -12,13 +12,13 @@ use crate::editor::theme;
 const BUTTON: f32 = 34.0;
 /// Side of its icon, points.
 const ICON: f32 = 18.0;
-/// Tools between which a gap stands: those that draw, and those that context.
+/// Tools that are followed by a gap: selection, drawing, viewing.
 const GAPS: [usize; 2] = [0, 5];
 
-/// Width of the strip, points.
+/// Width of the toolbar, points.
 pub const WIDTH: f32 = BUTTON + 8.0;
 
-/// Shows the tools below each other, and asks for the one that is clicked. Returns the places of the first two that draw.
+/// Shows the tools as a column, and asks for the clicked one. Returns the rectangles of the first two drawing tools.
 pub fn show(ui: &mut Ui, editor: &mut EditorContext, toolbox: &Toolbox) -> [Rect; 2] {
     let (mut wanted, mut places) = (None, Vec::new());
     ui.spacing_mut().item_spacing.y = 2.0;

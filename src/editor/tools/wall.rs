@@ -1,4 +1,4 @@
-//! Draws walls.
+//! The tool that draws walls.
 
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, Wall};
@@ -8,7 +8,7 @@ use super::pen::{Pen, add};
 use super::tool::{Gesture, Ghost, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// Draws walls: not through here.
+/// The tool that draws walls.
 pub(super) struct DrawWall {
     pen: Pen,
 }
@@ -29,7 +29,7 @@ impl Tool for DrawWall {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point; back at the first point the wall closes. Enter ends, Esc cancels"
+        "Drag to draw freehand, or click point by point; at the first point the wall closes. Enter finishes, Esc cancels"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

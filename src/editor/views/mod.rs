@@ -1,4 +1,4 @@
-//! The views of one moment: the plane, the shot, the free look; side by side or alone.
+//! The views: plane, shot and orbit view, side by side or alone.
 
 mod fit;
 mod orbit_camera;
@@ -18,18 +18,18 @@ use crate::editor::context::EditorContext;
 use lightloom_core::project::Project;
 use pictures::Pictures;
 
-/// Room between two views, points.
+/// Gap between two views, points.
 const GAP: f32 = 6.0;
-/// Least share of a view that stands beside another.
+/// Minimum share of a view beside another.
 const LEAST: f32 = 0.15;
 
 /// The views of the window.
 pub(super) struct Views {
     pictures: Pictures,
-    /// Share of the plane where the shot stands beside it.
+    /// Share of the plane view beside the shot.
     split: f32,
     wanted: Wanted,
-    /// Where the plane and the shot were shown last.
+    /// Rectangles of the plane view and the shot view when last shown.
     places: [Rect; 2],
 }
 
@@ -45,17 +45,17 @@ impl Default for Views {
 }
 
 impl Views {
-    /// What the workers shall paint for what was shown last.
+    /// The pictures that the visible views need.
     pub(super) fn wanted(&self) -> &Wanted {
         &self.wanted
     }
 
-    /// Where the plane is seen.
+    /// Rectangle of the plane view.
     pub(super) fn plane_rect(&self) -> Rect {
         self.places[0]
     }
 
-    /// One pixel of the rendered picture is one of the screen; the plane, as large as the picture is wide.
+    /// Zooms so that one rendered pixel is one screen point; the plane gets the width of the picture.
     pub(super) fn actual_size(&self, session: &mut Session, project: &Project) {
         let width = project.render.width as f32;
         let [plane, shot] = self.places;
@@ -65,7 +65,7 @@ impl Views {
             ShotViewport { zoom: width / fit::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
     }
 
-    /// Shows the views that the session asks for.
+    /// Shows the views of the session's layout.
     pub(super) fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
@@ -82,7 +82,7 @@ impl Views {
         }
     }
 
-    /// The places of two views, and the handle between them.
+    /// The rectangles of two views, and the handle between them.
     fn halves(&mut self, ui: &mut Ui, all: Rect) -> [Rect; 2] {
         let middle = all.left() + all.width() * self.split;
         let handle = Rect::from_x_y_ranges(middle - GAP / 2.0..=middle + GAP / 2.0, all.y_range());

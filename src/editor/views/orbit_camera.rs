@@ -1,19 +1,19 @@
-//! The free look: a camera that circles a point.
+//! The camera of the orbit view.
 
 use glam::{Vec2, Vec3, vec3};
 use lightloom_core::scene::CameraDesc;
 
 use crate::editor::session::Orbit;
 
-/// Turn for a drag across one point of the screen, radians.
+/// Rotation per point of a drag, radians.
 const TURN: f32 = 0.006;
-/// Steepest look, radians: just below straight down, where there is no upright.
+/// Maximum elevation, radians: just below vertical, where "up" is undefined.
 const STEEPEST: f32 = 1.55;
-/// Nearest and farthest [m].
+/// Range of the distance [m].
 const DISTANCE: [f32; 2] = [0.01, 1e5];
 
 impl Orbit {
-    /// Where the shot's camera stands.
+    /// The orbit camera at the shot's camera.
     pub fn of(camera: &CameraDesc) -> Self {
         let target = Vec3::from(camera.look_at);
         let from = Vec3::from(camera.position) - target;
@@ -22,13 +22,13 @@ impl Orbit {
         Self { target, azimuth: from.x.atan2(from.z), elevation, distance }
     }
 
-    /// From the target to the camera, of length 1.
+    /// Unit vector from the target to the camera.
     fn outward(&self) -> Vec3 {
         let (sin, cos) = self.elevation.sin_cos();
         vec3(cos * self.azimuth.sin(), sin, cos * self.azimuth.cos())
     }
 
-    /// As a camera, with the lens of the shot's.
+    /// The camera, with the field of view of the shot.
     pub fn camera(&self, shot: &CameraDesc) -> CameraDesc {
         CameraDesc {
             position: (self.target + self.outward() * self.distance).to_array(),
@@ -38,7 +38,7 @@ impl Orbit {
         }
     }
 
-    /// Turned by a drag over `by` points of the screen, y downwards.
+    /// Rotated by a drag of `by` screen points, y downwards.
     pub fn turned(self, by: Vec2) -> Self {
         Self {
             azimuth: self.azimuth - by.x * TURN,
@@ -47,7 +47,7 @@ impl Orbit {
         }
     }
 
-    /// Moved along by a drag over `by` points of a view `height` points high, so that the target stays under the pointer.
+    /// Panned by a drag of `by` points in a view `height` points high; the target stays under the pointer.
     pub fn moved(self, by: Vec2, height: f32, fov_deg: f32) -> Self {
         let metres = 2.0 * self.distance * (fov_deg.to_radians() / 2.0).tan() / height.max(1.0);
         let outward = self.outward();
@@ -56,7 +56,7 @@ impl Orbit {
         Self { target: self.target + (up * by.y - right * by.x) * metres, ..self }
     }
 
-    /// Closer by `factor`.
+    /// Zoomed by `factor`.
     pub fn zoomed(self, factor: f32) -> Self {
         Self { distance: (self.distance / factor.max(1e-3)).clamp(DISTANCE[0], DISTANCE[1]), ..self }
     }

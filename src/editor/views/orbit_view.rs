@@ -1,4 +1,4 @@
-//! The free look: circle around the scene, take its view for the shot.
+//! The orbit view: a camera that circles the scene.
 
 use egui::{Color32, PointerButton, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use glam::Vec2;
@@ -11,13 +11,13 @@ use crate::editor::context::EditorContext;
 use crate::editor::session::Orbit;
 use crate::editor::theme;
 
-/// Most pixels along the longer side: what is seen while one turns.
+/// Maximum pixels along the longer side, for interactive speed.
 const MOST: f32 = 640.0;
-/// Points of the wheel that double the size.
+/// Wheel scroll that doubles the zoom, points.
 const WHEEL: f32 = 240.0;
 
 impl Views {
-    /// The free look, and how the pointer moves it.
+    /// Shows the orbit view and moves its camera by the pointer.
     pub(super) fn orbit_view(&mut self, ui: &mut Ui, editor: &mut EditorContext) {
         let view = ui.available_rect_before_wrap();
         let scene = editor.document.project().scene.as_ref();
@@ -55,6 +55,6 @@ impl Views {
                 painter.circle(at, 5.0, colour.gamma_multiply(0.5), Stroke::new(1.5, colour));
             }
         }
-        response.on_hover_text_at_pointer("Drag to turn, Shift to move, wheel to come closer");
+        response.on_hover_text_at_pointer("Drag to orbit, Shift to pan, wheel to zoom");
     }
 }

@@ -1,4 +1,4 @@
-//! The plane with its light.
+//! The plane view with its light.
 
 use std::sync::Arc;
 
@@ -11,23 +11,23 @@ use super::{Views, wipe};
 use crate::editor::canvas::plane_transform::PlaneTransform;
 use crate::editor::canvas::{self, Backdrop};
 use crate::editor::context::EditorContext;
-use crate::editor::preview::gpu::{Drawing, Swarm};
+use crate::editor::preview::gpu::{Drawing, PhotonColumns};
 use crate::editor::tools::Toolbox;
 
 impl Views {
-    /// The plane view: light, what was drawn, and the tool in hand.
+    /// Shows the plane view: light, overlays and active tool.
     pub(super) fn plane_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
         let project = editor.document.project().clone();
         let (extent, compare) = (project.extent(), editor.session.compare);
-        let (swarms, paper) = (editor.preview.painted().swarm, editor.preview.paper());
+        let (photons_of_sides, paper) = (editor.preview.painted().photons, editor.preview.paper());
         let by_card = editor.preview.draws_photons();
         let light = |painter: &Painter, transform: &PlaneTransform| {
             let sides = wipe::sides(view, compare).into_iter().enumerate();
             for (side, clip) in sides.filter_map(|(side, clip)| Some((side, clip?))) {
-                if let Some(swarm) = swarms[side].as_ref().filter(|_| by_card) {
+                if let Some(columns) = photons_of_sides[side].as_ref().filter(|_| by_card) {
                     let drawing =
-                        drawing(painter, clip, transform, (extent, paper), &project.render.view, swarm);
+                        drawing(painter, clip, transform, (extent, paper), &project.render.view, columns);
                     painter.add(egui_wgpu::Callback::new_paint_callback(clip, drawing));
                 } else if let Some(texture) = self.pictures.plane[side].texture() {
                     let painter = painter.with_clip_rect(clip.intersect(painter.clip_rect()));
@@ -35,8 +35,8 @@ impl Views {
                 }
             }
         };
-        let sketch = editor.preview.sketch().cloned();
-        let photons = sketch.as_ref().and_then(|sketch| sketch.positions(editor.session.playhead));
+        let preview = editor.preview.preview().cloned();
+        let photons = preview.as_ref().and_then(|preview| preview.positions(editor.session.playhead));
         let backdrop = Backdrop {
             light: Some(&light),
             target: self.pictures.target(),
@@ -49,20 +49,20 @@ impl Views {
     }
 }
 
-/// The photons of one side of the view, for the graphics card.
+/// The drawing of one side of the view by the graphics card.
 fn drawing(
     painter: &Painter,
     clip: Rect,
     transform: &PlaneTransform,
     (extent, paper): (Vec2, Paper),
     view: &ViewSettings,
-    swarm: &Arc<Swarm>,
+    photons: &Arc<PhotonColumns>,
 ) -> Drawing {
     let pixels = painter.ctx().pixels_per_point();
     let corner = clip.min * pixels;
     let origin = transform.screen_from_plane(Vec2::ZERO) * pixels - corner;
     Drawing {
-        swarm: swarm.clone(),
+        photons: photons.clone(),
         corner: corner.into(),
         size: [clip.width() * pixels, clip.height() * pixels].map(|n| n.round().max(1.0) as u32),
         origin: vec2(origin.x, origin.y),

@@ -1,4 +1,4 @@
-//! The shot: through the project's camera. What is drawn here falls on the plane.
+//! The shot view, through the project's camera. Strokes drawn here fall on the plane.
 
 use egui::{Color32, Pos2, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 use glam::Vec2;
@@ -7,26 +7,25 @@ use lightloom_core::render::PlaneView;
 use super::fit::{WHOLE, fitted};
 use super::{Views, wipe};
 use crate::editor::canvas::input::ViewMove;
-use crate::editor::canvas::plane_transform::ZOOM;
 use crate::editor::canvas::{self, ProjectedPlane};
 use crate::editor::context::EditorContext;
-use crate::editor::session::ShotViewport;
+use crate::editor::session::{ShotViewport, ZOOM_RANGE};
 use crate::editor::theme;
 use crate::editor::tools::Toolbox;
 
-/// The picture as the viewport sees it.
+/// Rectangle of the picture after pan and zoom.
 fn frame(fitted: Rect, viewport: ShotViewport) -> Rect {
     let middle = fitted.center() + viewport.offset.into();
     Rect::from_center_size(middle, fitted.size() * viewport.zoom)
 }
 
-/// The viewport after a movement of the view.
+/// The viewport after a move of the view.
 fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewport {
     let offset = egui::Vec2::from(viewport.offset);
     match *movement {
         ViewMove::Pan(by) => ShotViewport { offset: (offset + by).into(), ..viewport },
         ViewMove::Zoom(factor, about) => {
-            let zoom = (viewport.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+            let zoom = (viewport.zoom * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
             let from_middle = about - fitted.center();
             let offset = from_middle + (offset - from_middle) * (zoom / viewport.zoom);
             ShotViewport { zoom, offset: offset.into() }
@@ -35,7 +34,7 @@ fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewp
 }
 
 impl Views {
-    /// The shot view: the picture without caustics, the light in it, what was drawn, and the tool in hand.
+    /// Shows the shot view: picture with caustics, overlays and active tool.
     pub(super) fn shot_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
         let project = editor.document.project().clone();

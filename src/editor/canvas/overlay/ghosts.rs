@@ -1,4 +1,4 @@
-//! What the tool in hand shows while it works.
+//! The temporary shapes of the active tool.
 
 use egui::{Color32, Stroke, StrokeKind};
 use glam::Vec2;
@@ -8,7 +8,7 @@ use crate::editor::theme;
 use crate::editor::tools::Ghost;
 
 impl Overlay<'_> {
-    /// Draws what the tool in hand shows.
+    /// Draws the temporary shapes of the active tool.
     pub(super) fn ghosts(&self, ghosts: &[Ghost]) {
         for ghost in ghosts {
             match ghost {

@@ -1,5 +1,5 @@
-//! Walls: magenta bands of their true thickness, laid in bricks. Where they are too thin on the screen for bricks, a
-//! line with ticks across stands for them.
+//! Walls: magenta bands of their true thickness with a brick pattern. Where they are too thin on the screen, a
+//! line with ticks across is drawn instead.
 
 use egui::{Color32, Stroke};
 use glam::Vec2;
@@ -8,19 +8,19 @@ use lightloom_core::constraint::stroke;
 use super::{ConstraintStyle, Overlay, band};
 use crate::editor::theme;
 
-/// The band's fill: dark enough to be seen on bright light.
+/// Fill of the band: dark enough to stand out from bright light.
 const FILL: Color32 = Color32::from_rgba_unmultiplied_const(96, 14, 82, 190);
-/// Least thickness on the screen that is laid in bricks, points.
+/// Minimum thickness on the screen for bricks, points.
 const BRICKS: f32 = 7.0;
 /// Length of a brick over the wall's thickness.
 const BRICK: f32 = 1.4;
-/// Way between two ticks of a thin wall, and their half length, points.
+/// Distance between two ticks of a thin wall, and their half length, points.
 const TICKS: [f32; 2] = [9.0, 3.5];
-/// Most bricks and ticks of one wall.
+/// Maximum number of bricks and ticks of one wall.
 const MOST: usize = 1500;
 
 impl Overlay<'_> {
-    /// A wall of a thickness in plane units.
+    /// Draws a wall of a thickness in plane units.
     pub(super) fn wall(&self, points: &[Vec2], thickness: f32, style: ConstraintStyle) {
         let Some(scale) =
             points.get(points.len() / 2).and_then(|&p| self.scale(p)).filter(|_| points.len() > 1)
@@ -32,7 +32,7 @@ impl Overlay<'_> {
             self.thin(points, scale, colour, style);
             return;
         }
-        // Shakes of the hand far smaller than the wall would only fold its borders.
+        // Details far smaller than the wall would only fold its borders.
         let smooth = stroke::simplify(points, 0.02 * thickness);
         let half = 0.5 * thickness;
         let mut outline = band::beside(&smooth, half);
@@ -55,7 +55,7 @@ impl Overlay<'_> {
         }
     }
 
-    /// Joints: one along the middle, and across alternately on either side of it.
+    /// Joints: one along the centre line, and alternating ones across.
     fn bricks(&self, points: &[Vec2], thickness: f32, colour: Color32) {
         let joint = Stroke::new(1.0, colour);
         self.polyline(points, joint, false);

@@ -78,8 +78,8 @@ fn tint(light: &LightDesc) -> [f32; 3] {
 
 /// Flux and photons of a group: "0.12 W, 6 500 photons". None before its light was traced.
 fn cast(editor: &EditorContext, group: usize) -> Option<String> {
-    let sketch = editor.preview.sketch()?;
-    let light = sketch.caustics().get(group)?;
+    let preview = editor.preview.preview()?;
+    let light = preview.caustics().get(group)?;
     let watts = format!("{:.2e}", light.watts).parse().unwrap_or(light.watts);
     let photons = number(light.photons as f64, true);
     Some(format!("{} W, {photons} photons", number(watts, false)))

@@ -36,10 +36,8 @@ pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDes
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
     ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
-        let take = ui
-            .button("Align camera to view")
-            .on_hover_text("Moves the camera to where the orbit view is now");
-        if take.on_disabled_hover_text("Look around the scene first").clicked()
+        let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
+        if take.on_disabled_hover_text("Open the orbit view first").clicked()
             && let Some(orbit) = editor.session.orbit
         {
             *camera = orbit.camera(camera);

@@ -22,8 +22,8 @@ pub(super) struct Roads {
 impl Roads {
     /// Follows the photon of a row; none where there is no such photon now.
     pub(super) fn follow(&mut self, request: &Request, row: usize, progress: &Progress) -> Option<Followed> {
-        let at = *request.sketch.positions(request.frame)?.get(row)?;
-        let target = *request.sketch.targets(request.frame).get(row)?;
+        let at = *request.preview.positions(request.frame)?.get(row)?;
+        let target = *request.preview.targets(request.frame).get(row)?;
         let detour = self.detour(request, at, target, progress)?;
         Some(Followed { way: sample::way(request, row), at, target, detour })
     }
@@ -42,7 +42,7 @@ impl Roads {
         }
         if self.last.as_ref().is_none_or(|(of, _)| *of != walls) {
             let all: Vec<&ActiveWall> = walls.iter().collect();
-            match Detour::new(&all, request.sketch.extent(), progress) {
+            match Detour::new(&all, request.preview.extent(), progress) {
                 Ok(detour) => self.last = Some((walls, detour)),
                 Err(_) if progress.is_cancelled() => return None,
                 // More walls than ways are made for: what is wrong is told by the animation.

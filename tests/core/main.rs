@@ -1,0 +1,39 @@
+//! The core: everything that needs no window and no program.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use std::path::Path;
+
+mod advection;
+mod background;
+mod caustics;
+mod constraints;
+mod crossing;
+mod export;
+mod field;
+mod figures;
+mod fit;
+mod lines;
+mod matching;
+mod matching_walls;
+mod meshes;
+mod method;
+mod optics;
+mod photons;
+mod preview;
+mod preview_light;
+mod previews;
+mod project_file;
+mod project_store;
+mod properties;
+mod render;
+mod sampling;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+mod tracks;
+mod turbulence;
+mod walls;
+
+/// The top of the repository.
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}

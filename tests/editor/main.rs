@@ -1,0 +1,17 @@
+//! The editor, without a screen.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod app;
+mod canvas;
+mod dialogs;
+mod document;
+mod export_window;
+mod flow_view;
+mod palette;
+mod panels;
+mod photon_drawing;
+mod store;
+mod timeline;
+mod tools;
+#[path = "../window/mod.rs"]
+mod window;

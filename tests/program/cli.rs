@@ -1,0 +1,325 @@
+//! The command line as a farm or a script meets it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// A folder with a small letters project: C becomes S over frames 1 to 9, no scene.
+fn letters() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
+    for name in ["letter_c.png", "letter_s.png"] {
+        fs::copy(targets.join(name), folder.path().join(name)).unwrap();
+    }
+    let project = json!({
+        "lightloom": 1,
+        "name": "Small letters",
+        "keys": [
+            { "frame": 1, "shows": { "image": { "file": "letter_c.png" } } },
+            { "frame": 9, "shows": { "image": { "file": "letter_s.png" } } }
+        ],
+        "flow": { "grid": 32, "steps": 8, "guides": 4000 },
+        "render": { "width": 96, "height": 96, "photons": 6000, "passes": 2 }
+    });
+    let path = folder.path().join("letters.json");
+    fs::write(&path, project.to_string()).unwrap();
+    (folder, path)
+}
+
+fn lightloom(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).output().unwrap()
+}
+
+/// Runs the program, which must succeed, and returns what it printed.
+fn run(args: &[&str]) -> String {
+    let output = lightloom(args);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{args:?}: {text}{}", String::from_utf8_lossy(&output.stderr));
+    text
+}
+
+/// Runs the program, which must fail with `code` and say what is wrong on one line.
+fn fail(code: i32, args: &[&str]) -> String {
+    let output = lightloom(args);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {message}");
+    assert!(!message.contains("panicked"), "{message}");
+    message
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn frames_of(dir: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let printed = run(&["render", text(&project), "--out", text(&out), "--frames", "1-9x4"]);
+    let expected = [
+        "contact_sheet.png",
+        "frame.0001.exr",
+        "frame.0001.png",
+        "frame.0005.exr",
+        "frame.0005.png",
+        "frame.0009.exr",
+        "frame.0009.png",
+        "summary.json",
+    ];
+    assert_eq!(frames_of(&out), expected);
+    assert!(printed.contains("Progress: ") && printed.contains("Saved: '"), "{printed}");
+
+    let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    for name in [
+        "endpoint_error",
+        "transport_cost_ratio",
+        "crossing_index",
+        "fit_residual",
+        "solver_residual",
+        "solver_iterations",
+        "unknowns",
+        "divergence_rms",
+        "curl_rms",
+        "flux_ratio",
+        "peak_speed_ratio",
+        "dispersion",
+        "stages",
+        "left_out",
+    ] {
+        assert!(!summary[name].is_null(), "no {name} in {summary}");
+    }
+    assert!(summary["endpoint_error"].as_f64().unwrap() < 1e-6);
+    assert!((summary["flux_ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6);
+    assert!(
+        summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0)
+    );
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_for_any_threads_and_any_choice_of_frames() {
+    let (folder, project) = letters();
+    let render = |name: &str, extra: &[&str]| {
+        let out = folder.path().join(name);
+        run(&[&["render", text(&project), "--out", text(&out)], extra].concat());
+        ["exr", "png"].map(|kind| fs::read(out.join(format!("frame.0004.{kind}"))).unwrap())
+    };
+    let full = render("two", &["--threads", "2"]);
+    assert!(full == render("one", &["--threads", "1"]), "threads change the bytes");
+    assert!(
+        full == render("alone", &["--frames", "4"]),
+        "a frame alone differs from the same frame of a run"
+    );
+    assert!(full != render("seed", &["--seed", "2"]), "the seed changes nothing");
+}
+
+#[test]
+fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
+    let (folder, project) = letters();
+    let out = folder.path().join("fit");
+    run(&["fit", text(&project), "--out", text(&out)]);
+    assert_eq!(frames_of(&out), ["fields.npz", "flux.npy", "summary.json", "tracks.npy"]);
+    let npy = |name: &str| npyz::NpyFile::new(fs::File::open(out.join(name)).unwrap()).unwrap();
+    let photons = 4000;
+    assert_eq!(npy("tracks.npy").shape(), [9, photons, 2]);
+    assert_eq!(npy("flux.npy").shape(), [9, photons, 3]);
+    let tracks = npy("tracks.npy").into_vec::<f32>().unwrap();
+    assert!(tracks.iter().all(|c| c.is_finite()));
+    let flux = npy("flux.npy").into_vec::<f32>().unwrap();
+    let totals: Vec<f64> =
+        flux.chunks(3 * photons as usize).map(|step| step.iter().map(|f| f64::from(*f)).sum()).collect();
+    // 12 000 f32 values around 1e-5 each: their rounding is far below 1e-6 of the sum.
+    assert!(totals.iter().all(|total| (total / totals[0] - 1.0).abs() < 1e-6), "{totals:?}");
+}
+
+#[test]
+fn check_says_what_is_left_out_and_what_it_would_cost() {
+    let (_folder, project) = letters();
+    let printed = run(&["check", text(&project)]);
+    for word in ["left out", "tracing", "memory", "seconds"] {
+        assert!(printed.contains(word), "no '{word}' in {printed}");
+    }
+    let json: Value = serde_json::from_str(&run(&["check", text(&project), "--json"])).unwrap();
+    assert!(json["left_out"].as_array().unwrap().len() >= 2, "{json}");
+}
+
+#[test]
+fn check_notes_a_stretched_grid() {
+    let (_folder, project) = letters();
+    let text_of = fs::read_to_string(&project).unwrap();
+    fs::write(&project, text_of.replace("\"grid\":32", "\"grid\":[4096,8]")).unwrap();
+    assert!(run(&["check", text(&project)]).contains("stretched 512 : 1"));
+}
+
+#[test]
+fn turbulence_is_left_out_or_told_of_and_exported() {
+    let (folder, project) = letters();
+    let none = run(&["check", text(&project)]);
+    assert!(none.contains("left out: turbulence") && !none.contains("note"), "{none}");
+    let text_of = fs::read_to_string(&project).unwrap();
+    let turbulent =
+        text_of.replace("\"grid\":32", r#""turbulence":{"strength":20,"grids":[100,30]},"grid":32"#);
+    fs::write(&project, turbulent).unwrap();
+    let some = run(&["check", text(&project)]);
+    // 0.2 times 100 cells in 8 steps.
+    assert!(!some.contains("left out: turbulence") && some.contains("give flow.steps 20"), "{some}");
+
+    let out = folder.path().join("out");
+    run(&["fit", text(&project), "--out", text(&out)]);
+    let mut fields = npyz::npz::NpzArchive::open(out.join("fields.npz")).unwrap();
+    let noise = fields.by_name("noise_0_30").unwrap().unwrap();
+    // Of 8 steps the fade needs 8 fits; 30 cells have 33 coefficients.
+    assert_eq!(noise.shape(), [8, 33, 33]);
+    let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert!((summary["turbulence_rms"].as_f64().unwrap() - 0.2).abs() < 1e-6);
+}
+
+#[test]
+fn schema_is_json_and_knows_the_fields() {
+    let schema: Value = serde_json::from_str(&run(&["schema"])).unwrap();
+    assert!(schema["properties"]["keys"].is_object());
+}
+
+#[test]
+fn exit_codes_tell_causes_apart() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let render = |project: &Path, extra: &[&str]| {
+        [&["render", text(project), "--out", text(&out)], extra]
+            .concat()
+            .iter()
+            .map(|s| s.to_string())
+            .collect::<Vec<_>>()
+    };
+    let code =
+        |code: i32, args: Vec<String>| fail(code, &args.iter().map(String::as_str).collect::<Vec<_>>());
+    code(2, vec!["render".into()]);
+    assert!(code(2, render(&project, &["--frames", "9-1"])).contains("--frames"));
+    assert!(code(2, render(&project, &["--size", "big"])).contains("--size"));
+    assert!(code(2, render(&project, &["--format", "bmp"])).contains("--format"));
+    assert!(code(2, render(&project, &["--photons", "0"])).contains("--photons"));
+    assert!(code(3, render(&folder.path().join("none.json"), &[])).contains("none.json"));
+    fs::remove_file(folder.path().join("letter_s.png")).unwrap();
+    assert!(code(3, render(&project, &[])).contains("letter_s.png"));
+    assert!(!out.join("frame.0001.png").exists(), "a bad project must not leave frames");
+}
+
+#[test]
+fn an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
+    let (folder, project) = letters();
+    let file = folder.path().join("taken");
+    fs::write(&file, b"mine").unwrap();
+    let message = fail(2, &["render", text(&project), "--out", text(&file)]);
+    assert!(message.contains("taken"), "{message}");
+    let below = file.join("out");
+    let message = fail(5, &["render", text(&project), "--out", text(&below)]);
+    assert!(message.contains("taken"), "{message}");
+    assert_eq!(fs::read(&file).unwrap(), b"mine");
+}
+
+#[test]
+fn a_run_never_overwrites_what_it_is_made_from() {
+    let (folder, project) = letters();
+    let own = folder.path().join("summary.json");
+    fs::rename(&project, &own).unwrap();
+    let before = fs::read(&own).unwrap();
+    for command in ["render", "fit"] {
+        let message = fail(2, &[command, text(&own), "--out", text(folder.path())]);
+        assert!(message.contains("summary.json"), "{message}");
+    }
+    assert_eq!(fs::read(&own).unwrap(), before);
+
+    fs::rename(folder.path().join("letter_c.png"), folder.path().join("frame.0001.png")).unwrap();
+    let renamed = String::from_utf8(before).unwrap().replace("letter_c.png", "frame.0001.png");
+    fs::write(&project, renamed).unwrap();
+    let message = fail(2, &["render", text(&project), "--out", text(folder.path())]);
+    assert!(message.contains("frame.0001.png"), "{message}");
+}
+
+#[test]
+fn with_json_the_output_is_json_and_nothing_else() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let printed = run(&["fit", text(&project), "--out", text(&out), "--json", "--photons", "500"]);
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(summary["photons"], 500);
+}
+
+#[test]
+fn what_is_asked_for_by_name_outweighs_the_quality() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let extra = ["--quality", "preview", "--passes", "3", "--frames", "5", "--format", "png", "--json"];
+    let printed = run(&[&["render", text(&project), "--out", text(&out)], &extra[..]].concat());
+    let summary: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&summary["passes"], &summary["frames"]), (&json!(3), &json!(1)));
+}
+
+#[test]
+fn work_that_does_not_fit_into_memory_is_refused_beforehand() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    let huge = ["--size", "16384x16384", "--photons", "100000000"];
+    let message = fail(6, &[&["render", text(&project), "--out", text(&out)], &huge[..]].concat());
+    assert!(message.contains("GiB"), "{message}");
+}
+
+#[test]
+fn rows_of_two_point_files_are_paired_as_given() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.csv"), "x,y\n0.2,0.2\n0.8,0.2\n0.5,0.8\n").unwrap();
+    fs::write(folder.path().join("b.csv"), "x,y\n0.8,0.3\n0.2,0.3\n0.5,0.1\n").unwrap();
+    let key = |frame: i32, file: &str| json!({ "frame": frame, "shows": { "points": { "file": file } } });
+    let project = |matching: &str| {
+        let path = folder.path().join(format!("{matching}.json"));
+        let keys = [key(1, "a.csv"), key(5, "b.csv")];
+        let flow = json!({ "grid": 16, "steps": 4 });
+        let text = json!({ "lightloom": 1, "keys": keys, "matching": matching, "flow": flow }).to_string();
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let ends = |matching: &str| {
+        let out = folder.path().join(matching);
+        run(&["fit", text(&project(matching)), "--out", text(&out), "--photons", "3"]);
+        let tracks = npyz::NpyFile::new(fs::File::open(out.join("tracks.npy")).unwrap()).unwrap();
+        assert_eq!(tracks.shape(), [5, 3, 2]);
+        let tracks = tracks.into_vec::<f32>().unwrap();
+        tracks[24..].to_vec()
+    };
+    assert_eq!(ends("given"), [0.8, 0.3, 0.2, 0.3, 0.5, 0.1]);
+    // The optimal pairing crosses nothing: left stays left.
+    assert_ne!(ends("transport"), ends("given"));
+
+    fs::write(folder.path().join("b.csv"), "0.8,0.3\n0.2,0.3\n").unwrap();
+    let out = folder.path().join("out");
+    let message = fail(3, &["fit", text(&project("given")), "--out", text(&out)]);
+    assert!(message.contains("keys[1].shows.points.file") && message.contains('3'), "{message}");
+}
+
+#[test]
+fn one_photon_runs() {
+    let (folder, project) = letters();
+    let out = folder.path().join("out");
+    run(&[
+        "render",
+        text(&project),
+        "--out",
+        text(&out),
+        "--photons",
+        "1",
+        "--frames",
+        "5",
+        "--format",
+        "png",
+    ]);
+    assert!(out.join("frame.0005.png").exists());
+}
