@@ -106,6 +106,7 @@
 
 pub mod error;
 pub mod progress;
+pub mod setting;
 
 pub mod files;
 
