@@ -69,7 +69,7 @@ impl Constraint {
         }
     }
 
-    /// When it acts; always where there is no span.
+    /// When it acts; always without a span.
     pub fn span(&self) -> Option<&Span> {
         match self {
             Self::DirectedLine(line) => line.span.as_ref(),
