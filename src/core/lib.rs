@@ -12,14 +12,14 @@
 //! |---|---|
 //! | Sec. 2, photon tracing | [`scene`], [`photon`] |
 //! | Sec. 3, target points and matching | [`targets`], [`matching`] |
-//! | Directed lines and wall lines | [`constraint`]; `flow/lines.rs`, `flow/walker.rs` |
+//! | Directed lines and wall lines | [`constraint`]; `flow/fit/lines.rs`, `flow/walls` |
 //! | Eq. (1), the field | `flow/field.rs` |
 //! | Eq. (2), guidance | `flow/guidance.rs` |
-//! | Eqs. (3) to (7), the fit | `flow/fit.rs`, `flow/bending.rs`, `flow/local.rs` |
-//! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
+//! | Eqs. (3) to (7), the fit | [`flow::fit`], written out there |
+//! | advection (RK4), fade, flux blending | `flow/step.rs`, `flow/fade.rs`, `flow/flux.rs` |
 //! | synthetic turbulence | `flow/turbulence` |
-//! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
-//! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path.rs`, `pipeline/compare.rs` |
+//! | Sec. 4, progressive rendering | [`render`], [`engine`] |
+//! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path_trajectories.rs`, `engine/compare.rs` |
 //!
 //! # What is absent
 //!
