@@ -12,11 +12,11 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::imageops;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
+use lightloom_core::engine::Engine;
 use lightloom_core::export::FrameFormat;
 use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
-use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project, Shows};
-use lightloom_core::target::{ImageTarget, Placement};
+use lightloom_core::targets::{ImageTarget, Placement};
 
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [160, 100];
@@ -90,14 +90,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let file = format!("../assets/targets/{name}.png");
         key.shows = Shows::Image(ImageTarget { placement, ..ImageTarget::new(file) });
     }
-    let mut pipeline = Pipeline::new(AssetFolder::new(&file, false)?);
+    let engine = Engine::new(AssetFolder::new(&file, false)?);
     let only: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &str| only.is_empty() || only.iter().any(|word| name.contains(word));
     for picture in PICTURES.iter().filter(|picture| wanted(picture.name)) {
         let mut project = base.clone();
         (picture.change)(&mut project);
         let out = tempfile::tempdir()?;
-        pipeline.render(&project, out.path(), &Progress::default(), &|_| ())?;
+        engine.render(&project, out.path(), &Progress::default(), &|_| ())?;
         let frame = image::open(out.path().join(FILE))?.into_luma8();
         let share = |share: f32, whole: u32| (share * whole as f32).round() as u32;
         let [left, top, width, height] = PART;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use lightloom_core::engine::Quality;
 use lightloom_core::export::FrameFormat;
-use lightloom_core::pipeline::Quality;
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 
@@ -137,7 +137,7 @@ impl ProjectArgs {
     /// The project as this run shall do it.
     pub(crate) fn load(&self) -> Result<Project> {
         let quality = match self.quality {
-            QualityName::Preview => Quality::Preview,
+            QualityName::Preview => Quality::Fine,
             QualityName::Final => Quality::Final,
         };
         // What is asked for by name outweighs the quality.

@@ -1,7 +1,7 @@
 //! `lightloom check`: what would be done, what is left out and why, what is wrong, what it would cost.
 
 use lightloom_core::Result;
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::AssetFolder;
 
 use super::args::CheckArgs;
@@ -11,7 +11,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     args.project.set_threads()?;
     let project = args.project.load()?;
     let assets = AssetFolder::new(args.project.path()?, args.project.allow_external)?;
-    let report = Pipeline::new(assets).check(&project)?;
+    let report = Engine::new(assets).check(&project)?;
     let shown = if args.project.json { report.to_json() } else { report.to_text() };
     Lines::Out.say(shown.trim_end());
     Ok(0)

@@ -10,8 +10,8 @@ const FRAMES: usize = 6;
 
 pub(super) fn run(args: &CompareArgs) -> Result<u8> {
     let frames = if args.project.frames.is_some() { None } else { Some(FRAMES) };
-    let comparison = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        pipeline.compare(project, frames, &args.out, progress, saved)
+    let comparison = job::run(&args.project, &args.out, |engine, project, progress, saved| {
+        engine.compare(project, frames, &args.out, progress, saved)
     })?;
     if comparison.stopped {
         eprintln!("lightloom: stopped early; the sheet shows what is there, at the quality reached so far");

@@ -6,8 +6,8 @@ use super::args::FitArgs;
 use super::job;
 
 pub(super) fn run(args: &FitArgs) -> Result<u8> {
-    job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        pipeline.fit(project, &args.out, progress, saved)
+    job::run(&args.project, &args.out, |engine, project, progress, saved| {
+        engine.fit(project, &args.out, progress, saved)
     })?;
     Ok(0)
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use lightloom_core::engine::{Comparison, Engine, Summary, prepare_folder, write_report};
 use lightloom_core::flow::Movement;
-use lightloom_core::pipeline::{Comparison, Pipeline, Summary, prepare_folder, write_report};
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Report, Stability};
 use lightloom_core::{Progress, Result};
+use lightloom_report::{Report, Stability};
 
 use super::args::ProjectArgs;
 use super::progress::{Display, Lines};
@@ -76,7 +76,7 @@ impl Outcome for Stability {
 pub(super) fn run<T: Outcome>(
     args: &ProjectArgs,
     out: &Path,
-    work: impl FnOnce(&mut Pipeline, &Project, &Progress, Saved) -> Result<T>,
+    work: impl FnOnce(&Engine, &Project, &Progress, Saved) -> Result<T>,
 ) -> Result<T> {
     args.set_threads()?;
     let (path, project) = (args.path()?, args.load()?);
@@ -85,7 +85,7 @@ pub(super) fn run<T: Outcome>(
     for folder in T::folders() {
         prepare_folder(&out.join(folder), path, &project, "--out")?;
     }
-    watch(args, out, |progress, saved| work(&mut Pipeline::new(assets), &project, progress, saved))
+    watch(args, out, |progress, saved| work(&Engine::new(assets), &project, progress, saved))
 }
 
 /// Shows how far `work` is, then writes and prints its summary.

@@ -6,8 +6,8 @@ use super::args::RenderArgs;
 use super::{BAD_FRAMES, job};
 
 pub(super) fn run(args: &RenderArgs) -> Result<u8> {
-    let summary = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        pipeline.render(project, &args.out, progress, saved)
+    let summary = job::run(&args.project, &args.out, |engine, project, progress, saved| {
+        engine.render(project, &args.out, progress, saved)
     })?;
     if summary.passes < summary.passes_planned {
         eprintln!("lightloom: stopped early; every frame is there, at the quality reached so far");

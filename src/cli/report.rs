@@ -1,7 +1,7 @@
 //! `lightloom report`: what a project's settings buy and what they cost, on a page; or how the program itself holds.
 
-use lightloom_core::report::{Effort, Size, report, stability};
 use lightloom_core::{Error, Result};
+use lightloom_report::{Effort, Size, report, stability};
 
 use super::args::ReportArgs;
 use super::job;
@@ -14,8 +14,8 @@ pub(super) fn run(args: &ReportArgs) -> Result<u8> {
         return hold(args);
     }
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
-    let report = job::run(&args.project, &args.out, |pipeline, project, progress, saved| {
-        let report = report(pipeline, project, effort, &args.only, &args.out, progress)?;
+    let report = job::run(&args.project, &args.out, |engine, project, progress, saved| {
+        let report = report(engine, project, effort, &args.only, &args.out, progress)?;
         report.write(&args.out, "report")?.iter().for_each(|path| saved(path));
         Ok(report)
     })?;

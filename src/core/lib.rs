@@ -4,14 +4,14 @@
 //!
 //! ```text
 //! Project ──check──► plan ──► Scene ──► Photons ──► Matching ──► fit_segment ──► Fields ──► passes ──► frames
-//! project            pipeline scene     photon      target       flow            flow       render     export
+//! project            pipeline scene     photon      targets      flow            flow       render     export
 //!                                                   matching
 //! ```
 //!
 //! | of the paper (Baeza et al. 2020) | stands in |
 //! |---|---|
 //! | Sec. 2, photon tracing | [`scene`], [`photon`] |
-//! | Sec. 3, target points and matching | [`target`], [`matching`] |
+//! | Sec. 3, target points and matching | [`targets`], [`matching`] |
 //! | Directed lines and wall lines | [`constraint`]; `flow/lines.rs`, `flow/walker.rs` |
 //! | Eq. (1), the field | `flow/field.rs` |
 //! | Eq. (2), guidance | `flow/guidance.rs` |
@@ -38,7 +38,7 @@ pub mod scene;
 
 pub mod photon;
 
-pub mod target;
+pub mod targets;
 
 pub mod constraint;
 
@@ -52,9 +52,7 @@ pub mod export;
 
 pub mod project;
 
-pub mod pipeline;
-
-pub mod report;
+pub mod engine;
 
 pub use error::{Error, Result};
 pub use progress::Progress;

@@ -8,7 +8,7 @@ use glam::{Vec2, vec2};
 use lightloom_core::Progress;
 use lightloom_core::matching::{Matching, dual_bound, transport_map};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::target::{ImageTarget, PictureSampler};
+use lightloom_core::targets::{ImageTarget, PictureSampler};
 
 const MILLION: usize = 1_000_000;
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::scenes::{Stage, box_obj, glass, sphere_obj};
 use crate::tracks;
 use glam::{DVec3, Vec2, Vec3};
-use lightloom_core::pipeline::{CheckReport, Pipeline, Summary};
+use lightloom_core::engine::{CheckReport, Engine, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;
@@ -64,8 +64,8 @@ fn parted() -> Value {
         "left": { "shows": square(UPPER) }, "right": { "shows": square(LOWER) } } })
 }
 
-fn pipeline(stage: &Stage) -> Pipeline {
-    Pipeline::new(AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap())
+fn engine(stage: &Stage) -> Engine {
+    Engine::new(AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap())
 }
 
 fn parse(project: &Value) -> Result<Project> {
@@ -73,7 +73,7 @@ fn parse(project: &Value) -> Result<Project> {
 }
 
 fn check(stage: &Stage, project: &Value) -> Result<CheckReport> {
-    pipeline(stage).check(&parse(project)?)
+    engine(stage).check(&parse(project)?)
 }
 
 /// What `fit` wrote.
@@ -89,7 +89,7 @@ impl Fit {
         let out = stage.folder.path().join("out");
         fs::create_dir_all(&out).unwrap();
         let summary =
-            pipeline(stage).fit(&parse(project).unwrap(), &out, &Progress::new(), &|_: &Path| {}).unwrap();
+            engine(stage).fit(&parse(project).unwrap(), &out, &Progress::new(), &|_: &Path| {}).unwrap();
         Self {
             summary,
             tracks: tracks::read(&out.join("tracks.npy")),
@@ -276,7 +276,7 @@ fn a_caustic_of_which_a_pass_has_no_photon_is_rendered() {
         let out = stage.folder.path().join("frames");
         fs::create_dir_all(&out).unwrap();
         let project = parse(&project).unwrap();
-        let summary = pipeline(&stage).render(&project, &out, &Progress::new(), &|_: &Path| {}).unwrap();
+        let summary = engine(&stage).render(&project, &out, &Progress::new(), &|_: &Path| {}).unwrap();
         assert_eq!(summary.passes, 4);
         assert!((summary.flow.unwrap().flux_ratio - 1.0).abs() < 1e-5);
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lightloom_core::pipeline::{CheckReport, Pipeline, Summary};
+use lightloom_core::engine::{CheckReport, Engine, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress, Result};
 use serde_json::{Value, json};
@@ -37,14 +37,14 @@ fn assets(folder: &Path) -> AssetFolder {
 
 fn check(constraints: Value) -> CheckReport {
     let folder = folder();
-    Pipeline::new(assets(folder.path())).check(&project(constraints).unwrap()).unwrap()
+    Engine::new(assets(folder.path())).check(&project(constraints).unwrap()).unwrap()
 }
 
 fn fit(constraints: Value) -> Summary {
     let folder = folder();
     let out = tempfile::tempdir().unwrap();
     let project = project(constraints).unwrap();
-    Pipeline::new(assets(folder.path())).fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap()
+    Engine::new(assets(folder.path())).fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap()
 }
 
 fn notes_of(constraint: Value) -> String {

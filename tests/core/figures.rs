@@ -6,7 +6,7 @@ use crate::crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::Constraint;
-use lightloom_core::pipeline::{Pipeline, Quality, Summary};
+use lightloom_core::engine::{Engine, Quality, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 
 fn path(name: &str) -> PathBuf {
@@ -26,7 +26,7 @@ fn tracks(name: &str, photons: u64) -> (Project, Vec<Vec<Vec2>>, Summary) {
     project.render.photons = photons;
     let out = tempfile::tempdir().unwrap();
     let assets = AssetFolder::new(&path(name), false).unwrap();
-    let summary = Pipeline::new(assets).fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap();
+    let summary = Engine::new(assets).fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap();
     let file = std::fs::File::open(out.path().join("tracks.npy")).unwrap();
     let npy = npyz::NpyFile::new(std::io::BufReader::new(file)).unwrap();
     let [_, count, _] = npy.shape()[..] else { panic!("three axes") };

@@ -2,9 +2,10 @@
 
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::flow::assembly::{Assembly, Rows, WallRows};
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::fit::{Blend, FitReport, FitSettings, Fitter, energy};
+use lightloom_core::flow::fit::{
+    Assembly, Blend, FitReport, FitSettings, Fitter, NoPenetrationRows, Rows, energy,
+};
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn settings(cells: [usize; 2], gamma: f64, alpha: f64) -> FitSettings {
@@ -202,7 +203,7 @@ fn with_walls_the_energy_has_its_minimum_at_the_fit_too() {
         let normals: Vec<Vec2> = (0..40).map(|i| Vec2::from_angle(0.15 * i as f32)).collect();
         let weight = 0.05;
         let mut fitter = Fitter::new(settings).unwrap();
-        fitter.set_walls(Some(WallRows { positions: &places, normals: &normals, weight }));
+        fitter.set_no_penetration(Some(NoPenetrationRows { positions: &places, normals: &normals, weight }));
         let (field, report) = fitter.fit(&positions, &velocities, &Progress::new()).unwrap();
         assert!(report.residual <= 1e-10);
         let at = |potentials: &[Vec<f32>; 2]| {
@@ -330,15 +331,15 @@ fn the_matrix_of_points_is_symmetric_and_coarsens_exactly() {
             assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1.0 / 400.0 });
             assembly
         };
-        let coarse = assemble(coarse_grid).parts;
-        let parts = assemble(fine_grid).parts.coarsened(coarse_grid.nodes());
+        let coarse = assemble(coarse_grid).blocks;
+        let parts = assemble(fine_grid).blocks.coarsened(coarse_grid.nodes());
         let [nx, ny] = coarse_grid.nodes();
         let (mut largest, mut apart) = (0.0f64, 0.0f64);
         for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
             for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
-                let (a, b) = (parts.direct.entry(x, y, dx, dy, 1.0), coarse.direct.entry(x, y, dx, dy, 1.0));
-                let cross = |parts: &lightloom_core::math::operator::Parts| {
-                    parts.cross.as_ref().unwrap().entry(x, y, dx, dy, -1.0)
+                let (a, b) = (parts.ata.entry(x, y, dx, dy, 1.0), coarse.ata.entry(x, y, dx, dy, 1.0));
+                let cross = |parts: &lightloom_core::math::normal_blocks::NormalBlocks| {
+                    parts.ata_cross.as_ref().unwrap().entry(x, y, dx, dy, -1.0)
                 };
                 largest = largest.max(b.abs());
                 apart = apart.max((a - b).abs()).max((cross(&parts) - cross(&coarse)).abs());

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crate::previews::{bits, draft, example, example_path, flux, stages, two_balls};
 use glam::Vec2;
+use lightloom_core::engine::{Engine, Preview, Quality};
 use lightloom_core::flow::Movement;
 use lightloom_core::photon::Tracer;
-use lightloom_core::pipeline::{Detail, Pipeline, Sketch, Sketcher};
 use lightloom_core::project::{AssetFolder, Ease, Project};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
@@ -17,11 +17,11 @@ const EXAMPLES: [&str; 7] =
 
 #[test]
 fn a_new_gamma_fits_anew_but_neither_traces_nor_matches() {
-    let (mut project, mut sketcher) = example("dark_glass");
-    let first = draft(&mut sketcher, &project);
+    let (mut project, engine) = example("dark_glass");
+    let first = draft(&engine, &project);
     assert_eq!(stages(&first), ["load", "trace", "match", "fit"]);
     project.flow.gamma = 0.9;
-    let second = draft(&mut sketcher, &project);
+    let second = draft(&engine, &project);
     assert_eq!(stages(&second), ["load", "fit"]);
     assert_ne!(bits(&first), bits(&second));
     // What was remembered is what would have been worked out.
@@ -30,10 +30,10 @@ fn a_new_gamma_fits_anew_but_neither_traces_nor_matches() {
 
 #[test]
 fn a_key_moved_in_time_leaves_the_fields() {
-    let (mut project, mut sketcher) = example("loop");
-    let count = draft(&mut sketcher, &project).frames().count();
+    let (mut project, engine) = example("loop");
+    let count = draft(&engine, &project).frames().count();
     project.keys.last_mut().unwrap().frame += 7;
-    let moved = draft(&mut sketcher, &project);
+    let moved = draft(&engine, &project);
     assert_eq!(stages(&moved), ["load", "carry"]);
     assert_eq!(moved.frames().count(), count + 7);
     // Carried along remembered fields, the photons go where they went while these were fitted.
@@ -42,10 +42,10 @@ fn a_key_moved_in_time_leaves_the_fields() {
 
 #[test]
 fn colour_and_brightness_change_flux_alone() {
-    let (mut project, mut sketcher) = example("bottles");
-    let before = draft(&mut sketcher, &project);
+    let (mut project, engine) = example("bottles");
+    let before = draft(&engine, &project);
     project.keys[1].caustics.get_mut("green").unwrap().brightness = 0.25;
-    let after = draft(&mut sketcher, &project);
+    let after = draft(&engine, &project);
     assert_eq!(stages(&after), ["load"]);
     assert_eq!(bits(&before), bits(&after));
     let last = *after.frames().end();
@@ -61,22 +61,22 @@ fn colour_and_brightness_change_flux_alone() {
 
 #[test]
 fn a_moved_light_traces_anew_and_a_moved_camera_does_not() {
-    let (_stage, mut project, mut sketcher) = two_balls();
-    draft(&mut sketcher, &project);
+    let (_stage, mut project, engine) = two_balls();
+    draft(&engine, &project);
     project.scene.as_mut().unwrap().camera.position = [0.1, 1.0, 1.0];
-    assert_eq!(stages(&draft(&mut sketcher, &project)), ["load"]);
+    assert_eq!(stages(&draft(&engine, &project)), ["load"]);
     let Some(LightDesc::Point(lamp)) = project.scene.as_mut().unwrap().lights.first_mut() else { panic!() };
     lamp.position[0] += 0.02;
-    assert_eq!(stages(&draft(&mut sketcher, &project)), ["load", "trace", "match", "fit"]);
+    assert_eq!(stages(&draft(&engine, &project)), ["load", "trace", "match", "fit"]);
 }
 
 #[test]
 fn a_picture_that_was_painted_over_is_read_again() {
-    let (stage, project, mut sketcher) = two_balls();
-    let before = draft(&mut sketcher, &project);
+    let (stage, project, engine) = two_balls();
+    let before = draft(&engine, &project);
     let half = image::GrayImage::from_fn(16, 16, |x, _| image::Luma([if x < 4 { 255 } else { 0 }]));
     half.save(stage.folder.path().join("square.png")).unwrap();
-    let after = draft(&mut sketcher, &project);
+    let after = draft(&engine, &project);
     assert_eq!(stages(&after), ["load", "match", "fit"]);
     assert_ne!(bits(&before), bits(&after));
 }
@@ -84,13 +84,13 @@ fn a_picture_that_was_painted_over_is_read_again() {
 #[test]
 fn every_example_is_sketched_whole() {
     for name in EXAMPLES {
-        let (project, mut sketcher) = example(name);
-        for detail in [Detail::Draft, Detail::Preview] {
-            let sketch = sketcher.sketch(&project, detail, 30, &Progress::new(), &mut |_| ()).unwrap();
+        let (project, engine) = example(name);
+        for quality in [Quality::Draft, Quality::Preview] {
+            let sketch = engine.preview(&project, quality, 30, &Progress::new(), &mut |_| ()).unwrap();
             let frames = sketch.frames();
             let keys = [&project.keys[0], project.keys.last().unwrap()];
             assert_eq!([*frames.start(), *frames.end()], keys.map(|key| key.frame), "{name}");
-            assert_eq!(sketch.photons(), detail.photons());
+            assert_eq!(Some(sketch.photons()), quality.photons());
             for frame in frames {
                 let positions = sketch.positions(frame).unwrap();
                 assert!(positions.iter().all(|p| p.is_finite()), "{name}, frame {frame}");
@@ -107,8 +107,8 @@ fn every_example_is_sketched_whole() {
 
 #[test]
 fn photons_start_at_the_physical_caustic_and_end_at_their_targets() {
-    let (project, mut sketcher) = example("dark_glass");
-    let sketch = draft(&mut sketcher, &project);
+    let (project, engine) = example("dark_glass");
+    let sketch = draft(&engine, &project);
     let assets = AssetFolder::new(&example_path("dark_glass"), false).unwrap();
     let desc = project.scene.as_ref().unwrap();
     let scene = Scene::load(desc, &|path, place| assets.resolve(path, place)).unwrap().0;
@@ -134,12 +134,12 @@ fn photons_start_at_the_physical_caustic_and_end_at_their_targets() {
 
 #[test]
 fn the_segment_under_the_playhead_comes_first() {
-    let (project, mut sketcher) = example("loop");
+    let (project, engine) = example("loop");
     let keys: Vec<i32> = project.keys.iter().map(|key| key.frame).collect();
     let last = keys[keys.len() - 2]..keys[keys.len() - 1];
     let playhead = (last.start + last.end) / 2;
     let (mut alone, mut grew, mut before) = (None, true, 0);
-    let mut watch = |sketch: &Arc<Sketch>| {
+    let mut watch = |sketch: &Arc<Preview>| {
         let ready = |frames: std::ops::Range<i32>| frames.filter(|f| sketch.is_ready(*f)).count();
         // Nothing but the keys of the other segments was there when the frame came.
         if sketch.is_ready(playhead) && alone.is_none() {
@@ -150,7 +150,7 @@ fn the_segment_under_the_playhead_comes_first() {
         before = now;
     };
     let progress = Progress::new();
-    let sketch = sketcher.sketch(&project, Detail::Draft, playhead, &progress, &mut watch).unwrap();
+    let sketch = engine.preview(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
     assert_eq!(alone, Some(true));
     assert!(grew);
     assert_eq!(before, sketch.frames().count());
@@ -158,8 +158,8 @@ fn the_segment_under_the_playhead_comes_first() {
 
 #[test]
 fn caustics_keep_their_rows_and_flow_by_themselves() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
+    let (_stage, project, engine) = two_balls();
+    let sketch = draft(&engine, &project);
     let names: Vec<_> = sketch.groups().iter().map(|(name, _)| name.as_deref()).collect();
     assert_eq!(names, [Some("left"), Some("right"), None]);
     let rows = |group: usize| sketch.groups()[group].1.clone();
@@ -191,16 +191,16 @@ fn caustics_keep_their_rows_and_flow_by_themselves() {
 
 #[test]
 fn all_methods_and_a_single_key_are_sketched() {
-    let (mut project, mut sketcher) = example("letters_free");
+    let (mut project, engine) = example("letters_free");
     for method in Movement::ALL {
         project.method = method;
-        let sketch = draft(&mut sketcher, &project);
+        let sketch = draft(&engine, &project);
         assert!(sketch.frames().all(|frame| sketch.is_ready(frame)), "{method:?}");
         assert_eq!(sketch.positions(60).unwrap(), sketch.targets(1), "{method:?}");
         assert_eq!(sketch.fields(20).is_empty(), method != Movement::Flow);
     }
     project.keys.truncate(1);
-    let still = draft(&mut sketcher, &project);
+    let still = draft(&engine, &project);
     assert_eq!(still.frames(), 1..=1);
     assert!(
         still.positions(1).is_some()
@@ -230,9 +230,9 @@ fn rows_paired_as_given_stay_paired() {
     let key = |frame: i32, file: &str| json!({ "frame": frame, "shows": { "points": { "file": file } } });
     let project = json!({ "lightloom": 1, "matching": "given", "keys": [key(1, "a.csv"), key(5, "b.csv")] });
     let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
-    let mut sketcher = Sketcher::new(AssetFolder::new(&path, false).unwrap());
-    for (detail, count) in [(Detail::Draft, 4_000), (Detail::Preview, 9_000)] {
-        let sketch = sketcher.sketch(&project, detail, 1, &Progress::new(), &mut |_| ()).unwrap();
+    let engine = Engine::new(AssetFolder::new(&path, false).unwrap());
+    for (quality, count) in [(Quality::Draft, 4_000), (Quality::Preview, 9_000)] {
+        let sketch = engine.preview(&project, quality, 1, &Progress::new(), &mut |_| ()).unwrap();
         assert_eq!(sketch.photons(), count);
         let (a, b) = (sketch.positions(1).unwrap(), sketch.positions(5).unwrap());
         assert!(a.iter().zip(b).all(|(a, b)| a.to_array() == [b.y, b.x]));
@@ -242,27 +242,27 @@ fn rows_paired_as_given_stay_paired() {
 
 #[test]
 fn a_sketch_that_is_cancelled_stops_and_harms_none_after_it() {
-    let (mut project, mut sketcher) = example("letters");
+    let (mut project, engine) = example("letters");
     let progress = Progress::new();
-    let stop = |sketch: &Arc<Sketch>| {
+    let stop = |sketch: &Arc<Preview>| {
         if sketch.is_ready(20) {
             progress.cancel();
         }
     };
-    let cancelled = sketcher.sketch(&project, Detail::Draft, 20, &progress, &mut { stop });
+    let cancelled = engine.preview(&project, Quality::Draft, 20, &progress, &mut { stop });
     assert!(matches!(cancelled, Err(Error::Cancelled)));
-    assert!(matches!(sketcher.shot(&project, [64, 36], 1, &progress), Err(Error::Cancelled)));
+    assert!(matches!(engine.shot(&project, [64, 36], 1, &progress), Err(Error::Cancelled)));
     project.flow.gamma = 0.6;
-    let after = draft(&mut sketcher, &project);
+    let after = draft(&engine, &project);
     assert_eq!(bits(&after), bits(&draft(&mut example("letters").1, &project)));
-    let (project, mut sketcher) = example("dark_glass");
-    let none = sketcher.sketch(&project, Detail::Draft, 1, &progress, &mut |_| ());
+    let (project, engine) = example("dark_glass");
+    let none = engine.preview(&project, Quality::Draft, 1, &progress, &mut |_| ());
     assert!(matches!(none, Err(Error::Cancelled)), "a scene is not even loaded");
 }
 
 #[test]
 fn what_a_render_refuses_a_sketch_refuses_with_the_same_words() {
-    let (good, mut sketcher) = example("letters_free");
+    let (good, engine) = example("letters_free");
     let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
     let broken: [fn(&mut Project); 3] = [
         |project| project.flow.gamma = 2.0,
@@ -276,9 +276,9 @@ fn what_a_render_refuses_a_sketch_refuses_with_the_same_words() {
     for spoil in broken {
         let mut project = good.clone();
         spoil(&mut project);
-        let sketched = sketcher.sketch(&project, Detail::Draft, 1, &Progress::new(), &mut |_| ());
-        let checked = Pipeline::new(assets.clone()).check(&project);
-        assert_eq!(sketched.err().unwrap().to_string(), checked.err().unwrap().to_string());
+        let previewed = engine.preview(&project, Quality::Draft, 1, &Progress::new(), &mut |_| ());
+        let checked = Engine::new(assets.clone()).check(&project);
+        assert_eq!(previewed.err().unwrap().to_string(), checked.err().unwrap().to_string());
     }
 }
 
@@ -287,8 +287,8 @@ fn any_number_of_threads_gives_the_same_photons() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let (project, mut sketcher) = example("bottles");
-            bits(&draft(&mut sketcher, &project))
+            let (project, engine) = example("bottles");
+            bits(&draft(&engine, &project))
         })
     };
     assert_eq!(on(1), on(3));
@@ -296,9 +296,9 @@ fn any_number_of_threads_gives_the_same_photons() {
 
 #[test]
 fn long_animations_keep_fewer_photons_and_say_so() {
-    let (mut project, mut sketcher) = example("letters_free");
+    let (mut project, engine) = example("letters_free");
     project.keys[1].frame = 10_000;
-    let sketch = draft(&mut sketcher, &project);
+    let sketch = draft(&engine, &project);
     assert_eq!(sketch.photons(), 2_000);
     assert!(sketch.notes().iter().any(|note| note.contains("fit into memory")), "{:?}", sketch.notes());
     assert!(sketch.is_ready(5_000));
@@ -306,16 +306,16 @@ fn long_animations_keep_fewer_photons_and_say_so() {
 
 #[test]
 fn finer_photons_go_along_the_fields_of_the_preview() {
-    let (mut project, mut sketcher) = example("letters_free");
-    let run = |sketcher: &mut Sketcher, project: &Project, detail| {
-        sketcher.sketch(project, detail, 30, &Progress::new(), &mut |_| ()).unwrap()
+    let (mut project, engine) = example("letters_free");
+    let run = |engine: &Engine, project: &Project, quality| {
+        engine.preview(project, quality, 30, &Progress::new(), &mut |_| ()).unwrap()
     };
-    let preview = run(&mut sketcher, &project, Detail::Preview);
-    let fine = run(&mut sketcher, &project, Detail::Fine);
-    assert_eq!(fine.photons(), Detail::Fine.photons());
+    let preview = run(&engine, &project, Quality::Preview);
+    let fine = run(&engine, &project, Quality::Fine);
+    assert_eq!(fine.photons(), Quality::Fine.photons().unwrap());
     assert_eq!(stages(&fine), ["load", "match", "carry"]);
     let at = Vec2::new(0.4, 0.5);
     assert_eq!(fine.fields(20)[0].velocity(at), preview.fields(20)[0].velocity(at));
     project.flow.gamma = 0.5;
-    assert_eq!(stages(&run(&mut sketcher, &project, Detail::Fine)), ["load", "fit", "carry"]);
+    assert_eq!(stages(&run(&engine, &project, Quality::Fine)), ["load", "fit", "carry"]);
 }

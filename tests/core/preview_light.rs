@@ -3,8 +3,8 @@
 use crate::previews::{draft, example, example_path, flux, two_balls};
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
+use lightloom_core::engine::{Engine, OrbitView, PreviewExposure, Quality};
 use lightloom_core::flow::{FlowSettings, GridSize};
-use lightloom_core::pipeline::{Detail, Exposure, Look, Pipeline};
 use lightloom_core::project::{AssetFolder, Ease};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
@@ -13,9 +13,9 @@ use lightloom_core::scene::CameraDesc;
 
 #[test]
 fn hidden_caustics_give_no_light_and_the_others_all_of_theirs() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let mut exposure = Exposure::default();
+    let (_stage, project, engine) = two_balls();
+    let sketch = draft(&engine, &project);
+    let mut exposure = PreviewExposure::default();
     let mut total = |shown: &[bool]| exposure.expose(&sketch, 5, 128, shown).unwrap().total().element_sum();
     let all = total(&[]);
     let parts = [[true, false, false], [false, true, false], [false, false, true]].map(|s| total(&s));
@@ -34,23 +34,23 @@ fn difference(a: &ReceiverTexture, b: &ReceiverTexture) -> f64 {
 
 #[test]
 fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
-    let (mut project, mut sketcher) = example("letters_free");
+    let (mut project, engine) = example("letters_free");
     // As fine as a render's flow, by the same photons: the details' own limits are all that differs.
     project.flow = FlowSettings { grid: GridSize::Longer(128), steps: 40, ..project.flow };
     project.keys[0].ease = Ease::Linear;
     project.keys[1].frame = 41;
     project.render.photons = 20_000;
-    let preview = sketcher.sketch(&project, Detail::Preview, 1, &Progress::new(), &mut |_| ()).unwrap();
+    let preview = engine.preview(&project, Quality::Preview, 1, &Progress::new(), &mut |_| ()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
-    Pipeline::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
+    Engine::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
     let bytes = std::fs::read(folder.path().join("tracks.npy")).unwrap();
     let tracks: Vec<f32> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
     let frame = |i: usize| -> Vec<Vec2> {
         let row = &tracks[2 * 20_000 * i..2 * 20_000 * (i + 1)];
         row.chunks_exact(2).map(Vec2::from_slice).collect()
     };
-    let mut exposure = Exposure::default();
+    let mut exposure = PreviewExposure::default();
     for i in [0, 10, 20, 30, 40] {
         let number = i as i32 + 1;
         let shown = exposure.expose(&preview, number, 256, &[]).unwrap().clone();
@@ -60,7 +60,7 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
         let apart = (apart / wanted.len() as f32).sqrt();
         let mut texture = ReceiverTexture::new(*shown.layout());
         Splatter::default().splat(&wanted, &flux(&preview, number), &mut texture);
-        Smoother::default().filter(&mut texture, Exposure::radius(&preview));
+        Smoother::default().filter(&mut texture, PreviewExposure::radius(&preview));
         let difference = difference(&shown, &texture);
         println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
         // The preview's field has half the cells and three quarters of the steps. A photon is off by a part of a cell of
@@ -72,10 +72,10 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
 
 #[test]
 fn a_shot_takes_the_light_of_a_sketch() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let shot = sketcher.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
-    let mut exposure = Exposure::default();
+    let (_stage, project, engine) = two_balls();
+    let sketch = draft(&engine, &project);
+    let shot = engine.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
+    let mut exposure = PreviewExposure::default();
     let light = exposure.expose(&sketch, 9, shot.resolution(), &[]).unwrap();
     let picture = shot.picture(light).unwrap();
     assert_eq!([picture.width, picture.height], [64, 36]);
@@ -95,15 +95,15 @@ fn a_shot_takes_the_light_of_a_sketch() {
 
 #[test]
 fn a_look_shows_glass_receiver_caustic_and_marks() {
-    let (_stage, project, mut sketcher) = two_balls();
-    let sketch = draft(&mut sketcher, &project);
-    let mut exposure = Exposure::default();
+    let (_stage, project, engine) = two_balls();
+    let sketch = draft(&engine, &project);
+    let mut exposure = PreviewExposure::default();
     let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
     let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
     let size = [96, 54];
-    let mut look = |light| sketcher.look(&project, &camera, size, light, &Progress::new()).unwrap();
+    let look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
     let (dark, lit) = (look(None), look(Some(light)));
-    let at = |look: &Look, p: Vec2| {
+    let at = |look: &OrbitView, p: Vec2| {
         let [x, y] = look.plane.pixel_from_plane(p, [96, 54]).unwrap().to_array().map(|v| v as usize);
         look.image.at(x, y).element_sum()
     };
@@ -111,7 +111,7 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     assert!(at(&dark, Vec2::new(0.5, 0.5)) > 0.0, "the receiver is seen without light");
     let kinds: Vec<MarkKind> = lit.marks.iter().map(|mark| mark.kind).collect();
     assert_eq!(kinds, [MarkKind::Light(0), MarkKind::Light(1), MarkKind::Camera]);
-    let (flat, mut sketcher) = example("letters_free");
-    let plane = sketcher.look(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
+    let (flat, engine) = example("letters_free");
+    let plane = engine.orbit_view(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
     assert!(plane.marks.is_empty() && plane.image.pixels.iter().all(|p| p.is_finite()));
 }

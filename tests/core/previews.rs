@@ -1,4 +1,4 @@
-//! Projects to sketch, and what the tests ask of a sketch.
+//! Projects to preview, and what the tests ask of a preview.
 #![allow(dead_code, unreachable_pub, missing_docs)] // Each test uses its part.
 
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use lightloom_core::Progress;
-use lightloom_core::pipeline::{Detail, Sketch, Sketcher};
+use lightloom_core::engine::{Engine, Preview, Quality};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::PointLight;
@@ -18,33 +18,33 @@ pub fn example_path(name: &str) -> PathBuf {
     crate::root().join("projects").join(format!("{name}.json"))
 }
 
-pub fn example(name: &str) -> (Project, Sketcher) {
+pub fn example(name: &str) -> (Project, Engine) {
     let path = example_path(name);
-    (Project::load(&path).unwrap(), Sketcher::new(AssetFolder::new(&path, false).unwrap()))
+    (Project::load(&path).unwrap(), Engine::new(AssetFolder::new(&path, false).unwrap()))
 }
 
-pub fn draft(sketcher: &mut Sketcher, project: &Project) -> Arc<Sketch> {
-    sketcher.sketch(project, Detail::Draft, 1, &Progress::new(), &mut |_| ()).unwrap()
+pub fn draft(engine: &Engine, project: &Project) -> Arc<Preview> {
+    engine.preview(project, Quality::Draft, 1, &Progress::new(), &mut |_| ()).unwrap()
 }
 
-pub fn stages(sketch: &Sketch) -> Vec<&str> {
-    sketch.stages().iter().map(|cost| cost.stage).collect()
+pub fn stages(preview: &Preview) -> Vec<&str> {
+    preview.stages().iter().map(|cost| cost.stage).collect()
 }
 
 /// Positions at all frames, bit by bit.
-pub fn bits(sketch: &Sketch) -> Vec<Vec<[u32; 2]>> {
-    let frame = |frame| sketch.positions(frame).unwrap().iter().map(|p| p.to_array().map(f32::to_bits));
-    sketch.frames().map(|number| frame(number).collect()).collect()
+pub fn bits(preview: &Preview) -> Vec<Vec<[u32; 2]>> {
+    let frame = |frame| preview.positions(frame).unwrap().iter().map(|p| p.to_array().map(f32::to_bits));
+    preview.frames().map(|number| frame(number).collect()).collect()
 }
 
-pub fn flux(sketch: &Sketch, frame: i32) -> Vec<Vec3> {
+pub fn flux(preview: &Preview, frame: i32) -> Vec<Vec3> {
     let mut flux = Vec::new();
-    sketch.flux(frame, &mut flux);
+    preview.flux(frame, &mut flux);
     flux
 }
 
 /// Two balls of glass side by side, a lamp over each; the left caustic goes to one corner, the right to another.
-pub fn two_balls() -> (Stage, Project, Sketcher) {
+pub fn two_balls() -> (Stage, Project, Engine) {
     let mut stage = Stage::new();
     for (name, x) in [("left", -0.25), ("right", 0.25)] {
         stage.mesh(&format!("{name} ball"), sphere_obj(3, Vec3::new(x, 0.12, 0.0), 0.08), glass(1.5));
@@ -74,6 +74,6 @@ pub fn two_balls() -> (Stage, Project, Sketcher) {
     });
     let path = stage.folder.path().join("project.json");
     let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
-    let sketcher = Sketcher::new(AssetFolder::new(&path, false).unwrap());
-    (stage, project, sketcher)
+    let engine = Engine::new(AssetFolder::new(&path, false).unwrap());
+    (stage, project, engine)
 }

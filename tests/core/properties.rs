@@ -8,7 +8,7 @@ use crate::scenes::{Stage, glass, point, sphere_obj};
 use crate::tracks;
 use glam::{DVec3, Vec2, Vec3};
 use lightloom_core::Progress;
-use lightloom_core::pipeline::{Pipeline, Summary};
+use lightloom_core::engine::{Engine, Summary};
 use lightloom_core::project::{AssetFolder, Project};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -189,13 +189,13 @@ impl Run {
 
     fn of(stage: &Stage, project: &Project) -> Self {
         let assets = AssetFolder::new(&stage.folder.path().join("project.json"), false).unwrap();
-        let mut pipeline = Pipeline::new(assets);
+        let engine = Engine::new(assets);
         let [fitted, shown] = ["fitted", "shown"].map(|name| stage.folder.path().join(name));
         fs::create_dir_all(&fitted).unwrap();
         fs::create_dir_all(&shown).unwrap();
         let progress = Progress::new();
-        let summary = pipeline.fit(project, &fitted, &progress, &|_| {}).unwrap();
-        let rendered = pipeline.render(project, &shown, &progress, &|_| {}).unwrap();
+        let summary = engine.fit(project, &fitted, &progress, &|_| {}).unwrap();
+        let rendered = engine.render(project, &shown, &progress, &|_| {}).unwrap();
         let files = fs::read_dir(&shown).unwrap().map(|entry| entry.unwrap().path());
         let mut frames: Vec<_> = files
             .filter(|path| path.extension().is_some_and(|extension| extension == "exr"))

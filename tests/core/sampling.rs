@@ -8,7 +8,7 @@ use exr::prelude::{
 use glam::{Vec2, Vec3, vec2};
 use image::{DynamicImage, GrayImage, ImageBuffer, Luma, LumaA, RgbImage, Rgba, RgbaImage};
 use lightloom_core::Error;
-use lightloom_core::target::{Channel, ImageTarget, PictureSampler, Placement, Points, load_points};
+use lightloom_core::targets::{Channel, ImageTarget, PictureSampler, Placement, Points, load_points};
 use tempfile::TempDir;
 
 /// The full unit square, unless a test places it otherwise.

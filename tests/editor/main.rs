@@ -3,7 +3,6 @@
 
 mod app;
 mod canvas;
-mod desk;
 mod dialogs;
 mod document;
 mod export_window;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3, vec2, vec3};
-use lightloom::editor::preview::gpu::{Drawing, FEATURES, Renderer, Swarm};
+use lightloom::editor::preview::gpu::{Drawing, FEATURES, PhotonColumns, Renderer};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::Smoother;
 use lightloom_core::render::splat::Splatter;
@@ -106,7 +106,7 @@ fn the_card_shows_the_light_that_the_core_shows() {
     for transform in [ViewTransform::Agx, ViewTransform::Standard] {
         let view = ViewSettings { exposure: 1.5, transform };
         let drawing = Drawing {
-            swarm: Arc::new(Swarm::new(&positions, &flux, radius)),
+            photons: Arc::new(PhotonColumns::new(&positions, &flux, radius)),
             corner: [0.0; 2],
             size: [SIDE; 2],
             origin: vec2(0.0, SIDE as f32),

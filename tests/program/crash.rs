@@ -12,7 +12,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use lightloom::editor::store::{Answer, Folders, Journal, Note, Request, Save, Saver, recoverable};
+use lightloom::editor::store::{
+    Folders, Journal, Note, SaveRequest, Saver, StoreReply, StoreRequest, recoverable,
+};
 use lightloom_core::constraint::{Constraint, Wall};
 use lightloom_core::project::ProjectFile;
 
@@ -62,9 +64,9 @@ fn victim_edits_and_saves() {
     let (wake, woken) = channel();
     let saver = Saver::start(folders(&folder), move || wake.send(()).unwrap()).unwrap();
     let journal = Journal::start(folders(&folder).recovery());
-    saver.ask(Request::Open(path.clone()));
+    saver.ask(StoreRequest::Open(path.clone()));
     woken.recv().unwrap();
-    let Some(Answer::Opened(_, Ok(opened))) = saver.answer() else { panic!("not opened") };
+    let Some(StoreReply::Opened(_, Ok(opened))) = saver.answer() else { panic!("not opened") };
     let mut seen = Some(opened.seen);
     let mut saving = false;
     let born = Instant::now();
@@ -83,14 +85,19 @@ fn victim_edits_and_saves() {
         say("changed", number);
         if saves && !saving && number.is_multiple_of(3) {
             say("saving", number);
-            saver.ask(Request::Save(Save { path: path.clone(), file: opened.file.clone(), project, seen }));
+            saver.ask(StoreRequest::Save(SaveRequest {
+                path: path.clone(),
+                file: opened.file.clone(),
+                project,
+                seen,
+            }));
             saving = true;
             if number.is_multiple_of(2) {
                 woken.recv().unwrap();
             }
         }
         match saver.answer() {
-            Some(Answer::Saved(request, Ok(saved))) => {
+            Some(StoreReply::Saved(request, Ok(saved))) => {
                 say("saved", request.project.seed);
                 seen = Some(saved.seen);
                 saving = false;

@@ -4,16 +4,16 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
     let (project, scratch) = (Project::load(path).unwrap(), path.parent().unwrap());
-    report(&mut pipeline, &project, Effort::Quick, &[section.to_owned()], scratch, progress)
+    report(&engine, &project, Effort::Quick, &[section.to_owned()], scratch, progress)
 }
 
 /// What a section says of a small project, changed before.

@@ -3,17 +3,17 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
+use lightloom_core::engine::Engine;
 use lightloom_core::flow::FitKind;
-use lightloom_core::pipeline::Pipeline;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{GammaResponse, Response, gamma_response};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{GammaResponse, Response, gamma_response};
 
 use crate::letters::project;
 
 fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
-    gamma_response(&mut pipeline, &Project::load(path).unwrap(), progress)
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
+    gamma_response(&engine, &Project::load(path).unwrap(), progress)
 }
 
 /// The letters as measured, once for all tests.

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use lightloom_core::pipeline::Pipeline;
+use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::report::{Cell, Effort, Part, Picture, Report, Row, report};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Cell, Effort, Part, Picture, Report, Row, report};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -36,10 +36,10 @@ fn project(change: &Value) -> (TempDir, PathBuf) {
 }
 
 fn measure(path: &Path, effort: Effort, section: &str, progress: &Progress) -> Result<Report, Error> {
-    let mut pipeline = Pipeline::new(AssetFolder::new(path, false).unwrap());
+    let engine = Engine::new(AssetFolder::new(path, false).unwrap());
     let scratch = tempfile::tempdir().unwrap();
     let only = [section.to_owned()];
-    report(&mut pipeline, &Project::load(path).unwrap(), effort, &only, scratch.path(), progress)
+    report(&engine, &Project::load(path).unwrap(), effort, &only, scratch.path(), progress)
 }
 
 /// A sheet of the letters, measured once for all tests.
@@ -99,7 +99,7 @@ fn the_error_falls_with_the_passes_and_the_reference_has_the_least() {
     let noise = number(reference, RMS).unwrap();
     assert!(runs.iter().all(|row| number(row, RMS).unwrap() > noise), "the reference has {noise}");
     // One setting is the project's own.
-    let marked = runs.iter().filter(|row| row.tone == lightloom_core::report::Tone::Marked);
+    let marked = runs.iter().filter(|row| row.tone == lightloom_report::Tone::Marked);
     assert_eq!(marked.map(|row| number(row, PASSES)).collect::<Vec<_>>(), [Some(8.0)]);
 }
 

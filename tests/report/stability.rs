@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use lightloom_core::report::{Bound, Size, Stability, StabilityRow, stability};
 use lightloom_core::{Error, Progress};
+use lightloom_report::{Bound, Size, Stability, StabilityRow, stability};
 
 /// psi and phi that are each other's harmonic conjugates have no velocity together, and only the bending tells them apart: where
 /// it counts for a trillionth, multigrid with a pointwise smoother sees next to nothing of them.

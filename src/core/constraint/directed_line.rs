@@ -1,19 +1,21 @@
-//! A directed line: flow here, this way. Term (6).
+//! Directed lines that the flow follows, Term (6).
 //!
-//! The line asks the field for its own direction, along itself and, ever less, up to `width` beside it; how strongly is
-//! beta times its weight; beyond three widths it changes nothing. Its speed is that of the photons around it, times a factor, so that it steers and does not
-//! hurry. Artists know the idea from Houdini's POP Curve Incompressible Flow, which is gamma 0.
+//! A line asks the field for its own direction, along itself and, with falling weight, up to `width` beside it; its
+//! strength is beta times its weight; beyond three widths it changes nothing. The speed asked for is that of the photons
+//! around it times a factor. Houdini's POP Curve Incompressible Flow is the same idea at gamma 0.
 
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, is_false, stroke};
+use super::defaults::{enabled, is_false};
+use super::span::{Span, Window};
+use super::stroke;
 use crate::{Error, Result};
 
 /// Distance of the samples along a line, plane units: half a cell of the default grid.
 const SPACING: f32 = 1.0 / 256.0;
-/// Most samples along one line.
+/// Limit of samples along one line.
 const MOST_SAMPLES: usize = 2000;
 /// Samples across a line.
 const ACROSS: usize = 9;
@@ -56,22 +58,22 @@ fn default_width() -> f32 {
     0.05
 }
 
-/// A line in one segment of the animation: the places where it pulls, and which way.
+/// A directed line in one segment of the animation, sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveLine {
-    /// Places along and beside the line, d_p of Term (6), plane units. One that pulls less stands for fewer places.
+    /// Sample points along and beside the line, d_p of Term (6), plane units; their density falls with the weight.
     pub positions: Vec<Vec2>,
     /// The line itself, at least two points.
     pub points: Vec<Vec2>,
-    /// Directions, of length 1.
+    /// Unit directions at the samples.
     pub directions: Vec<Vec2>,
     /// Factor on beta.
     pub weight: f32,
     /// Factor on the speed of the photons around it.
     pub speed: f32,
-    /// How far it pulls, plane units.
+    /// Distance up to which it acts, plane units.
     pub width: f32,
-    /// When it pulls, in the segment's flow time.
+    /// When it acts, in the segment's flow time.
     pub window: Window,
 }
 
@@ -104,8 +106,8 @@ impl DirectedLine {
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 
-    /// The line as the fit sees it, on the rectangle `extent`; none where it does not pull, is but a dot, or lies off
-    /// the receiver.
+    /// The line in one segment, on the rectangle `extent`; none where it is disabled, without weight, no longer than a
+    /// point, or off the receiver.
     pub fn active(&self, window: Window, extent: Vec2) -> Option<ActiveLine> {
         if !self.enabled || self.weight == 0.0 {
             return None;
@@ -134,8 +136,8 @@ impl DirectedLine {
     }
 }
 
-/// Where the share `p` of the pull lies to the left: the inverse distribution function of the pull (1 - x^2)^2 over
-/// -1..=1, whose integral is (15 x - 10 x^3 + 3 x^5) / 16 + 1/2.
+/// The inverse distribution function of the weight (1 - x^2)^2 over -1..=1, whose integral is
+/// (15 x - 10 x^3 + 3 x^5) / 16 + 1/2.
 fn quantile(p: f32) -> f32 {
     let below = |x: f32| (15.0 * x - 10.0 * x.powi(3) + 3.0 * x.powi(5)) / 16.0 + 0.5;
     let (mut low, mut high) = (-1.0, 1.0);

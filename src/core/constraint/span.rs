@@ -1,4 +1,4 @@
-//! When a constraint acts.
+//! The time during which a constraint acts.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub struct Span {
     pub fade: u32,
 }
 
-/// A span in the flow's time of one segment: rises over the first pair of times, falls over the second.
+/// A span in the flow time of one segment: rises over the first pair of times, falls over the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Nothing before the first, full from the second on.
@@ -45,8 +45,8 @@ impl Span {
         Ok(())
     }
 
-    /// The window of the segment between two key frames; none where the span lies beside it. `time_of` tells the
-    /// flow's time, 0..=1, for the share of the frames that is over.
+    /// The window in the segment between two key frames; none where the span lies outside it. `time_of` maps the
+    /// elapsed fraction of the frames to flow time, 0..=1.
     pub fn window(&self, keys: [i32; 2], time_of: impl Fn(f64) -> f64) -> Option<Window> {
         if self.to < keys[0] || self.from > keys[1] {
             return None;
@@ -72,12 +72,12 @@ impl Window {
     /// From begin to end.
     pub const ALWAYS: Self = Self { rise: [f64::NEG_INFINITY; 2], fall: [f64::INFINITY; 2] };
 
-    /// How much it acts at flow time `t`, 0..=1.
+    /// Strength at flow time `t`, 0..=1.
     pub fn at(&self, t: f64) -> f64 {
         ramp(self.rise, t) * (1.0 - ramp_after(self.fall, t))
     }
 
-    /// Share of the segment in which it acts at all, 0..=1.
+    /// Fraction of the segment in which it acts, 0..=1.
     pub fn duration(&self) -> f64 {
         (self.fall[1].min(1.0) - self.rise[0].max(0.0)).max(0.0)
     }

@@ -1,14 +1,16 @@
-//! A wall: not through here.
+//! Walls: lines that no photon crosses.
 //!
-//! No photon ever crosses the wall's line. Ways around it keep half its thickness away from it, so the light does not
-//! scrape along. Gaps narrower than the thickness, between two walls, between a wall's two ends, or between a wall and
-//! the border of the receiver, count as closed. Light whose target no way reaches goes straight, and is counted.
+//! Paths around a wall keep half its thickness away from its line. Gaps narrower than the thickness, between two walls,
+//! between a wall's two ends, or between a wall and the border of the receiver, count as closed. Photons whose target no
+//! path reaches go straight, and are counted.
 
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, is_false, stroke};
+use super::defaults::{enabled, is_false};
+use super::span::{Span, Window};
+use super::stroke;
 use crate::{Error, Result};
 
 /// A line that no light crosses.
@@ -44,7 +46,7 @@ fn default_thickness() -> f32 {
 pub struct ActiveWall {
     /// Its line, at least two points, plane units.
     pub points: Vec<Vec2>,
-    /// Half its thickness: how far ways keep away from the line, plane units.
+    /// Half its thickness: the distance that paths keep from the line, plane units.
     pub clearance: f32,
     /// When it stands, in the segment's flow time.
     pub window: Window,
@@ -72,7 +74,7 @@ impl Wall {
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 
-    /// The wall as the flow sees it; none where it does not stand, or is but a dot.
+    /// The wall in one segment; none where it is disabled or no longer than a point.
     pub fn active(&self, window: Window) -> Option<ActiveWall> {
         let points = stroke::clean(&self.points);
         (self.enabled && !points.is_empty()).then_some(ActiveWall {

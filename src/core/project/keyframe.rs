@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::CausticKey;
-use crate::target::{ImageTarget, PointsTarget};
+use crate::targets::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
 /// One key frame.

@@ -5,7 +5,8 @@ use lightloom_core::flow::{FitKind, FlowSettings, GridSize, Movement};
 use lightloom_core::matching::Method;
 
 use super::setting::{Choice, Setting, ends, format_number};
-use super::{Desk, fade, fold, pictures, presets, turbulence};
+use super::{fade, fold, pictures, presets, turbulence};
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// Largest grid at the default number of steps: finer ones need more memory than the fit may take.
@@ -80,15 +81,15 @@ pub(super) const SETTINGS: &[Setting] =
     &[GAMMA, ALPHA, BETA, RHO, METHOD, FIT, GRID, STEPS, GUIDES, TOLERANCE, MATCHING];
 
 /// The flow panel.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
     let mut flow = project.flow.clone();
     presets::show(ui, &mut flow);
     ui.add_space(4.0);
     GAMMA.number(ui, &mut flow.gamma);
     ends(ui, "liquid", "gradient");
     ALPHA.number(ui, &mut flow.alpha);
-    smoothing(ui, desk, &flow);
+    smoothing(ui, editor, &flow);
     BETA.number(ui, &mut flow.beta);
     turbulence::show(ui, &mut flow.turbulence);
     fade::show(ui, &mut flow.fade);
@@ -104,13 +105,13 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
         TOLERANCE.number(ui, &mut flow.tolerance);
     });
     if flow != project.flow {
-        desk.ask(Edit::Flow(flow));
+        editor.ask(Edit::Flow(flow));
     }
     if method != project.method {
-        desk.ask(Edit::Method(method));
+        editor.ask(Edit::Method(method));
     }
     if matching != project.matching {
-        desk.ask(Edit::Matching(matching));
+        editor.ask(Edit::Matching(matching));
     }
 }
 
@@ -126,9 +127,9 @@ fn grid(ui: &mut Ui, size: &mut GridSize) {
 }
 
 /// What alpha means on this plane: the length over which the field is smooth.
-fn smoothing(ui: &mut Ui, desk: &Desk, flow: &FlowSettings) {
+fn smoothing(ui: &mut Ui, editor: &EditorContext, flow: &FlowSettings) {
     let share = flow.alpha.sqrt();
-    let cells = flow.grid.cells(desk.document.project().extent()).into_iter().max().unwrap_or(0);
+    let cells = flow.grid.cells(editor.document.project().extent()).into_iter().max().unwrap_or(0);
     let percent = format_number(round(f64::from(share) * 100.0), false);
     let in_cells = format_number(round(f64::from(share) * f64::from(cells)), false);
     super::aside(ui, &format!("smooth over {percent} %, {in_cells} cells"));

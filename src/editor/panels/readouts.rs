@@ -1,11 +1,12 @@
 //! Readouts: what the numbers say of the moment that is shown.
 
 use egui::{Color32, RichText, Ui};
+use lightloom_core::engine::{Preview, Quality};
 use lightloom_core::flow::FlowReport;
-use lightloom_core::pipeline::{Detail, Sketch};
 
 use super::setting::{NAMES, format_number};
-use super::{Desk, fold, section};
+use super::{fold, section};
+use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
 /// Energy farther than this from what is asked for is to be looked at.
@@ -24,23 +25,23 @@ struct Readout {
     pub is_bad: bool,
 }
 
-/// What there is to tell of a sketch at a frame; `tolerance` is that of the solver.
-fn of(sketch: &Sketch, frame: i32, tolerance: f32) -> Vec<Readout> {
-    let detail = match sketch.detail() {
-        Detail::Draft => "draft",
-        Detail::Preview => "preview",
-        Detail::Fine => "fine",
+/// What there is to tell of a preview at a frame; `tolerance` is that of the solver.
+fn of(preview: &Preview, frame: i32, tolerance: f32) -> Vec<Readout> {
+    let detail = match preview.quality() {
+        Quality::Draft => "draft",
+        Quality::Preview => "preview",
+        Quality::Fine | Quality::Final => "fine",
     };
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} ({detail})", format_number(sketch.photons() as f64, true)),
+        value: format!("{} ({detail})", format_number(preview.photons() as f64, true)),
         help: "Photons of the preview; it gets finer while nothing is changed.",
         is_bad: false,
     }];
-    if let Some(energy) = sketch.energy(frame) {
+    if let Some(energy) = preview.energy(frame) {
         all.push(of_energy(energy));
     }
-    if let Some(change) = sketch.unsteadiness(frame) {
+    if let Some(change) = preview.unsteadiness(frame) {
         all.push(Readout {
             name: "Step change",
             value: percent(change),
@@ -48,7 +49,7 @@ fn of(sketch: &Sketch, frame: i32, tolerance: f32) -> Vec<Readout> {
             is_bad: false,
         });
     }
-    if let Some(numbers) = sketch.numbers() {
+    if let Some(numbers) = preview.numbers() {
         all.extend(of_flow(&numbers.flow, tolerance));
     }
     all
@@ -127,41 +128,41 @@ fn percent(share: f64) -> String {
 }
 
 /// The panel of readouts.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    if let Some(problem) = desk.preview.problem() {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    if let Some(problem) = editor.preview.problem() {
         ui.colored_label(theme::BAD, problem);
         ui.add_space(4.0);
     }
-    let Some(sketch) = desk.preview.sketch() else {
+    let Some(preview) = editor.preview.preview() else {
         ui.weak("Nothing is worked out yet.");
         return;
     };
-    let frame = desk.session.playhead;
+    let frame = editor.session.playhead;
     section(ui, &format!("Frame {frame}"));
-    if !desk.preview.is_current() {
+    if !editor.preview.is_current() {
         ui.weak("Of the version before the last change.");
     }
-    for readout in of(sketch, frame, desk.document.project().flow.tolerance) {
+    for readout in of(preview, frame, editor.document.project().flow.tolerance) {
         let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
         line(ui, readout.name, &readout.value, colour, readout.help);
     }
     section(ui, "Seconds of each stage");
-    for stage in sketch.stages() {
+    for stage in preview.stages() {
         let seconds = format_number(digits(stage.seconds), false);
         let help = "Wall-clock time; what was remembered does not run again.";
         line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
     }
-    if !sketch.notes().is_empty() {
+    if !preview.notes().is_empty() {
         section(ui, "Notes");
-        sketch.notes().iter().for_each(|note| {
+        preview.notes().iter().for_each(|note| {
             ui.label(note);
         });
     }
     fold(ui, "Left out", |ui| {
-        if sketch.left_out().is_empty() {
+        if preview.left_out().is_empty() {
             ui.weak("Nothing: this project needs every stage.");
         }
-        for left_out in sketch.left_out() {
+        for left_out in preview.left_out() {
             ui.label(RichText::new(left_out.what).strong());
             ui.weak(left_out.why);
         }
@@ -181,28 +182,28 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
 }
 
 /// The most important of it for the status bar, from right to left.
-pub(in crate::editor) fn strip(ui: &mut Ui, desk: &Desk) {
-    let Some(sketch) = desk.preview.sketch() else { return };
-    for readout in in_short(sketch, desk.session.playhead).into_iter().rev() {
+pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
+    let Some(preview) = editor.preview.preview() else { return };
+    for readout in in_short(preview, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
         let text = if readout.is_bad { text.color(theme::WARN) } else { text.weak() };
         ui.label(text).on_hover_text(readout.help);
     }
 }
 
-fn in_short(sketch: &Sketch, frame: i32) -> Vec<Readout> {
+fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} photons", format_number(sketch.photons() as f64, true)),
+        value: format!("{} photons", format_number(preview.photons() as f64, true)),
         help: "Photons of the preview.",
         is_bad: false,
     }];
-    if let Some(energy) = sketch.energy(frame) {
+    if let Some(energy) = preview.energy(frame) {
         let readout = of_energy(energy);
         all.push(Readout { value: format!("energy {}", readout.value), ..readout });
     }
-    let crossed = sketch.numbers().map_or(0, |numbers| numbers.flow.wall_crossings);
-    let unreachable = sketch.numbers().map_or(0, |numbers| numbers.flow.unreachable);
+    let crossed = preview.numbers().map_or(0, |numbers| numbers.flow.wall_crossings);
+    let unreachable = preview.numbers().map_or(0, |numbers| numbers.flow.unreachable);
     for (count, words, help) in [
         (crossed, "through walls", "Photons that crossed a wall though a way leads around it."),
         (unreachable, "unreachable", "Photons whose target no way around the walls reaches."),

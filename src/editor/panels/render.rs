@@ -6,7 +6,8 @@ use lightloom_core::project::{OutputSettings, Project};
 use lightloom_core::render::{RenderSettings, ViewTransform};
 
 use super::setting::{Choice, Setting, format_number, presets};
-use super::{Desk, aside, fold, section};
+use super::{aside, fold, section};
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// Sizes that are asked for often.
@@ -97,8 +98,8 @@ pub(super) const SETTINGS: &[Setting] = &[
 ];
 
 /// The render panel.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
     let mut render = project.render.clone();
     let mut output = project.output.clone();
     section(ui, "Picture");
@@ -109,12 +110,12 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     quality(ui, &mut render);
     section(ui, "Files");
     files(ui, project, &mut output);
-    fold(ui, "Project", |ui| whole(ui, desk));
+    fold(ui, "Project", |ui| whole(ui, editor));
     if render != project.render {
-        desk.ask(Edit::Render(render));
+        editor.ask(Edit::Render(render));
     }
     if output != project.output {
-        desk.ask(Edit::Output(output));
+        editor.ask(Edit::Output(output));
     }
 }
 
@@ -192,13 +193,13 @@ fn toggle(output: &mut OutputSettings, format: FrameFormat, on: bool) {
     }
 }
 
-fn whole(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
+fn whole(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
     if let Some(name) = NAME.words(ui, 0, &project.name) {
-        desk.ask(Edit::Name(name));
+        editor.ask(Edit::Name(name));
     }
     let mut seed = project.seed;
     if SEED.number(ui, &mut seed) {
-        desk.ask(Edit::Seed(seed));
+        editor.ask(Edit::Seed(seed));
     }
 }

@@ -9,8 +9,9 @@ use egui::Ui;
 use lightloom_core::project::Project;
 use lightloom_core::scene::SceneDesc;
 
+use super::fold;
 use super::setting::Setting;
-use super::{Desk, fold};
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// The settings of this panel.
@@ -21,37 +22,37 @@ pub(super) const SETTINGS: &[&[Setting]] =
 const XYZ: [&str; 3] = ["x", "y", "z"];
 
 /// The scene panel.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
-    let Some(before) = &project.scene else { return without_scene(ui, desk, project) };
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
+    let Some(before) = &project.scene else { return without_scene(ui, editor, project) };
     let mut scene = before.clone();
     let mut caustics = project.caustics.clone();
-    fold_open(ui, "Meshes", |ui| meshes::show(ui, desk, &mut scene, &mut caustics));
-    fold_open(ui, "Lights", |ui| lights::show(ui, desk, &mut scene, &mut caustics));
-    fold(ui, "Camera", |ui| surroundings::camera(ui, desk, &mut scene.camera));
+    fold_open(ui, "Meshes", |ui| meshes::show(ui, editor, &mut scene, &mut caustics));
+    fold_open(ui, "Lights", |ui| lights::show(ui, editor, &mut scene, &mut caustics));
+    fold(ui, "Camera", |ui| surroundings::camera(ui, editor, &mut scene.camera));
     fold(ui, "Receiver", |ui| surroundings::receiver(ui, &mut scene.receiver));
     fold(ui, "Sky", |ui| surroundings::sky(ui, &mut scene.environment));
     if scene != *before {
-        desk.ask(Edit::Scene(Some(Box::new(scene))));
+        editor.ask(Edit::Scene(Some(Box::new(scene))));
     }
     if caustics != project.caustics {
-        desk.ask(Edit::Caustics(caustics));
+        editor.ask(Edit::Caustics(caustics));
     }
 }
 
 /// The plane alone, and the way to a scene.
-fn without_scene(ui: &mut Ui, desk: &mut Desk, project: &Project) {
+fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
     ui.label("This project has no scene: the plane is seen straight on.");
     let mut plane = project.plane.clone();
     surroundings::plane(ui, &mut plane);
     if plane != project.plane {
-        desk.ask(Edit::Plane(plane));
+        editor.ask(Edit::Plane(plane));
     }
     ui.add_space(6.0);
     let add = ui.button("Add a scene").on_hover_text("A light, a camera and a receiver; then add glass.");
     if add.clicked() {
         let scene = SceneDesc { lights: vec![lights::first()], ..SceneDesc::default() };
-        desk.ask(Edit::Scene(Some(Box::new(scene))));
+        editor.ask(Edit::Scene(Some(Box::new(scene))));
     }
 }
 

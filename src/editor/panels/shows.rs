@@ -2,12 +2,12 @@
 
 use egui::Ui;
 use lightloom_core::project::Shows;
-use lightloom_core::target::{Channel, ImageTarget};
+use lightloom_core::targets::{Channel, ImageTarget};
 
-use super::Desk;
 use super::setting::{Choice, Setting};
 use crate::editor::action::Action;
-use crate::editor::pick::{At, Pick};
+use crate::editor::asset::{AssetUse, TargetSlot};
+use crate::editor::context::EditorContext;
 
 const SHOWS: Setting = Setting::choice(
     "Shows",
@@ -59,7 +59,12 @@ pub(super) const SETTINGS: &[Setting] =
 const AS_ALL: usize = 3;
 
 /// What is shown `at` a key; none of its own only where `may_be_none`. Gives what it is now where that changed.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, at: &At, shows: Option<&Shows>) -> Option<Option<Shows>> {
+pub(super) fn show(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    at: &TargetSlot,
+    shows: Option<&Shows>,
+) -> Option<Option<Shows>> {
     let kind = match shows {
         Some(Shows::PhysicalCaustic) => 0,
         Some(Shows::Image(_)) => 1,
@@ -72,8 +77,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, at: &At, shows: Option<&Shows>)
     }
     let mut new = match setting.pick_another(ui, kind) {
         Some(0) => Some(Some(Shows::PhysicalCaustic)),
-        Some(1) => pick(desk, Pick::Picture(at.clone())),
-        Some(2) => pick(desk, Pick::Points(at.clone())),
+        Some(1) => pick(editor, AssetUse::Picture(at.clone())),
+        Some(2) => pick(editor, AssetUse::Points(at.clone())),
         Some(_) => Some(None),
         None => None,
     };
@@ -81,15 +86,15 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, at: &At, shows: Option<&Shows>)
         Some(Shows::Image(image)) => {
             let mut changed = image.clone();
             if file(ui, &FILE, &image.file) {
-                desk.ask(Action::Pick(Pick::Picture(at.clone())));
+                editor.ask(Action::PickFile(AssetUse::Picture(at.clone())));
             }
-            picture(ui, desk, &mut changed);
+            picture(ui, editor, &mut changed);
             if changed != *image {
                 new = Some(Some(Shows::Image(changed)));
             }
         }
         Some(Shows::Points(points)) if file(ui, &POINTS, &points.file) => {
-            desk.ask(Action::Pick(Pick::Points(at.clone())));
+            editor.ask(Action::PickFile(AssetUse::Points(at.clone())));
         }
         _ => {}
     }
@@ -97,8 +102,8 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, at: &At, shows: Option<&Shows>)
 }
 
 /// A target without a file is none: what it shows changes when one is picked.
-fn pick(desk: &mut Desk, pick: Pick) -> Option<Option<Shows>> {
-    desk.ask(Action::Pick(pick));
+fn pick(editor: &mut EditorContext, pick: AssetUse) -> Option<Option<Shows>> {
+    editor.ask(Action::PickFile(pick));
     None
 }
 
@@ -113,13 +118,13 @@ pub(super) fn file(ui: &mut Ui, setting: &Setting, file: &str) -> bool {
     })
 }
 
-fn picture(ui: &mut Ui, desk: &Desk, image: &mut ImageTarget) {
+fn picture(ui: &mut Ui, editor: &EditorContext, image: &mut ImageTarget) {
     CHANNEL.choose(ui, &mut image.channel, &[Channel::Brightness, Channel::Alpha]);
     COLOUR.toggle(ui, &mut image.colour);
     INVERT.toggle(ui, &mut image.invert);
     THRESHOLD.number(ui, &mut image.threshold);
     let placement = &mut image.placement;
-    let middle = desk.document.project().extent() / 2.0;
+    let middle = editor.document.project().extent() / 2.0;
     let mut centre = placement.centre.unwrap_or(middle.into());
     let row = CENTRE.row(ui, placement.centre.is_some(), |ui| {
         let width = (ui.available_width() - 4.0) / 2.0;

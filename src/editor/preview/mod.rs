@@ -1,58 +1,60 @@
-//! What the workers find out, and what the window shows of it. Nothing here waits: the window asks, and shows what there is.
+//! The workers' results as the window shows them. Nothing here waits: the window asks, and shows what there is.
 
-mod animator;
+mod background_worker;
 mod coverage;
 mod flow;
 pub mod gpu;
-mod looker;
-mod painter;
-mod stager;
+mod orbit_worker;
+mod picture_worker;
+mod preview_worker;
+mod requests;
 mod subject;
 mod target;
-mod wishes;
 pub mod worker;
 
 use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
-use lightloom_core::pipeline::{Shot, Sketch};
+use lightloom_core::engine::{Client, Preview, Shot};
 use lightloom_core::project::Project;
-pub use looker::Seen;
-pub use painter::{Painted, Plane};
+pub use orbit_worker::Seen;
+pub use picture_worker::{Painted, Plane};
+pub use requests::Wanted;
 pub use subject::Subject;
 pub use target::TargetPicture;
-pub use wishes::Wanted;
 
-use super::session::{Other, Session};
-use animator::{Animator, Found};
+use super::engine::SharedEngine;
+use super::session::{Comparison, Session};
+use super::target_image::TargetImage;
+use background_worker::BackgroundWorker;
 use flow::FlowViewer;
-use looker::Looker;
-use painter::Painter;
-use stager::Stager;
+use orbit_worker::OrbitWorker;
+use picture_worker::PictureWorker;
+use preview_worker::{Found, PreviewWorker};
+use requests::Requests;
 use target::Targets;
-use wishes::Wishes;
 use worker::Share;
 
 /// The newest results, and what is still being worked on.
-pub struct Preview {
-    animator: Animator,
+pub struct LivePreview {
+    previews: PreviewWorker,
     /// What the wipe compares with.
-    other: Animator,
-    compared: Option<(Subject, Other)>,
-    painter: Painter,
-    stager: Stager,
-    looker: Looker,
+    other: PreviewWorker,
+    compared: Option<(Subject, Comparison)>,
+    pictures: PictureWorker,
+    background: BackgroundWorker,
+    orbit: OrbitWorker,
     targets: Targets,
     flow: FlowViewer,
-    wishes: Wishes,
+    requests: Requests,
     /// Whether the graphics card draws the photons.
     by_card: bool,
     subject: Option<Subject>,
     frame: i32,
     found: Found,
     /// The light of the last version, shown until there is new one.
-    last: Option<Arc<Sketch>>,
+    last: Option<Arc<Preview>>,
     coverage: Coverage,
     problem: Option<String>,
     activity: Option<Activity>,
@@ -67,19 +69,19 @@ pub struct Activity {
     pub fraction: f32,
 }
 
-impl Preview {
+impl LivePreview {
     /// Nothing is worked on yet. `wake` is called from other threads whenever there is something new to see.
-    pub fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
+    pub fn new(engine: SharedEngine, wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
-            animator: Animator::new(Share::Whole, wake.clone()),
-            other: Animator::new(Share::Half, wake.clone()),
+            previews: PreviewWorker::new(engine.clone(), Client::Main, Share::Whole, wake.clone()),
+            other: PreviewWorker::new(engine.clone(), Client::Comparison, Share::Half, wake.clone()),
             compared: None,
-            painter: Painter::new(wake.clone()),
-            stager: Stager::new(wake.clone()),
-            looker: Looker::new(wake.clone()),
+            pictures: PictureWorker::new(wake.clone()),
+            background: BackgroundWorker::new(engine.clone(), wake.clone()),
+            orbit: OrbitWorker::new(engine, wake.clone()),
             targets: Targets::new(wake.clone()),
             flow: FlowViewer::new(wake),
-            wishes: Wishes::default(),
+            requests: Requests::default(),
             by_card: false,
             subject: None,
             frame: 0,
@@ -105,19 +107,19 @@ impl Preview {
     pub fn follow(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
         self.frame = session.playhead;
         if self.subject.as_ref().is_none_or(|last| !last.is(subject)) {
-            self.last = self.sketch().cloned();
+            self.last = self.preview().cloned();
             self.found = Found::default();
             self.subject = Some(subject.clone());
-            self.animator.ask(subject.clone(), self.frame);
+            self.previews.ask(subject.clone(), self.frame);
             self.age(subject);
         }
         self.compare(subject, session);
         self.receive();
-        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        let shown = TargetImage::at_playhead(&subject.project, session).map(|target| target.image);
         self.targets.follow(subject, shown);
-        let sketch = self.sketch().cloned();
-        self.flow.follow(sketch.as_ref(), &subject.project, session);
-        self.wish(subject, session, wanted);
+        let preview = self.preview().cloned();
+        self.flow.follow(preview.as_ref(), &subject.project, session);
+        self.request(subject, session, wanted);
     }
 
     /// Works out the other side of the wipe.
@@ -150,35 +152,35 @@ impl Preview {
     /// Takes what was found out since the last time.
     fn receive(&mut self) {
         let panics = [
-            self.painter.panicked(),
-            self.stager.panicked(),
-            self.looker.panicked(),
+            self.pictures.panicked(),
+            self.background.panicked(),
+            self.orbit.panicked(),
             self.other.panicked(),
             self.flow.panicked(),
         ];
-        if let Some(words) = self.animator.panicked().or_else(|| panics.into_iter().flatten().next()) {
+        if let Some(words) = self.previews.panicked().or_else(|| panics.into_iter().flatten().next()) {
             self.problem = Some(format!(
                 "the preview failed ({words}); the project is unharmed, and the next edit tries again"
             ));
             self.coverage.fill(State::Failed);
         }
-        self.activity = self.animator.progress().and_then(|seen| {
+        self.activity = self.previews.progress().and_then(|seen| {
             let fraction = seen.fraction as f32;
             Some(Activity { stage: seen.stage?, fraction })
         });
-        let Some(found) = self.animator.found() else {
+        let Some(found) = self.previews.found() else {
             // While edits come quickly, as from a slider, the light of the last but one is better than that of long ago.
-            self.last = self.animator.last().best(self.frame).or(self.last.as_ref()).cloned();
+            self.last = self.previews.last().best(self.frame).or(self.last.as_ref()).cloned();
             return;
         };
-        for (detail, sketch) in found.sketches.iter().enumerate() {
-            let Some(sketch) = sketch else { continue };
-            let is_seen = |seen: &Arc<Sketch>| Arc::ptr_eq(seen, sketch);
-            if self.found.sketches[detail].as_ref().is_some_and(is_seen) {
+        for (level, preview) in found.previews.iter().enumerate() {
+            let Some(preview) = preview else { continue };
+            let is_seen = |seen: &Arc<Preview>| Arc::ptr_eq(seen, preview);
+            if self.found.previews[level].as_ref().is_some_and(is_seen) {
                 continue;
             }
-            let state = [State::Draft, State::Preview, State::Fine][detail];
-            for frame in sketch.frames().filter(|&frame| sketch.is_ready(frame)) {
+            let state = [State::Draft, State::Preview, State::Fine][level];
+            for frame in preview.frames().filter(|&frame| preview.is_ready(frame)) {
                 if self.coverage.of(frame) < state {
                     self.coverage.set(frame, state);
                 }
@@ -192,30 +194,30 @@ impl Preview {
     }
 
     /// The best light there is for the frame that is shown; it may be of an older version while a newer one is worked on.
-    pub fn sketch(&self) -> Option<&Arc<Sketch>> {
-        let any = || self.found.sketches.iter().rev().flatten().next();
+    pub fn preview(&self) -> Option<&Arc<Preview>> {
+        let any = || self.found.previews.iter().rev().flatten().next();
         self.found.best(self.frame).or(self.last.as_ref()).or_else(any)
     }
 
     /// The other side of the wipe at the frame that is shown.
-    fn other_sketch(&self) -> Option<Arc<Sketch>> {
+    fn other_preview(&self) -> Option<Arc<Preview>> {
         self.compared.as_ref()?;
         self.other.found()?.best(self.frame).cloned()
     }
 
     /// The newest pictures of the plane and the shot.
     pub fn painted(&self) -> Painted {
-        self.painter.painted()
+        self.pictures.painted()
     }
 
     /// What the free look saw last.
     pub fn look(&self) -> Seen {
-        self.looker.seen()
+        self.orbit.seen()
     }
 
     /// The shot's camera with the picture without caustics, as far as it is worked out.
     pub fn shot(&self) -> Option<Arc<Shot>> {
-        self.stager.shot()
+        self.background.shot()
     }
 
     /// The picture towards which the light flows at the playhead.
@@ -225,7 +227,7 @@ impl Preview {
 
     /// Whether what is shown is of the newest version.
     pub fn is_current(&self) -> bool {
-        self.found.sketches.iter().any(Option::is_some)
+        self.found.previews.iter().any(Option::is_some)
     }
 
     /// What is seen of the flow at the playhead; empty where nothing is shown of it.
@@ -250,9 +252,9 @@ impl Preview {
 }
 
 /// The project as it is compared with.
-fn other(project: &Project, with: Other) -> Project {
+fn other(project: &Project, with: Comparison) -> Project {
     match with {
-        Other::Method(method) => Project { method, ..project.clone() },
-        Other::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
+        Comparison::Method(method) => Project { method, ..project.clone() },
+        Comparison::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }

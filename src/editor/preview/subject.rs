@@ -1,50 +1,38 @@
-//! What the workers work on.
+//! The subject of the workers: a project and the place of its files.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightloom_core::pipeline::Sketcher;
-use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::{Error, Result};
+use lightloom_core::Result;
+use lightloom_core::engine::Engine;
+use lightloom_core::project::Project;
 
-/// A project, and where its files are.
+use crate::editor::engine::SharedEngine;
+
+/// A project, and the place of its files.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The project.
     pub project: Arc<Project>,
-    /// The project file, or one that could stand there: its files are found from its folder.
+    /// The project file, or one that could stand there: files are found from its folder.
     pub base: PathBuf,
-    /// Whether it may read files from anywhere.
+    /// Whether files may be read from anywhere.
     pub external: bool,
 }
 
 impl Subject {
     /// Whether nothing differs; projects are compared by pointer.
     pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.project, &other.project) && self.is_beside(other)
+        Arc::ptr_eq(&self.project, &other.project)
+            && self.base == other.base
+            && self.external == other.external
     }
 
-    fn is_beside(&self, other: &Self) -> bool {
-        self.base == other.base && self.external == other.external
-    }
-}
-
-/// What a worker remembers from sketch to sketch of one document.
-#[derive(Default)]
-pub(super) struct Studio {
-    last: Option<(Subject, Sketcher)>,
-}
-
-impl Studio {
-    /// The sketcher of a subject's folder.
+    /// The engine that works on the subject.
     ///
     /// # Errors
     /// The folder cannot be found.
-    pub(super) fn sketcher(&mut self, subject: &Subject) -> Result<&mut Sketcher> {
-        if self.last.as_ref().is_none_or(|(last, _)| !last.is_beside(subject)) {
-            let sketcher = Sketcher::new(AssetFolder::new(&subject.base, subject.external)?);
-            self.last = Some((subject.clone(), sketcher));
-        }
-        self.last.as_mut().map(|(_, sketcher)| sketcher).ok_or(Error::Cancelled)
+    pub(super) fn engine(&self, shared: &SharedEngine) -> Result<Engine> {
+        shared.of(&self.base, self.external)
     }
 }

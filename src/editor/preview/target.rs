@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::{Color32, ColorImage};
 use lightloom_core::Result;
 use lightloom_core::project::AssetFolder;
-use lightloom_core::target::{Brightness, ImageTarget, Placement};
+use lightloom_core::targets::{Brightness, ImageTarget, Placement};
 
 use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};

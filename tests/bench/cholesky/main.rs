@@ -5,9 +5,10 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use glam::Vec2;
-use lightloom_core::flow::assembly::{Assembly, Rows};
 use lightloom_core::flow::field::Grid;
-use lightloom_core::math::operator::{Operator, Weights};
+use lightloom_core::flow::fit::{Assembly, Rows};
+use lightloom_core::math::normal_blocks::Weights;
+use lightloom_core::math::operator::Operator;
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn main() {
@@ -40,7 +41,8 @@ fn sparse_cholesky(bencher: Bencher, n: usize) {
     let mut assembly = Assembly::new(grid, true);
     assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1e-5 });
     let mut operator = Operator::<f64>::zero(assembly.right.layout, 2);
-    operator.set(&assembly.parts, Weights { psi: 0.5, phi: 0.5, cross: 0.5, smooth: 1e-3, tilt: -1.0 });
+    operator
+        .set(&assembly.blocks, Weights { psi: 0.5, phi: 0.5, cross: 0.5, alpha: 1e-3, no_penetration: -1.0 });
     let [nx, ny] = grid.nodes();
     let mut triplets = Vec::new();
     for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {

@@ -3,9 +3,10 @@
 use egui::Ui;
 use lightloom_core::constraint::{Constraint, DirectedLine, Span, Wall};
 
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::panels::aside;
 use crate::editor::panels::setting::{Choice, Setting, format_number};
-use crate::editor::panels::{Desk, aside};
 
 const WEIGHT: Setting = Setting::real("Weight", "constraints[directed_line].weight", [0.0, 1000.0], &[1.0])
     .slider(0.0, 100.0)
@@ -51,7 +52,7 @@ pub(super) const SETTINGS: &[Setting] =
 type Change = Box<dyn Fn(&mut Constraint)>;
 
 /// The values of the `chosen`; each change reaches all of them that are not locked.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], chosen: &[usize]) {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Constraint], chosen: &[usize]) {
     let free: Vec<usize> = chosen.iter().copied().filter(|&i| !constraints[i].is_locked()).collect();
     if free.len() < chosen.len() {
         ui.weak(if free.is_empty() { "It is locked." } else { "Those that are locked stay as they are." });
@@ -62,18 +63,18 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], cho
         let mut lines = of.iter().filter_map(|&i| line_of(&constraints[i]));
         if let Some(line) = lines.next() {
             let alike = lines.all(|l| (l.weight, l.speed, l.width) == (line.weight, line.speed, line.width));
-            line_values(ui, desk, line.clone(), &mut changes);
+            line_values(ui, editor, line.clone(), &mut changes);
             mixed(ui, alike);
         }
         let mut walls = of.iter().filter_map(|&i| wall_of(&constraints[i]));
         if let Some(wall) = walls.next() {
             let alike = walls.all(|w| w.thickness == wall.thickness);
-            wall_values(ui, desk, wall.clone(), &mut changes);
+            wall_values(ui, editor, wall.clone(), &mut changes);
             mixed(ui, alike);
         }
         if let Some(&first) = of.first() {
             let any_line = of.iter().any(|&i| line_of(&constraints[i]).is_some());
-            span(ui, desk, constraints[first].span().copied(), any_line, &mut changes);
+            span(ui, editor, constraints[first].span().copied(), any_line, &mut changes);
             mixed(ui, of.iter().all(|&i| constraints[i].span() == constraints[first].span()));
         }
     });
@@ -83,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], cho
             changes.iter().for_each(|change| change(&mut constraint));
             (i, constraint)
         });
-        desk.ask(Edit::Change(changed.collect()));
+        editor.ask(Edit::Change(changed.collect()));
     }
 }
 
@@ -101,7 +102,7 @@ fn mixed(ui: &mut Ui, alike: bool) {
     }
 }
 
-fn line_values(ui: &mut Ui, desk: &Desk, mut line: DirectedLine, changes: &mut Vec<Change>) {
+fn line_values(ui: &mut Ui, editor: &EditorContext, mut line: DirectedLine, changes: &mut Vec<Change>) {
     let mut on_lines = |change: Box<dyn Fn(&mut DirectedLine)>| {
         changes.push(Box::new(move |constraint| {
             if let Constraint::DirectedLine(line) = constraint {
@@ -118,10 +119,10 @@ fn line_values(ui: &mut Ui, desk: &Desk, mut line: DirectedLine, changes: &mut V
     if WIDTH.number(ui, &mut line.width) {
         on_lines(Box::new(move |other| other.width = line.width));
     }
-    in_plane(ui, desk, line.width);
+    in_plane(ui, editor, line.width);
 }
 
-fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Change>) {
+fn wall_values(ui: &mut Ui, editor: &EditorContext, mut wall: Wall, changes: &mut Vec<Change>) {
     if THICKNESS.number(ui, &mut wall.thickness) {
         changes.push(Box::new(move |constraint| {
             if let Constraint::Wall(other) = constraint {
@@ -129,21 +130,21 @@ fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Chang
             }
         }));
     }
-    in_plane(ui, desk, wall.thickness);
+    in_plane(ui, editor, wall.thickness);
 }
 
 /// A length on the plane in per cent of it, and in cells of the field.
-fn in_plane(ui: &mut Ui, desk: &Desk, length: f32) {
-    let project = desk.document.project();
+fn in_plane(ui: &mut Ui, editor: &EditorContext, length: f32) {
+    let project = editor.document.project();
     let cells = project.flow.grid.cells(project.extent()).into_iter().max().unwrap_or(0);
     let tenths = |value: f32| format_number((f64::from(value) * 10.0).round() / 10.0, false);
     aside(ui, &format!("{} % of the plane, {} cells", tenths(length * 100.0), tenths(length * cells as f32)));
 }
 
-fn span(ui: &mut Ui, desk: &Desk, now: Option<Span>, fades: bool, changes: &mut Vec<Change>) {
+fn span(ui: &mut Ui, editor: &EditorContext, now: Option<Span>, fades: bool, changes: &mut Vec<Change>) {
     let mut span = now;
     if let Some(kind) = SPAN.pick(ui, usize::from(span.is_some())) {
-        let keys = &desk.document.project().keys;
+        let keys = &editor.document.project().keys;
         let ends = keys.first().zip(keys.last());
         let all = ends.map(|(first, last)| Span { from: first.frame, to: last.frame, fade: 0 });
         span = if kind == 1 { all } else { None };

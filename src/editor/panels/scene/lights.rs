@@ -6,8 +6,10 @@ use lightloom_core::scene::light::{DirectionalLight, PointLight, RectangleLight,
 use lightloom_core::scene::{LightDesc, SceneDesc};
 
 use super::{XYZ, list};
+use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::{Choice, Setting};
-use crate::editor::panels::{Desk, free_name, menu, remove_button, section};
+use crate::editor::panels::{menu, remove_button, section};
+use crate::editor::unique_name::unique_name;
 
 /// A kind of light, as it begins.
 const KINDS: &[fn() -> LightDesc] = &[
@@ -94,18 +96,23 @@ fn kind(light: &LightDesc) -> usize {
 }
 
 /// The list, and the values of the light that is chosen. Caustics follow a name.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics: &mut [CausticDesc]) {
+pub(super) fn show(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    scene: &mut SceneDesc,
+    caustics: &mut [CausticDesc],
+) {
     let names = scene.lights.iter().map(|light| (light.name(), KIND.options[kind(light)].name));
-    list(ui, "Light", names, &mut desk.session.focus.light);
-    let chosen = desk.session.focus.light.filter(|index| *index < scene.lights.len());
+    list(ui, "Light", names, &mut editor.session.focus.light);
+    let chosen = editor.session.focus.light.filter(|index| *index < scene.lights.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let kinds = KIND.options.iter().map(|choice| (choice.name, choice.help));
         if let Some(make) = menu(ui, "Add a light", kinds).and_then(|new| KINDS.get(new)) {
             let mut light = make();
-            let name = free_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
+            let name = unique_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
             *name_of(&mut light) = name;
-            desk.session.focus.light = Some(scene.lights.len());
+            editor.session.focus.light = Some(scene.lights.len());
             scene.lights.push(light);
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
@@ -113,16 +120,16 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics
                 && let Some(index) = chosen
             {
                 scene.lights.remove(index);
-                desk.session.focus.light = None;
+                editor.session.focus.light = None;
             }
         });
     });
-    let Some(index) = desk.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
+    let Some(index) = editor.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
     let taken: Vec<String> = scene.lights.iter().map(|light| light.name().to_owned()).collect();
     let light = &mut scene.lights[index];
     section(ui, light.name());
     if let Some(name) = NAME.words(ui, index, light.name()).filter(|name| !name.is_empty()) {
-        let name = free_name(&name, |name| taken.iter().any(|other| other == name));
+        let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         let of_light = caustics.iter_mut().filter_map(|caustic| caustic.light.as_mut());
         of_light.filter(|other| *other == light.name()).for_each(|other| other.clone_from(&name));
         *name_of(light) = name;

@@ -6,9 +6,11 @@ use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
 use super::{XYZ, list, materials};
 use crate::editor::action::Action;
+use crate::editor::asset::AssetUse;
+use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::Setting;
-use crate::editor::panels::{Desk, free_name, remove_button, section, shows};
-use crate::editor::pick::Pick;
+use crate::editor::panels::{remove_button, section, shows};
+use crate::editor::unique_name::unique_name;
 
 const NAME: Setting =
     Setting::text("Name", "scene.meshes[].name").help("Shown in the list of caustics; each name once.");
@@ -33,36 +35,41 @@ const PRIORITY: Setting = Setting::whole("Priority", "scene.meshes[].priority", 
 pub(super) const SETTINGS: &[Setting] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
 /// The list, and the values of the mesh that is chosen. Caustics follow a name.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics: &mut [CausticDesc]) {
+pub(super) fn show(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    scene: &mut SceneDesc,
+    caustics: &mut [CausticDesc],
+) {
     let kind = |mesh: &MeshDesc| mesh.material.as_ref().map_or("as file", materials::name);
     let names = scene.meshes.iter().map(|mesh| (mesh.name.as_str(), kind(mesh)));
-    list(ui, "Mesh", names, &mut desk.session.focus.mesh);
-    let chosen = desk.session.focus.mesh.filter(|index| *index < scene.meshes.len());
+    list(ui, "Mesh", names, &mut editor.session.focus.mesh);
+    let chosen = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui.button("Add OBJ…").on_hover_text("Choose a mesh file, or drop it onto the window").clicked() {
-            desk.ask(Action::Pick(Pick::Mesh));
+            editor.ask(Action::PickFile(AssetUse::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
             if remove_button(ui, "Remove this mesh")
                 && let Some(index) = chosen
             {
                 scene.meshes.remove(index);
-                desk.session.focus.mesh = None;
+                editor.session.focus.mesh = None;
             }
         });
     });
-    let Some(index) = desk.session.focus.mesh.filter(|index| *index < scene.meshes.len()) else { return };
+    let Some(index) = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len()) else { return };
     let taken: Vec<String> = scene.meshes.iter().map(|mesh| mesh.name.clone()).collect();
     let mesh = &mut scene.meshes[index];
     section(ui, &mesh.name);
     if let Some(name) = NAME.words(ui, index, &mesh.name).filter(|name| !name.is_empty()) {
-        let name = free_name(&name, |name| taken.iter().any(|other| other == name));
+        let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         follow(caustics, &mesh.name, &name);
         mesh.name = name;
     }
     if shows::file(ui, &FILE, &mesh.file) {
-        desk.ask(Action::Pick(Pick::MeshFile(index)));
+        editor.ask(Action::PickFile(AssetUse::MeshFile(index)));
     }
     MOVE.numbers(ui, &mut mesh.transform.translate, XYZ);
     TURN.numbers(ui, &mut mesh.transform.rotate, XYZ);

@@ -5,7 +5,7 @@ use lightloom_core::project::PlaneSettings;
 use lightloom_core::scene::{CameraDesc, EnvironmentDesc, ReceiverDesc};
 
 use super::XYZ;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::Setting;
 
 const POSITION: Setting = Setting::vector("Position", "scene.camera.position", [-1e6, 1e6], &[0.0, 1.2, 1.6])
@@ -55,16 +55,15 @@ pub(super) const SETTINGS: &[Setting] = &[
 ];
 
 /// From where the picture is taken.
-pub(super) fn camera(ui: &mut Ui, desk: &Desk, camera: &mut CameraDesc) {
+pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDesc) {
     POSITION.numbers(ui, &mut camera.position, XYZ);
     LOOK_AT.numbers(ui, &mut camera.look_at, XYZ);
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
-    ui.add_enabled_ui(desk.session.orbit.is_some(), |ui| {
-        let take =
-            ui.button("Take the free look").on_hover_text("The camera stands where the free look is now");
-        if take.on_disabled_hover_text("Look around the scene first").clicked()
-            && let Some(orbit) = desk.session.orbit
+    ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
+        let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
+        if take.on_disabled_hover_text("Open the orbit view first").clicked()
+            && let Some(orbit) = editor.session.orbit
         {
             *camera = orbit.camera(camera);
         }

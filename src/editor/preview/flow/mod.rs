@@ -6,11 +6,11 @@ mod sample;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec2;
-use lightloom_core::pipeline::Sketch;
+use lightloom_core::engine::Preview;
 use lightloom_core::project::Project;
 
 use super::worker::{Share, Turn, Worker};
-use crate::editor::session::{FieldMap, Session, Shown};
+use crate::editor::session::{FieldMap, Overlays, Session};
 use followed::Roads;
 
 /// What is seen of the flow at one frame. Places are plane coordinates, velocities plane units per segment.
@@ -60,10 +60,10 @@ pub struct Followed {
 /// What is asked for.
 #[derive(Clone)]
 struct Request {
-    sketch: Arc<Sketch>,
+    preview: Arc<Preview>,
     project: Arc<Project>,
     frame: i32,
-    show: Shown,
+    show: Overlays,
     /// The caustic whose own field is shown, if it has one.
     caustic: Option<usize>,
     probe: Option<usize>,
@@ -74,7 +74,7 @@ struct Request {
 impl PartialEq for Request {
     fn eq(&self, other: &Self) -> bool {
         let rest = |r: &Self| (r.frame, r.show, r.caustic, r.probe, r.arrows);
-        Arc::ptr_eq(&self.sketch, &other.sketch)
+        Arc::ptr_eq(&self.preview, &other.preview)
             && Arc::ptr_eq(&self.project, &other.project)
             && rest(self) == rest(other)
     }
@@ -107,15 +107,20 @@ impl FlowViewer {
         Self { worker, asked: None, found }
     }
 
-    /// Looks at a sketch as the session wants it, unless nothing is wanted or that is what was asked for last.
-    pub(super) fn follow(&mut self, sketch: Option<&Arc<Sketch>>, project: &Arc<Project>, session: &Session) {
-        let show = session.show;
+    /// Looks at a preview as the session wants it, unless nothing is wanted or that is what was asked for last.
+    pub(super) fn follow(
+        &mut self,
+        preview: Option<&Arc<Preview>>,
+        project: &Arc<Project>,
+        session: &Session,
+    ) {
+        let show = session.overlays;
         let wanted = show.arrows || show.streamlines || show.trails || show.map.is_some();
-        let request = sketch.filter(|_| wanted || session.probe.is_some()).map(|sketch| Request {
-            sketch: sketch.clone(),
+        let request = preview.filter(|_| wanted || session.probe.is_some()).map(|preview| Request {
+            preview: preview.clone(),
             project: project.clone(),
             frame: session.playhead,
-            show: Shown { drawn: false, target: false, grid: false, ..show },
+            show: Overlays { drawn: false, target: false, grid: false, ..show },
             caustic: session.focus.caustic,
             probe: session.probe,
             arrows: sample::lattice(session.plane.zoom),

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, vec2};
 use lightloom_core::Progress;
-use lightloom_core::pipeline::FieldAt;
+use lightloom_core::engine::FieldAt;
 
 use super::{FlowPicture, HeatMap, Request};
 use crate::editor::session::FieldMap;
@@ -32,14 +32,14 @@ pub(super) fn lattice(zoom: f32) -> usize {
 
 /// Everything that takes but a few milliseconds.
 pub(super) fn quickly(request: &Request) -> FlowPicture {
-    let Request { sketch, frame, show, .. } = request;
+    let Request { preview, frame, show, .. } = request;
     let field = field(request);
     let mut picture = FlowPicture::default();
     if let Some(field) = field.as_ref().filter(|_| show.arrows || show.streamlines) {
-        let arrows = arrows(field, sketch.extent(), request.arrows);
+        let arrows = arrows(field, preview.extent(), request.arrows);
         picture.fast = most(arrows.iter().map(|(_, u)| u.length()), FAST);
         if show.streamlines && picture.fast > 0.0 {
-            picture.streamlines = streamlines(field, sketch.extent(), picture.fast);
+            picture.streamlines = streamlines(field, preview.extent(), picture.fast);
         }
         if show.arrows {
             picture.arrows = arrows;
@@ -47,13 +47,13 @@ pub(super) fn quickly(request: &Request) -> FlowPicture {
     }
     picture.map = match (field, show.map) {
         (Some(field), Some(FieldMap::Divergence)) => {
-            Some(map(FieldMap::Divergence, sketch.extent(), |p| field.divergence(p)))
+            Some(map(FieldMap::Divergence, preview.extent(), |p| field.divergence(p)))
         }
-        (Some(field), Some(FieldMap::Curl)) => Some(map(FieldMap::Curl, sketch.extent(), |p| field.curl(p))),
+        (Some(field), Some(FieldMap::Curl)) => Some(map(FieldMap::Curl, preview.extent(), |p| field.curl(p))),
         _ => None,
     };
-    if show.trails && sketch.is_ready(*frame) {
-        let count = sketch.photons();
+    if show.trails && preview.is_ready(*frame) {
+        let count = preview.photons();
         let rows = (0..TRAILS.min(count)).map(|i| i * count / TRAILS.min(count));
         picture.trails = rows.map(|row| way(request, row)).collect();
     }
@@ -62,13 +62,13 @@ pub(super) fn quickly(request: &Request) -> FlowPicture {
 
 /// The way of a photon over the frames that are worked out.
 pub(super) fn way(request: &Request, row: usize) -> Vec<Vec2> {
-    request.sketch.track(row).into_iter().map(|(_, p)| p).collect()
+    request.preview.track(row).into_iter().map(|(_, p)| p).collect()
 }
 
 /// The field of the caustic in focus, or the one that most share.
 fn field(request: &Request) -> Option<FieldAt> {
-    let mut fields = request.sketch.fields(request.frame);
-    let rows = request.caustic.and_then(|i| request.sketch.groups().get(i)).map(|(_, rows)| rows);
+    let mut fields = request.preview.fields(request.frame);
+    let rows = request.caustic.and_then(|i| request.preview.groups().get(i)).map(|(_, rows)| rows);
     let own = rows.and_then(|rows| fields.iter().position(|field| field.rows().contains(rows)));
     let at = own.unwrap_or(0);
     if at < fields.len() { Some(fields.swap_remove(at)) } else { None }
@@ -128,9 +128,9 @@ fn most(values: impl Iterator<Item = f32>, share: f32) -> f32 {
 
 /// The mean size of what the fit leaves undone, over the photons near each node.
 pub(super) fn residual(request: &Request, progress: &Progress) -> Option<HeatMap> {
-    let residuals = request.sketch.residuals(request.frame, progress).ok()??;
-    let positions = request.sketch.positions(request.frame)?;
-    let extent = request.sketch.extent();
+    let residuals = request.preview.residuals(request.frame, progress).ok()??;
+    let positions = request.preview.positions(request.frame)?;
+    let extent = request.preview.extent();
     let cells = cells(extent, PHOTON_CELLS);
     let last = vec2(cells[0] as f32, cells[1] as f32);
     let (mut sums, mut counts) = (vec![0.0f32; (cells[0] + 1) * (cells[1] + 1)], Vec::new());

@@ -16,7 +16,7 @@ pub use pipeline::{FEATURES, Renderer};
 
 /// Photons of one moment, ready for the card.
 #[derive(Debug, Default)]
-pub struct Swarm {
+pub struct PhotonColumns {
     /// Plane x, plane y, red, green and blue flux [W] of each photon.
     pub columns: Vec<[f32; 5]>,
     /// Radius of the kernel, plane units.
@@ -27,7 +27,7 @@ pub struct Swarm {
 #[derive(Clone, Debug)]
 pub struct Drawing {
     /// The photons; the same pointer is uploaded once.
-    pub swarm: Arc<Swarm>,
+    pub photons: Arc<PhotonColumns>,
     /// Upper left corner of the picture in the window, and its size, pixels.
     pub corner: [f32; 2],
     /// Size of the picture in pixels.
@@ -40,11 +40,11 @@ pub struct Drawing {
     pub extent: Vec2,
     /// Radiance [W/(sr m^2)] of one watt spread over a square of one plane unit.
     pub radiance: Vec3,
-    /// Exposure and view transform.
+    /// PreviewExposure and view transform.
     pub view: ViewSettings,
 }
 
-impl Swarm {
+impl PhotonColumns {
     /// The photons of a moment.
     ///
     /// # Panics

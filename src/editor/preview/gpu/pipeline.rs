@@ -6,7 +6,7 @@ use lightloom_core::render::ViewTransform;
 use wgpu::util::DeviceExt as _;
 
 use super::table::{DARKEST, ENTRIES, RANGE, table};
-use super::{Drawing, Swarm};
+use super::{Drawing, PhotonColumns};
 
 /// What the card must be able to do beside the usual.
 pub const FEATURES: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE;
@@ -23,7 +23,7 @@ pub struct Renderer {
     sampler: wgpu::Sampler,
     picture: Option<Picture>,
     table: Option<(ViewTransform, wgpu::TextureView)>,
-    swarm: Option<Uploaded>,
+    columns: Option<Uploaded>,
 }
 
 /// The float picture of one size.
@@ -35,7 +35,7 @@ struct Picture {
 
 /// Photons on the card.
 struct Uploaded {
-    of: Weak<Swarm>,
+    of: Weak<PhotonColumns>,
     buffer: wgpu::Buffer,
     count: u32,
 }
@@ -106,7 +106,7 @@ impl Renderer {
             sampler,
             picture: None,
             table: None,
-            swarm: None,
+            columns: None,
         })
     }
 
@@ -120,9 +120,9 @@ impl Renderer {
     ) {
         self.prepare_table(device, queue, drawing.transform());
         self.prepare_picture(device, drawing.size);
-        self.upload(device, &drawing.swarm);
+        self.upload(device, &drawing.photons);
         queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms(drawing)));
-        let (Some(picture), Some(swarm)) = (&self.picture, &self.swarm) else { return };
+        let (Some(picture), Some(columns)) = (&self.picture, &self.columns) else { return };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("photons"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -138,8 +138,8 @@ impl Renderer {
         });
         pass.set_pipeline(&self.photons);
         pass.set_bind_group(0, &self.photon_group, &[]);
-        pass.set_vertex_buffer(0, swarm.buffer.slice(..));
-        pass.draw(0..4, 0..swarm.count);
+        pass.set_vertex_buffer(0, columns.buffer.slice(..));
+        pass.draw(0..4, 0..columns.count);
     }
 
     /// Maps the float picture to the screen.
@@ -150,18 +150,22 @@ impl Renderer {
         pass.draw(0..3, 0..1);
     }
 
-    fn upload(&mut self, device: &wgpu::Device, swarm: &Arc<Swarm>) {
-        if self.swarm.as_ref().is_some_and(|up| std::ptr::eq(up.of.as_ptr(), Arc::as_ptr(swarm))) {
+    fn upload(&mut self, device: &wgpu::Device, columns: &Arc<PhotonColumns>) {
+        if self.columns.as_ref().is_some_and(|up| std::ptr::eq(up.of.as_ptr(), Arc::as_ptr(columns))) {
             return;
         }
         let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("photons"),
             // A buffer of nothing cannot be bound.
-            contents: if swarm.columns.is_empty() { &[0; 20] } else { bytemuck::cast_slice(&swarm.columns) },
+            contents: if columns.columns.is_empty() {
+                &[0; 20]
+            } else {
+                bytemuck::cast_slice(&columns.columns)
+            },
             usage: wgpu::BufferUsages::VERTEX,
         });
-        let count = swarm.columns.len() as u32;
-        self.swarm = Some(Uploaded { of: Arc::downgrade(swarm), buffer, count });
+        let count = columns.columns.len() as u32;
+        self.columns = Some(Uploaded { of: Arc::downgrade(columns), buffer, count });
     }
 
     fn prepare_table(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, transform: ViewTransform) {
@@ -222,7 +226,7 @@ fn uniforms(drawing: &Drawing) -> Uniforms {
         size: drawing.size.map(|n| n as f32),
         origin: drawing.origin.to_array(),
         scale: drawing.scale,
-        radius: drawing.swarm.radius,
+        radius: drawing.photons.radius,
         corner: drawing.corner,
         extent: drawing.extent.to_array(),
         _align: [0.0; 2],

@@ -1,0 +1,135 @@
+//! The drawn constraints: those that act in a segment, their picture on a contact sheet, and notes on odd ones.
+
+use glam::Vec2;
+
+use crate::constraint::{ActiveLine, ActiveWall, Barriers, Constraint, Window, stroke};
+use crate::export::{Drawn, MAGENTA, ORANGE};
+use crate::project::Project;
+
+/// Width of a directed line on a sheet, plane units.
+const LINE_WIDTH: f32 = 0.006;
+/// Cells along the longer side in which lines are looked at for conflicts.
+const CELLS: f32 = 64.0;
+
+/// The lines and walls that act in one segment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ActiveConstraints {
+    pub(super) lines: Vec<ActiveLine>,
+    pub(super) walls: Vec<ActiveWall>,
+}
+
+/// The constraints that act from key frame `segment` to the next, on the rectangle `extent`.
+pub(super) fn active(project: &Project, segment: usize, extent: Vec2) -> ActiveConstraints {
+    let mut active = ActiveConstraints::default();
+    if !project.fits() {
+        return active;
+    }
+    for constraint in &project.constraints {
+        let Some(window) = window(project, constraint, segment) else { continue };
+        match constraint {
+            Constraint::DirectedLine(line) => active.lines.extend(line.active(window, extent)),
+            Constraint::Wall(wall) => active.walls.extend(wall.active(window)),
+        }
+    }
+    active
+}
+
+/// The constraints that act in each segment.
+fn all_active(project: &Project, extent: Vec2) -> Vec<ActiveConstraints> {
+    (1..project.keys.len()).map(|next| active(project, next - 1, extent)).collect()
+}
+
+/// The window of a segment in which a constraint acts; none where it does not.
+fn window(project: &Project, constraint: &Constraint, segment: usize) -> Option<Window> {
+    let [from, to] = [&project.keys[segment], &project.keys[segment + 1]];
+    match constraint.span() {
+        None => Some(Window::ALWAYS),
+        Some(span) => span.window([from.frame, to.frame], |share| from.ease.apply(share)),
+    }
+}
+
+/// The enabled constraints as they are drawn on a sheet: lines in orange, walls in magenta.
+pub(super) fn drawn(project: &Project) -> Vec<Drawn> {
+    let drawn = |constraint: &Constraint| {
+        let points = stroke::clean(constraint.points());
+        match constraint {
+            Constraint::DirectedLine(_) => Drawn { points, colour: ORANGE, width: LINE_WIDTH, arrow: true },
+            Constraint::Wall(wall) => Drawn { points, colour: MAGENTA, width: wall.thickness, arrow: false },
+        }
+    };
+    project.constraints.iter().filter(|constraint| constraint.is_enabled()).map(drawn).collect()
+}
+
+/// Notes on constraints that do nothing, contradict each other, or do other than they look.
+pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<String> {
+    if !project.fits() || project.keys.len() < 2 {
+        return Vec::new();
+    }
+    let cells = project.flow.grid.cells(extent);
+    let cell = (extent / Vec2::new(cells[0] as f32, cells[1] as f32)).max_element();
+    let mut notes = Vec::new();
+    for (i, constraint) in project.constraints.iter().enumerate().filter(|(_, c)| c.is_enabled()) {
+        let windows = (1..project.keys.len()).filter_map(|next| window(project, constraint, next - 1));
+        let odd = if stroke::clean(constraint.points()).is_empty() {
+            Some("is no longer than a dot and does nothing; draw at least two points".to_owned())
+        } else if windows.count() == 0 {
+            Some("never acts: its frames lie beside the animation".to_owned())
+        } else {
+            odd(constraint, extent, cell)
+        };
+        notes.extend(odd.map(|odd| format!("constraints[{i}]: {odd}")));
+    }
+    for active in all_active(project, extent) {
+        let walls: Vec<&ActiveWall> = active.walls.iter().collect();
+        notes.extend(Barriers::new(&walls, extent).notes().iter().cloned());
+        notes.extend(conflict(&active.lines));
+    }
+    notes.sort();
+    notes.dedup();
+    notes
+}
+
+/// A note on one constraint on the receiver.
+fn odd(constraint: &Constraint, extent: Vec2, cell: f32) -> Option<String> {
+    match constraint {
+        Constraint::DirectedLine(line) => {
+            if line.active(Window::ALWAYS, extent).is_none() {
+                return Some("lies off the receiver, or has no weight, and does nothing".into());
+            }
+            (line.width < cell).then(|| {
+                format!("is {:.2} cells wide; the field cannot follow it so closely", line.width / cell)
+            })
+        }
+        Constraint::Wall(wall) => {
+            let on = |p: &&[f32; 2]| {
+                Vec2::from(**p).cmpge(Vec2::ZERO).all() && Vec2::from(**p).cmple(extent).all()
+            };
+            if wall.points.iter().find(on).is_none() {
+                return Some("lies off the receiver; only light that strays there meets it".into());
+            }
+            (wall.thickness < cell).then(|| {
+                format!(
+                    "is {:.2} cells thick: no light crosses it, but the field is too coarse to lead light along it",
+                    wall.thickness / cell
+                )
+            })
+        }
+    }
+}
+
+/// Lines that ask for opposite directions in one place.
+fn conflict(lines: &[ActiveLine]) -> Option<String> {
+    let mut seen: std::collections::BTreeMap<[i32; 2], Vec2> = Default::default();
+    let places = lines.iter().flat_map(|line| line.positions.iter().zip(&line.directions));
+    for (place, &direction) in places {
+        let cell = (*place * CELLS).floor().as_ivec2().to_array();
+        let first = *seen.entry(cell).or_insert(direction);
+        if first.dot(direction) < -0.5 {
+            return Some(format!(
+                "directed lines contradict each other near ({:.2}, {:.2}): the field takes the mean of what they ask for",
+                place.x, place.y
+            ));
+        }
+    }
+    None
+}

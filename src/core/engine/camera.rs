@@ -1,0 +1,85 @@
+//! The camera's stages: the visible points of the receiver, and the picture without caustics. Photons change neither.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::memo::{Same, Slot};
+use super::meter::Meter;
+use super::prepare::Prepared;
+use super::stages::Stages;
+use crate::project::Project;
+use crate::render::density::radius_of_pass;
+use crate::render::{
+    Image, RenderSettings, TextureLayout, Visible, background, first_radius, layout_for, rough_background,
+};
+use crate::scene::Scene;
+use crate::{Progress, Result};
+
+/// Everything that the camera's stages depend on.
+#[derive(Clone, PartialEq)]
+pub(super) struct ViewInput {
+    scene: Option<Same<Scene>>,
+    render: RenderSettings,
+    extent: Vec2,
+    seed: u64,
+    layout: Option<TextureLayout>,
+    rough: bool,
+}
+
+/// A project's camera, receiver and the texture that lies on it.
+pub(super) struct CameraView<'a> {
+    pub(super) project: &'a Project,
+    pub(super) scene: Option<&'a Arc<Scene>>,
+    /// Size of the plane; its longer side is 1.
+    pub(super) extent: Vec2,
+    pub(super) layout: TextureLayout,
+    /// Whether the picture without caustics is a rough one, for a live preview.
+    pub(super) rough: bool,
+}
+
+impl<'a> CameraView<'a> {
+    /// The view of a render of a prepared project.
+    pub(super) fn of_render(prepared: &'a Prepared) -> Self {
+        let Prepared { project, extent, plan, .. } = prepared;
+        let first = first_radius(&project.render, *extent);
+        let radii = (first, radius_of_pass(first, plan.passes - 1));
+        let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, rough: false }
+    }
+}
+
+impl Stages {
+    /// The texels that each pixel of the camera sees, and the picture without caustics.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn look(
+        &self,
+        slot: Slot,
+        view: &CameraView,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<(Arc<Visible>, Arc<Image>)> {
+        let CameraView { project, scene, extent, layout, rough } = *view;
+        let (render, seed) = (&project.render, project.seed);
+        // Photons change nothing here but the layout, and the view transform changes nothing at all.
+        let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
+        let input = ViewInput { scene: scene.map(Same::of), render: seen, extent, seed, layout: None, rough };
+        let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
+        let visible = self.visible.get(slot, visible, progress, |_| {
+            meter.measure("visible", || match scene {
+                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
+                None => Visible::flat(extent, &layout, render, progress).map(Arc::new),
+            })
+        })?;
+        let background = match scene {
+            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
+            Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
+                let draw = if rough { rough_background } else { background };
+                meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
+            })?,
+        };
+        Ok((visible, background))
+    }
+}

@@ -1,0 +1,203 @@
+//! The flow of a project, segment by segment: one sequence of fields that all caustics share, and one for each that flows
+//! by itself.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::active::ActiveConstraints;
+use super::grouping::{CausticFlux, Grouping};
+use super::job::Job;
+use super::key_photons::KeyPhotons;
+use super::memo::Same;
+use super::meter::Meter;
+use super::pairing::TransportCost;
+use super::summary::FlowNumbers;
+use super::walk::{Maps, MapsFrom, Matched, SegmentPhotons, Walk};
+use crate::flow::{
+    Fields, FlowReport, FlowSettings, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots,
+    fit_with_snapshots, path_report,
+};
+use crate::project::Project;
+use crate::{Progress, Result};
+
+/// The fitted flow of one segment.
+pub(super) struct FittedSegment {
+    pub(super) maps: Arc<Maps>,
+    pub(super) layers: Vec<Layer>,
+    /// By layer.
+    pub(super) reports: Vec<FlowReport>,
+    /// Transport cost of the pairing of pass 0.
+    pub(super) cost: TransportCost,
+}
+
+/// Groups that flow together.
+pub(super) struct Layer {
+    pub(super) groups: Vec<usize>,
+    pub(super) flow: SegmentFlow,
+}
+
+/// The fitted flow of a project; no segments where there is one key frame.
+pub(super) struct FittedFlow {
+    pub(super) segments: Vec<Arc<FittedSegment>>,
+    /// The worst over the segments; absent where nothing moves.
+    pub(super) numbers: Option<FlowNumbers>,
+    /// The light of each group; empty where no caustic is named.
+    pub(super) caustics: Vec<CausticFlux>,
+}
+
+/// Everything that the fit of a segment depends on.
+#[derive(PartialEq)]
+pub(super) struct FlowInput {
+    matched: Same<Matched>,
+    active: ActiveConstraints,
+    method: Movement,
+    settings: FlowSettings,
+}
+
+impl FittedSegment {
+    /// The flow of a group; none where it rests, or where the fit saw no photon of it.
+    pub(super) fn flow_of(&self, group: usize) -> Option<&SegmentFlow> {
+        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.flow)
+    }
+
+    /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with
+    /// the number of the caustic.
+    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &Fields)> {
+        self.layers.iter().filter_map(|layer| {
+            let own = layer.groups.iter().copied().find(|&group| grouping.own_flow(group));
+            Some((own, layer.flow.fields()?))
+        })
+    }
+}
+
+/// Matches and fits all segments with the photons of pass 0.
+pub(super) fn fit(job: &Job) -> Result<FittedFlow> {
+    let mut walk = Walk::start(job, 0)?;
+    let caustics = job.sources.caustics(walk.light());
+    let mut flow = FittedFlow { segments: Vec::new(), numbers: None, caustics };
+    while let Some(photons) = walk.next(MapsFrom::Own { bounded: true })? {
+        let fitted = fit_segment(job, &photons, None)?;
+        let reports = fitted.reports.clone();
+        let numbers = flow.numbers.into_iter().chain(FlowNumbers::of_segment(reports, &fitted.cost));
+        flow.numbers = numbers.reduce(FlowNumbers::worst);
+        flow.segments.push(fitted);
+    }
+    Ok(flow)
+}
+
+/// The fitted flow of one segment, remembered. Neither rho nor the numbers of the frames change it.
+pub(super) fn fit_segment(
+    job: &Job,
+    photons: &SegmentPhotons,
+    samples: Option<LayerSamples>,
+) -> Result<Arc<FittedSegment>> {
+    let Project { method, flow, .. } = job.project;
+    let settings = FlowSettings { rho: 1.0, ..flow.clone() };
+    let matched = &photons.matched;
+    let input =
+        FlowInput { matched: Same::of(matched), active: photons.active.clone(), method: *method, settings };
+    job.stages.flows.get(job.slot(photons.number), input, job.progress, |_| {
+        let (layers, reports) = photons.fit(job.project, job.extent, samples, job.meter, job.progress)?;
+        let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
+        Ok(Arc::new(fitted))
+    })
+}
+
+/// Times at which photons are shown while fields are fitted to them.
+pub(super) struct LayerSamples<'a> {
+    /// Times within 0..=1, rising.
+    pub(super) times: &'a [f64],
+    /// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.
+    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+}
+
+impl SegmentPhotons {
+    /// Fits the flow of each layer of groups, and reports on it.
+    pub(super) fn fit(
+        &self,
+        project: &Project,
+        extent: Vec2,
+        mut samples: Option<LayerSamples>,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<(Vec<Layer>, Vec<FlowReport>)> {
+        let (mut layers, mut reports) = (Vec::new(), Vec::new());
+        for groups in &self.layers {
+            let [source, target] = self.columns(groups);
+            let midpoint_offsets = &*column(&self.to, groups, |to| &to.midpoint_offsets);
+            let ActiveConstraints { lines, walls } = &self.active;
+            let number = self.number;
+            let segment = Segment {
+                source: &source,
+                target: &target,
+                extent,
+                settings: &project.flow,
+                lines,
+                walls,
+                number,
+            };
+            let (flow, report) = match &mut samples {
+                None => fit_layer(project.method, &segment, midpoint_offsets, None, meter, progress)?,
+                Some(LayerSamples { times, show }) => {
+                    let show = &mut |i: usize, positions: &[Vec2]| show(groups, i, positions);
+                    let samples = Some(Snapshots { times, show });
+                    fit_layer(project.method, &segment, midpoint_offsets, samples, meter, progress)?
+                }
+            };
+            layers.push(Layer { groups: groups.clone(), flow });
+            reports.push(report);
+        }
+        Ok((layers, reports))
+    }
+
+    /// The positions of some groups at both key frames, one group after the other.
+    pub(super) fn columns(&self, groups: &[usize]) -> [Cow<'_, [Vec2]>; 2] {
+        [&self.from, &self.to].map(|photons| column(photons, groups, |at| &at.positions))
+    }
+}
+
+/// One column of several groups, one after the other; borrowed where it is but one.
+fn column<'a>(
+    photons: &'a [KeyPhotons],
+    groups: &[usize],
+    pick: impl Fn(&'a KeyPhotons) -> &'a [Vec2],
+) -> Cow<'a, [Vec2]> {
+    match groups {
+        [group] => Cow::Borrowed(pick(&photons[*group])),
+        _ => groups.iter().flat_map(|&group| pick(&photons[group])).copied().collect(),
+    }
+}
+
+/// Fits the flow of one layer by a method, and reports on it. `samples` are shown the photons that the method looks at.
+fn fit_layer(
+    method: Movement,
+    segment: &Segment,
+    midpoint_offsets: &[Vec2],
+    samples: Option<Snapshots>,
+    meter: &Meter,
+    progress: &Progress,
+) -> Result<(SegmentFlow, FlowReport)> {
+    match method {
+        Movement::Flow => meter.measure("fit", || {
+            let (fields, report) = fit_with_snapshots(segment, samples, progress)?;
+            Ok((SegmentFlow::Fields(fields), report))
+        }),
+        Movement::Stylized | Movement::Linear => meter.measure("watch", || {
+            let Segment { source, target, extent, settings, .. } = *segment;
+            let (guides, steps) = (settings.guides as usize, settings.steps as usize);
+            let paths = PathTrajectories::new(source, target, midpoint_offsets);
+            if let Some(Snapshots { times, show }) = samples {
+                let mut positions = vec![Vec2::ZERO; source.len()];
+                for (i, &time) in times.iter().enumerate() {
+                    progress.check()?;
+                    paths.positions(time, &mut positions);
+                    show(i, &positions);
+                }
+            }
+            let report = path_report(&paths, extent, guides, steps, progress)?;
+            Ok((SegmentFlow::Paths, report))
+        }),
+    }
+}

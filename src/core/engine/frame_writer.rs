@@ -1,0 +1,125 @@
+//! Writes the gathered light of all frames to files.
+
+use std::path::Path;
+use std::sync::Mutex;
+
+use rayon::prelude::*;
+
+use super::frame_times::FrameTimes;
+use super::summary::BadValues;
+use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, sheet, write_frame};
+use crate::flow::Movement;
+use crate::project::Project;
+use crate::render::{Image, PlaneView, ProgressiveRender, View, Visible};
+use crate::{Error, Progress, Result};
+
+/// Pictures on the contact sheet.
+const SHEET_PICTURES: usize = 12;
+/// Its columns.
+const SHEET_COLUMNS: usize = 4;
+/// Width of one of its pictures in pixels.
+const SHEET_WIDTH: usize = 480;
+
+/// Small pictures in screen values with the numbers of their frames.
+pub(super) type Thumbnails = Vec<(i32, Image)>;
+
+/// Everything that the frames of a run are made from.
+pub(super) struct FrameWriter<'a> {
+    pub(super) project: &'a Project,
+    pub(super) render: &'a ProgressiveRender,
+    pub(super) visible: &'a Visible,
+    pub(super) background: &'a Image,
+    /// The output folder.
+    pub(super) folder: &'a Path,
+    /// The drawn constraints, for the contact sheet.
+    pub(super) drawn: &'a [Drawn],
+    pub(super) plane: PlaneView,
+    /// Told of each file as it is complete.
+    pub(super) saved: &'a (dyn Fn(&Path) + Sync),
+}
+
+impl FrameWriter<'_> {
+    /// Writes all frames and the contact sheet; returns the replaced values, and the pictures on the sheet with their
+    /// numbers.
+    pub(super) fn run(&self, times: &FrameTimes, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
+        progress.begin("write", times.frames.len() as u64);
+        let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
+        let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
+        let view = self.project.render.view.view();
+        let thumbnails = Mutex::new(Vec::new());
+        let repairs: Vec<(i32, Repairs)> = times
+            .frames
+            .par_iter()
+            .map(|&(frame, slot)| {
+                if progress.is_abandoned() {
+                    return Err(Error::Cancelled);
+                }
+                let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                if on_sheet.contains(&frame) {
+                    let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
+                    let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
+                    thumbnails.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((frame, small));
+                }
+                progress.advance(1);
+                Ok((frame, repairs))
+            })
+            .collect::<Result<_>>()?;
+        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
+        let path = self.folder.join("contact_sheet.png");
+        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
+        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
+        let overlay = Overlay { drawn: self.drawn, pixel_from_plane: &pixel_from_plane };
+        sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay)?;
+        (self.saved)(&path);
+        Ok((BadValues::sum(&repairs), thumbnails))
+    }
+
+    /// The current picture of a frame in screen values; none for a frame that is not rendered.
+    pub(super) fn picture(&self, times: &FrameTimes, frame: i32) -> Result<Option<Image>> {
+        let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
+            return Ok(None);
+        };
+        let (texture, _) = self.render.mean(slot)?;
+        let beauty = self.background.plus(&self.visible.gather(&texture));
+        Ok(Some(self.project.render.view.view().apply(&beauty)))
+    }
+
+    /// Writes one frame in all formats; returns its beauty picture.
+    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(Repairs, Image)> {
+        let (texture, passes) = self.render.mean(slot)?;
+        let caustic = self.visible.gather(&texture);
+        let output = &self.project.output;
+        let metadata = self.metadata(frame, passes);
+        let picture = Frame { background: self.background, caustic: &caustic, metadata: &metadata };
+        let pattern = FramePattern::parse(&output.name, "output.name")?;
+        let mut all = Repairs::default();
+        for &format in &output.formats {
+            let path = pattern.path(self.folder, frame, format);
+            all += write_frame(&path, format, &picture, view, output.png_depth())?;
+            (self.saved)(&path);
+        }
+        Ok((all, self.background.plus(&caustic)))
+    }
+
+    fn metadata(&self, frame: i32, passes: usize) -> Metadata {
+        let Project { name, seed, method, flow, render, output, .. } = self.project;
+        // Plain numbers and strings: writing them as JSON has nothing to fail on.
+        let json = |value: serde_json::Result<String>| value.unwrap_or_default();
+        let mut settings = vec![
+            ("project".into(), name.clone()),
+            ("flow".into(), json(serde_json::to_string(flow))),
+            ("render".into(), json(serde_json::to_string(render))),
+        ];
+        if *method != Movement::Flow {
+            settings.push(("method".into(), method.name().into()));
+        }
+        Metadata {
+            frame,
+            frames_per_second: (output.fps[0] as i32, output.fps[1]),
+            seed: *seed,
+            passes: passes as u32,
+            settings,
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The engine: Project -> scene -> photons -> matching -> flow -> passes -> frames.
+//!
+//! ```text
+//! meshes ─► geometry ─► scene ─► emission guide ─► photons (pass, n) ─┐
+//! pictures, points ─► key sources ────────────────────────────────────┴► matching (segment) ─► fit (segment) ─┐
+//! visible, background ◄─ scene, camera                                                                        │
+//!         └──────────► frame ◄─ exposure (pass) ◄─ positions (segment, n, times) ◄────────────────────────────┘
+//! ```
+//!
+//! Each stage remembers its results with the input they were made from (`memo`): a new gamma fits anew but neither traces
+//! nor matches; a key frame that is moved in time leaves the fields as they are; a light that is moved leaves the meshes
+//! as they are. Exposures alone are not remembered. Commands, exports, the live preview, comparisons and reports ask the
+//! same stages; an [`Engine`] that is shared by several users shares its results among them.
+
+mod active;
+mod camera;
+mod check;
+mod compare;
+mod exposure;
+mod fitted_project;
+mod flow;
+mod frame_times;
+mod frame_writer;
+mod gauge;
+mod grouping;
+mod job;
+mod key_photons;
+mod key_sources;
+mod memo;
+mod meter;
+mod moving_segment;
+mod observer;
+mod output_folder;
+mod pairing;
+mod plan;
+mod prepare;
+mod preview;
+mod quality;
+mod render;
+mod stages;
+mod summary;
+mod tracks;
+mod trajectories;
+mod walk;
+
+use std::sync::Arc;
+
+pub use check::{CastCaustic, CheckReport};
+pub use compare::{Compared, Comparison};
+pub use fitted_project::{FittedProject, PlaneLight, PlanePasses};
+pub use gauge::{TraceGauge, Traced};
+pub use grouping::CausticFlux;
+pub use memo::Client;
+pub use meter::StageCost;
+pub use moving_segment::{Halfway, MovingSegment};
+pub use observer::RenderObserver;
+pub use output_folder::{prepare_folder, write_report};
+pub use plan::{LeftOut, Plan};
+pub use preview::{FieldAt, OrbitView, Preview, PreviewExposure, Shot, covered_area};
+pub use quality::Quality;
+pub use summary::{BadValues, Energy, FlowNumbers, Summary};
+
+use crate::project::{AssetFolder, Project};
+use crate::{Progress, Result};
+use job::Job;
+use meter::Meter;
+use prepare::Prepared;
+use stages::Stages;
+
+/// The stages of projects in one folder, with what they remember. Clones share it.
+#[derive(Clone)]
+pub struct Engine {
+    stages: Arc<Stages>,
+    client: Client,
+}
+
+impl Engine {
+    /// An engine that remembers nothing and finds files through `assets`.
+    pub fn new(assets: AssetFolder) -> Self {
+        Self { stages: Arc::new(Stages::new(assets)), client: Client::Main }
+    }
+
+    /// An engine that finds the same files and remembers nothing.
+    pub fn afresh(&self) -> Self {
+        Self::new(self.stages.assets.clone())
+    }
+
+    /// The same engine on behalf of another user: results are shared, and each user keeps those it needs.
+    pub fn on_behalf_of(&self, client: Client) -> Self {
+        Self { stages: self.stages.clone(), client }
+    }
+
+    fn prepare(&self, project: &Project, meter: &Meter, progress: &Progress) -> Result<Prepared> {
+        meter.measure("load", || self.stages.prepare(self.client, project, progress))
+    }
+
+    fn job<'a>(
+        &'a self,
+        prepared: &'a Prepared,
+        meter: &'a Meter,
+        progress: &'a Progress,
+    ) -> Result<Job<'a>> {
+        Job::new(&self.stages, self.client, prepared, meter, progress)
+    }
+}

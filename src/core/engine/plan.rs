@@ -1,0 +1,279 @@
+//! The plan of work for a project. Parts that are left out cost neither time nor memory.
+
+use glam::Vec2;
+use serde::Serialize;
+
+use crate::constraint::Constraint;
+use crate::flow::{Movement, TurbulenceSettings};
+use crate::matching::Method;
+use crate::project::{Project, Shows};
+use crate::render::frames::FrameStore;
+use crate::{Error, Result};
+
+/// A part of the work that a project does not need.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The part.
+    pub what: &'static str,
+    /// The reason.
+    pub why: &'static str,
+}
+
+/// The work ahead and its expected cost.
+#[derive(Clone, Debug, Serialize)]
+pub struct Plan {
+    /// Photons of one pass.
+    pub photons: usize,
+    /// Progressive passes.
+    pub passes: usize,
+    /// Requested frames.
+    pub frames: usize,
+    /// Parts that are not needed.
+    pub left_out: Vec<LeftOut>,
+    /// The stages in order, with the seconds each is expected to take.
+    pub stages: Vec<(&'static str, f64)>,
+    /// Expected peak memory in MiB.
+    pub memory_mib: f64,
+    /// Expected size of the scratch file that holds all frames while they are rendered, in MiB.
+    pub scratch_mib: f64,
+}
+
+/// Measured on two cores of a server of 2024; used by the progress bar and by `check` only.
+mod pace {
+    /// Caustic photons landed per second.
+    pub(super) const TRACE: f64 = 1.0e6;
+    /// Points matched per second, the continuous map included.
+    pub(super) const MATCH: f64 = 0.25e6;
+    /// Points sent through a known map and made a bijection, per second.
+    pub(super) const REMATCH: f64 = 1.2e6;
+    /// Points paired per second by the method of 2016.
+    pub(super) const STYLIZED: f64 = 0.2e6;
+    /// Unknowns solved per second in one step of the fit.
+    pub(super) const FIT: f64 = 1.0e6;
+    /// Photons carried over one step, per second.
+    pub(super) const ADVECT: f64 = 10.0e6;
+    /// Photons counted into the texture per second.
+    pub(super) const SPLAT: f64 = 40.0e6;
+    /// Texels filtered and stored per second.
+    pub(super) const FILTER: f64 = 26.0e6;
+    /// Camera samples towards the receiver per second.
+    pub(super) const LOOKS: f64 = 2.0e6;
+    /// Light paths of the background per second.
+    pub(super) const PATHS: f64 = 0.3e6;
+    /// Pixels gathered, encoded and written per second.
+    pub(super) const WRITE: f64 = 4.7e6;
+}
+
+/// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given;
+/// `fixed` tells that every pass has the same points.
+pub(super) fn plan(
+    project: &Project,
+    extent: Vec2,
+    frames: usize,
+    given_rows: Option<usize>,
+    fixed: bool,
+) -> Plan {
+    let photons = given_rows.unwrap_or(project.render.photons as usize);
+    let passes = if fixed { 1 } else { project.render.passes as usize };
+    let mut plan = Plan {
+        photons,
+        passes,
+        frames,
+        left_out: left_out(project, fixed),
+        stages: Vec::new(),
+        memory_mib: 0.0,
+        scratch_mib: 0.0,
+    };
+    plan.stages = stages(project, extent, &plan);
+    plan.memory_mib = memory_mib(project, extent, &plan);
+    plan.scratch_mib = FrameStore::bytes(texels(project, extent) as usize, frames) as f64 / MIB;
+    plan
+}
+
+/// Whether a part is not needed, its name, and the reason.
+type Unneeded = (bool, &'static str, &'static str);
+
+fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
+    let still = project.keys.len() < 2;
+    let (scene, traces) = (project.scene.is_some(), project.traces());
+    let mut parts: Vec<Unneeded> = vec![
+        (!scene, "background and camera", "the project has no scene; the plane is seen straight on"),
+        (!scene, "photon tracing", "the project has no scene"),
+        (scene && !traces, "photon tracing", "no key shows the physical caustic"),
+        (still, "matching, fit and advection", "there is one key frame, so nothing moves"),
+        (
+            project.caustics.is_empty(),
+            "grouping by caustics",
+            "no caustic is named, so all light moves as one",
+        ),
+    ];
+    if !still {
+        parts.extend(unneeded_in_motion(project));
+    }
+    let repeats = fixed && project.render.passes > 1;
+    parts.push((
+        repeats,
+        "passes after the first",
+        "every key is a file of points, and one pass shows them all",
+    ));
+    parts.into_iter().filter(|part| part.0).map(|(_, what, why)| LeftOut { what, why }).collect()
+}
+
+/// The parts between matching and arrival, for projects whose light moves.
+fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
+    let (flow, given) = (project.fits(), project.matching == Method::Given);
+    let [linear, stylized] = [Movement::Linear, Movement::Stylized].map(|method| project.method == method);
+    let rests = (1..project.keys.len()).any(|key| layers(project, key) == 0);
+    let gamma = project.flow.gamma;
+    let drawn = || project.constraints.iter().filter(|constraint| constraint.is_enabled());
+    let walls = drawn().any(|constraint| matches!(constraint, Constraint::Wall(_)));
+    let lines = drawn().any(|constraint| matches!(constraint, Constraint::DirectedLine(_)));
+    [
+        (given, "transport map", "the rows of the point files are paired as given"),
+        (stylized, "transport map", "the method is stylized: a thin-plate warp takes its place"),
+        (linear, "fit and advection", "the method is linear: photons go straight"),
+        (stylized, "fit and advection", "the method is stylized: each photon has a cubic way of its own"),
+        (!flow, "turbulence, directed lines and walls", "only the flow heeds them"),
+        (rests, "matching and fit of a segment", "all light is the physical caustic before and after"),
+        (flow && gamma == 0.0, "scalar potential", "gamma is 0: half the unknowns"),
+        (flow && gamma == 1.0, "stream function", "gamma is 1: half the unknowns"),
+        (flow && !walls, "ways around walls", "no wall is drawn"),
+        (flow && !lines, "fit to directed lines", "none is drawn"),
+        (flow && swirls(project).is_none(), "turbulence", "the flow asks for none, or for strength 0"),
+    ]
+}
+
+/// About the texels of the receiver texture; its real size follows from the camera.
+fn texels(project: &Project, extent: Vec2) -> f64 {
+    let render = &project.render;
+    let side = f64::from(render.max_texels).min(1.5 * f64::from(render.width.max(render.height)));
+    side * side * f64::from(extent.x * extent.y)
+}
+
+fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
+    let render = &project.render;
+    let layers: Vec<usize> = (1..project.keys.len()).map(|key| layers(project, key)).collect();
+    let segments = layers.iter().filter(|layers| **layers > 0).count() as f64;
+    let (photons, passes) = (plan.photons as f64, plan.passes as f64);
+    let pixels = f64::from(render.width) * f64::from(render.height);
+    let steps = segments * f64::from(project.flow.steps);
+    let traced = project.traces();
+    let trace = if traced { photons / pace::TRACE } else { 0.0 };
+    let mut stages = Vec::new();
+    stages.push(("visible", pixels * f64::from(render.camera_samples) / pace::LOOKS));
+    if project.scene.is_some() {
+        stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
+    }
+    if traced {
+        stages.push(("trace", trace));
+    }
+    stages.extend(motion_stages(project, extent, photons, &layers));
+    // Each noise grid is asked for a velocity as the fitted field is.
+    let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
+    let per_pass = trace
+        + segments * photons / match_pace(project.method)[1]
+        + if project.fits() { steps * photons * fields_asked / pace::ADVECT } else { 0.0 }
+        + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
+    stages.push(("render", passes * per_pass));
+    stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
+    stages
+}
+
+/// Matching and fit of each segment, whose fields are counted by `layers`.
+fn motion_stages(
+    project: &Project,
+    extent: Vec2,
+    photons: f64,
+    layers: &[usize],
+) -> Vec<(&'static str, f64)> {
+    let fit = f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT);
+    let mut stages = Vec::new();
+    for &layers in layers {
+        let moving = if layers > 0 { photons } else { 0.0 };
+        stages.push(("match", moving / match_pace(project.method)[0]));
+        if project.fits() {
+            stages.extend((0..layers).map(|_| ("fit", fit)));
+        }
+    }
+    stages
+}
+
+/// Points paired per second by the first pass, and by each later one.
+fn match_pace(method: Movement) -> [f64; 2] {
+    match method {
+        Movement::Flow | Movement::Linear => [pace::MATCH, pace::REMATCH],
+        Movement::Stylized => [pace::STYLIZED; 2],
+    }
+}
+
+/// The turbulence, where it is not left out.
+fn swirls(project: &Project) -> Option<&TurbulenceSettings> {
+    project.flow.turbulence.as_ref().filter(|turbulence| project.fits() && turbulence.is_on())
+}
+
+/// The number of fields that carry light to key `key`: a shared one, and one for each caustic with its own flow; light that is
+/// physical before and after needs none.
+fn layers(project: &Project, key: usize) -> usize {
+    let (before, after) = (&project.keys[key - 1], &project.keys[key]);
+    let moves = |caustic: Option<&str>| {
+        [before, after].iter().any(|key| *key.shown_by(caustic) != Shows::PhysicalCaustic)
+    };
+    let (own, shared): (Vec<_>, Vec<_>) =
+        project.caustics.iter().filter(|c| moves(Some(&c.name))).partition(|c| c.own_flow);
+    own.len() + usize::from(moves(None) || !shared.is_empty())
+}
+
+/// Unknowns of one linear system.
+fn unknowns(project: &Project, extent: Vec2) -> f64 {
+    let nodes: f64 = project.flow.grid.cells(extent).iter().map(|cells| f64::from(*cells) + 3.0).product();
+    let both = project.flow.gamma > 0.0 && project.flow.gamma < 1.0;
+    if both { 2.0 * nodes } else { nodes }
+}
+
+fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
+    let moving = project.keys.len() > 1;
+    // Two keys' positions and flux, the pairing, the carrier's copy.
+    let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
+    let layers: usize = (1..project.keys.len()).map(|key| layers(project, key)).sum();
+    let fields = if project.fits() {
+        8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1)
+    } else {
+        0.0
+    };
+    let noises = match swirls(project) {
+        Some(turbulence) => project.keys.len().saturating_sub(1) as f64 * turbulence.bytes(extent) as f64,
+        None => 0.0,
+    };
+    let pixels = f64::from(project.render.width) * f64::from(project.render.height);
+    // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
+    let textures = 6.0 * 16.0 * texels(project, extent);
+    60.0 + (photons + fields + noises + pixels * 600.0 + textures) / MIB
+}
+
+const MIB: f64 = 1_048_576.0;
+
+impl Plan {
+    /// Refuses work that would not fit into the free memory, where the system tells how much that is.
+    pub(super) fn require_memory(&self) -> Result<()> {
+        let Some(free) = free_mib().filter(|free| self.memory_mib > *free) else { return Ok(()) };
+        let what = format!(
+            "needs about {:.1} GiB of memory, {:.1} GiB are free; ask for fewer photons, a smaller picture or fewer texels",
+            self.memory_mib / 1024.0,
+            free / 1024.0
+        );
+        Err(Error::Limit { place: "render".into(), what })
+    }
+
+    /// Seconds of all stages.
+    pub fn seconds(&self) -> f64 {
+        self.stages.iter().map(|(_, seconds)| seconds).sum()
+    }
+}
+
+/// Memory that a program may take without driving others out, in MiB: proc_meminfo(5).
+fn free_mib() -> Option<f64> {
+    let memory = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = memory.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}

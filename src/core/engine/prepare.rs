@@ -1,0 +1,119 @@
+//! The first step of every command: a project checked, its files opened, its work planned.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::frame_times::FrameTimes;
+use super::key_sources::KeySources;
+use super::memo::{Client, Slot};
+use super::plan::{self, Plan};
+use super::stages::Stages;
+use super::{Quality, active, grouping};
+use crate::flow::{FlowSettings, GridSize};
+use crate::project::{Project, Shows};
+use crate::render::Paper;
+use crate::scene::Scene;
+use crate::{Progress, Result};
+
+/// A project whose files are open and whose work is planned.
+#[derive(Clone)]
+pub(super) struct Prepared {
+    pub(super) project: Project,
+    /// The quality whose limits hold beside the project's own numbers.
+    pub(super) quality: Quality,
+    pub(super) scene: Option<Arc<Scene>>,
+    pub(super) extent: Vec2,
+    pub(super) sources: KeySources,
+    pub(super) times: FrameTimes,
+    pub(super) plan: Plan,
+    pub(super) notes: Vec<String>,
+    /// Photons of one pass.
+    pub(super) photons: usize,
+}
+
+impl Stages {
+    /// Checks a project and opens every file it names.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the project or its files; cancelled.
+    pub(super) fn prepare(&self, client: Client, project: &Project, progress: &Progress) -> Result<Prepared> {
+        project.check()?;
+        let frames = project.frames()?;
+        let scene = match &project.scene {
+            None => None,
+            Some(desc) => Some(self.scene(client, desc, progress)?),
+        };
+        let (scene, of_scene) = scene.unzip();
+        let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
+        let open = |shows: &Shows, place: &str, index: usize| {
+            let slot = Slot { client, quality: Quality::Final, index };
+            self.source(slot, (shows, place), extent, progress)
+        };
+        let sources = KeySources::load(project, scene.as_deref(), &open)?;
+        let mut notes: Vec<String> = of_scene.iter().flat_map(|notes| &**notes).cloned().collect();
+        notes.extend(sources.notes());
+        notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
+        notes.extend(stretch_note(project.flow.grid, extent));
+        notes.extend(active::notes(project, extent));
+        notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
+        let times = FrameTimes::new(&project.keys, &frames);
+        let plan = plan::plan(
+            project,
+            extent,
+            frames.len(),
+            sources.given_rows(project.matching)?,
+            sources.is_fixed(project.render.photons as usize),
+        );
+        let photons = plan.photons;
+        let (project, quality) = (project.clone(), Quality::Final);
+        Ok(Prepared { project, quality, scene, extent, sources, times, plan, notes, photons })
+    }
+}
+
+impl Prepared {
+    /// The look of light on the plane.
+    pub(super) fn paper(&self) -> Paper {
+        self.scene.as_ref().map_or(Paper::WHITE, |scene| Paper::of(scene.receiver()))
+    }
+
+    /// The same with at most `photons` photons in a pass, at a lower quality.
+    ///
+    /// # Errors
+    /// Point files of different lengths whose rows are paired as given.
+    pub(super) fn limited(&self, quality: Quality, photons: usize) -> Result<Self> {
+        let (sources, photons) = self.sources.thinned(self.project.matching, photons)?;
+        Ok(Self { quality, sources, photons, ..self.clone() })
+    }
+
+    /// The same with other random numbers and another number of photons in a pass; what was fitted stays.
+    pub(super) fn reseeded(&self, seed: u64, photons: usize) -> Self {
+        let project = Project { seed, ..self.project.clone() };
+        Self { project, sources: self.sources.with_seed(seed), photons, ..self.clone() }
+    }
+}
+
+/// A grid of long cells smooths more along them than across.
+fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
+    let [columns, rows] = grid.cells(extent).map(|n| n as f32);
+    let [width, height] = [extent.x / columns, extent.y / rows];
+    let stretch = width.max(height) / width.min(height);
+    (stretch > 2.0).then(|| {
+        format!(
+            "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
+        )
+    })
+}
+
+/// Steps in which photons cross more than a cell of the noise do not follow its swirls.
+fn swirl_note(flow: &FlowSettings) -> Option<String> {
+    let turbulence = flow.turbulence.as_ref()?;
+    let finest = *turbulence.grids.iter().max()?;
+    let needed = (turbulence.speed() * finest as f32).ceil();
+    (needed > flow.steps as f32).then(|| {
+        format!(
+            "flow.turbulence: in one step the photons cross {:.1} cells of the {finest} x {finest} noise; give flow.steps {needed} to follow its swirls",
+            needed / flow.steps as f32
+        )
+    })
+}

@@ -1,0 +1,79 @@
+//! The stage that carries the photons of a preview through the frames of a segment.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::growing::{Composition, Growing};
+use crate::engine::flow::{FittedSegment, LayerSamples, fit_segment};
+use crate::engine::job::Job;
+use crate::engine::memo::Same;
+use crate::engine::trajectories::SegmentTrajectories;
+use crate::engine::walk::{Matched, SegmentPhotons};
+use crate::{Error, Result};
+
+/// Everything that the frames of a segment depend on.
+#[derive(PartialEq)]
+pub(in crate::engine) struct PositionsInput {
+    fitted: Same<FittedSegment>,
+    matched: Same<Matched>,
+    times: Vec<f64>,
+}
+
+/// All photons at the frames of a segment.
+pub(super) type Frames = Vec<Arc<[Vec2]>>;
+
+impl Growing<'_> {
+    /// Fits a segment and shows its frames on the way; returns them where they were made.
+    pub(super) fn fit(
+        &mut self,
+        job: &Job,
+        photons: &SegmentPhotons,
+    ) -> Result<(Arc<FittedSegment>, Option<Frames>)> {
+        let (slots, times) = self.between_keys(photons.number);
+        let mut composition = Composition::new(&photons.from, photons.layers.len(), times.len());
+        let mut frames = Vec::new();
+        let show = &mut |groups: &[usize], moment: usize, positions: &[Vec2]| {
+            let composed = composition.as_mut().and_then(|c| c.take(groups, moment, positions));
+            if let Some(positions) = composed {
+                self.add(slots[moment], &positions);
+                frames.push(positions);
+            }
+        };
+        let samples = Some(LayerSamples { times: &times, show });
+        let fitted = fit_segment(job, photons, samples)?;
+        Ok((fitted, Some(frames).filter(|frames| frames.len() == times.len())))
+    }
+
+    /// Carries the photons of a segment through its frames along a fitted flow; `known` are the frames where they were
+    /// made by the fit.
+    pub(super) fn carry(
+        &mut self,
+        job: &Job,
+        photons: &SegmentPhotons,
+        fitted: &Arc<FittedSegment>,
+        known: Option<Frames>,
+    ) -> Result<()> {
+        let (slots, times) = self.between_keys(photons.number);
+        let input = PositionsInput { fitted: Same::of(fitted), matched: Same::of(&photons.matched), times };
+        let memo = &job.stages.positions;
+        let frames = memo.get(job.slot(photons.number), input, job.progress, |input| match known {
+            Some(frames) => Ok(Arc::new(frames)),
+            None => job.meter.measure("carry", || {
+                let mut trajectories = SegmentTrajectories::new(fitted, &photons.from, &photons.to);
+                let mut frames = Vec::with_capacity(slots.len());
+                for (&slot, &time) in slots.iter().zip(&input.times) {
+                    let mut positions = vec![Vec2::ZERO; trajectories.len()];
+                    trajectories.positions_at(time, &mut positions, &job.progress.inner())?;
+                    let positions = Arc::from(positions);
+                    self.add(slot, &positions);
+                    frames.push(positions);
+                }
+                Ok::<_, Error>(Arc::new(frames))
+            }),
+        })?;
+        slots.iter().zip(&*frames).for_each(|(&slot, positions)| self.add(slot, positions));
+        self.fitted(photons.number, fitted);
+        Ok(())
+    }
+}

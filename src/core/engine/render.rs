@@ -1,0 +1,142 @@
+//! Renders a project's frames, or writes its tracks.
+
+use std::path::Path;
+
+use super::camera::CameraView;
+use super::fitted_project::FittedProject;
+use super::frame_writer::{FrameWriter, Thumbnails};
+use super::job::Job;
+use super::memo::Slot;
+use super::meter::Meter;
+use super::observer::RenderObserver;
+use super::prepare::Prepared;
+use super::summary::{BadValues, Done, Summary};
+use super::{Engine, Quality, active, tracks};
+use crate::project::Project;
+use crate::render::{PlaneView, ProgressiveRender, first_radius};
+use crate::{Error, Progress, Result};
+
+/// The output folder of a render, and those who are told of it.
+pub(super) struct Output<'a> {
+    pub(super) folder: &'a Path,
+    pub(super) progress: &'a Progress,
+    /// Told of each file as it is complete.
+    pub(super) saved: &'a (dyn Fn(&Path) + Sync),
+    pub(super) observer: &'a dyn RenderObserver,
+}
+
+/// A finished render, with what a comparison asks of it.
+pub(super) struct Rendered {
+    pub(super) summary: Summary,
+    pub(super) fitted: FittedProject,
+    pub(super) thumbnails: Thumbnails,
+    pub(super) plane: PlaneView,
+}
+
+impl Engine {
+    /// Renders the project's frames into the folder `out`, which must exist. `saved` is told of each file.
+    ///
+    /// A run that is cancelled after its first pass still writes all frames, at the quality reached.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files, before any frame is written; input and output; cancelled before
+    /// the first pass was complete.
+    pub fn render(
+        &self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Summary> {
+        self.render_observed(project, out, progress, saved, &())
+    }
+
+    /// As [`Engine::render`], with an observer who sees the frames grow.
+    ///
+    /// # Errors
+    /// As [`Engine::render`].
+    pub fn render_observed(
+        &self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+        observer: &dyn RenderObserver,
+    ) -> Result<Summary> {
+        let meter = Meter::default();
+        let prepared = self.prepare(project, &meter, progress)?;
+        prepared.plan.require_memory()?;
+        progress.set_road(prepared.plan.stages.clone());
+        observer.planned(&prepared.plan);
+        let output = Output { folder: out, progress, saved, observer };
+        self.render_prepared(prepared, &meter, &output).map(|rendered| rendered.summary)
+    }
+
+    /// All stages of a render of a prepared project.
+    pub(super) fn render_prepared(
+        &self,
+        prepared: Prepared,
+        meter: &Meter,
+        output: &Output,
+    ) -> Result<Rendered> {
+        let &Output { folder, progress, saved, observer } = output;
+        let view = CameraView::of_render(&prepared);
+        let slot = Slot { client: self.client, quality: Quality::Final, index: 0 };
+        let (visible, background) = self.stages.look(slot, &view, meter, progress)?;
+        let fitted = self.fit_prepared(prepared, meter, progress)?;
+
+        let FittedProject { prepared, flow, .. } = &fitted;
+        let (project, times) = (&prepared.project, &prepared.times);
+        let first = first_radius(&project.render, prepared.extent);
+        let render = ProgressiveRender::new(*visible.layout(), first, times.moments.len(), folder)?;
+        let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
+        let writer = FrameWriter {
+            project,
+            render: &render,
+            visible: &visible,
+            background: &background,
+            folder,
+            drawn: &active::drawn(project),
+            plane: plane.clone(),
+            saved,
+        };
+        let passed = |passes| observer.passed(passes, &|frame| writer.picture(times, frame));
+        let (passes, balance) =
+            meter.measure("render", || fitted.render_passes(&render, progress, &passed))?;
+        let (bad_values, thumbnails) = meter.measure("write", || writer.run(times, progress))?;
+        let done = Done { command: "render", passes, flow, balance, bad_values };
+        let summary = Summary::new(prepared, done, meter);
+        Ok(Rendered { summary, fitted, thumbnails, plane })
+    }
+
+    /// Fits the flow and writes `tracks.npy`, `flux.npy` and `fields.npz` into the folder `out`.
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files; input and output; cancelled.
+    pub fn fit(
+        &self,
+        project: &Project,
+        out: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Summary> {
+        let meter = Meter::default();
+        let prepared = self.prepare(&tracks::with_guides_alone(project), &meter, progress)?;
+        if project.keys.len() < 2 {
+            return Err(Error::value(
+                "keys",
+                "there is one key frame, so there is no flow to fit; add another",
+            ));
+        }
+        let road = prepared.plan.stages.iter().copied();
+        progress
+            .set_road(road.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect());
+        let fitted = self.fit_prepared(prepared, &meter, progress)?;
+        let FittedProject { prepared, flow, .. } = &fitted;
+        let inner = progress.inner();
+        let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
+        let balance = meter.measure("write", || tracks::write(&job, flow, out, progress, saved))?;
+        let done = Done { command: "fit", passes: 0, flow, balance, bad_values: BadValues::default() };
+        Ok(Summary::new(prepared, done, &meter))
+    }
+}

@@ -1,0 +1,134 @@
+//! The stages of the engine, with what they remember.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::Quality;
+use super::camera::ViewInput;
+use super::flow::{FittedSegment, FlowInput};
+use super::job::Job;
+use super::key_sources::{self, KeySource, SourceInput};
+use super::memo::{Client, FileStamp, Memo, Same, Slot};
+use super::preview::PositionsInput;
+use super::walk::{MatchInput, Matched};
+use crate::photon::{Lesson, Photons, Tracer};
+use crate::project::{AssetFolder, Shows};
+use crate::render::{Image, Visible};
+use crate::scene::{Geometry, LightDesc, MeshDesc, ReceiverDesc, Scene, SceneDesc};
+use crate::{Progress, Result};
+
+/// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
+pub(super) struct Stages {
+    pub(super) assets: AssetFolder,
+    geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), Noted<Geometry>>,
+    scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
+    sources: Memo<SourceInput, Arc<KeySource>>,
+    guides: Memo<GuideInput, Arc<Lesson>>,
+    pub(super) photons: Memo<(Same<Lesson>, usize), Arc<Photons>>,
+    pub(super) matchings: Memo<MatchInput, Arc<Matched>>,
+    pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
+    pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
+    pub(super) visible: Memo<ViewInput, Arc<Visible>>,
+    pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
+}
+
+/// A result, and notes for the artist.
+pub(super) type Noted<T> = (Arc<T>, Arc<Vec<String>>);
+
+/// Everything that the emission guide of a scene depends on.
+#[derive(PartialEq)]
+struct GuideInput {
+    geometry: Same<Geometry>,
+    lights: Vec<LightDesc>,
+    receiver: ReceiverDesc,
+    seed: u64,
+}
+
+impl Stages {
+    /// Stages that remember nothing and find files through `assets`.
+    pub(super) fn new(assets: AssetFolder) -> Self {
+        Self {
+            assets,
+            geometry: Memo::default(),
+            scenes: Memo::default(),
+            sources: Memo::default(),
+            guides: Memo::default(),
+            photons: Memo::default(),
+            matchings: Memo::default(),
+            flows: Memo::default(),
+            positions: Memo::default(),
+            visible: Memo::default(),
+            backgrounds: Memo::default(),
+        }
+    }
+
+    /// A scene with its notes. Meshes are read again only if they, or their files, changed.
+    ///
+    /// # Errors
+    /// The first value of the scene that cannot be used; a mesh that cannot be read; cancelled.
+    pub(super) fn scene(
+        &self,
+        client: Client,
+        desc: &SceneDesc,
+        progress: &Progress,
+    ) -> Result<Noted<Scene>> {
+        desc.check("scene")?;
+        // A scene without meshes is the bare plane of a project that has no scene; it takes no slot from the others.
+        let slot = Slot { client, quality: Quality::Final, index: usize::from(desc.meshes.is_empty()) };
+        // A file that cannot be found has no stamp; reading it tells why.
+        let stamp = |mesh: &MeshDesc| Some(FileStamp::of(&self.assets.resolve(&mesh.file, "").ok()?));
+        let input = (desc.meshes.clone(), desc.meshes.iter().filter_map(stamp).collect());
+        let (geometry, of_meshes) = self.geometry.get(slot, input, progress, |(meshes, _)| {
+            let resolve = |path: &str, place: &str| self.assets.resolve(path, place);
+            Geometry::load(meshes, &resolve, progress).map(noted)
+        })?;
+        let input = (desc.clone(), Same::of(&geometry));
+        let (scene, of_scene) =
+            self.scenes.get(slot, input, progress, |_| Scene::with(desc, geometry).map(noted))?;
+        Ok((scene, Arc::new(of_meshes.iter().chain(&*of_scene).cloned().collect())))
+    }
+
+    /// The source of light that `shows` asks for at `place` of the project, read again only if its file changed.
+    ///
+    /// # Errors
+    /// A file that cannot be read; cancelled.
+    pub(super) fn source(
+        &self,
+        slot: Slot,
+        (shows, place): (&Shows, &str),
+        extent: Vec2,
+        progress: &Progress,
+    ) -> Result<Arc<KeySource>> {
+        progress.check()?;
+        let (input, file): (_, Option<PathBuf>) = SourceInput::new(shows, place, extent, &self.assets)?;
+        let open = |_: &SourceInput| key_sources::open(shows, file.as_deref(), place, extent).map(Arc::new);
+        self.sources.get(slot, input, progress, open)
+    }
+
+    /// The emission guide of a job's scene.
+    ///
+    /// # Errors
+    /// No caustic falls on the receiver; cancelled.
+    pub(super) fn guide(&self, job: &Job, scene: &Arc<Scene>) -> Result<Arc<Lesson>> {
+        let Some(desc) = &job.project.scene else { return learn(scene, job) };
+        let input = GuideInput {
+            geometry: Same::of(scene.geometry()),
+            lights: desc.lights.clone(),
+            receiver: desc.receiver.clone(),
+            seed: job.sources.seed(),
+        };
+        let slot = Slot { quality: Quality::Final, ..job.slot(0) };
+        self.guides.get(slot, input, job.progress, |_| learn(scene, job))
+    }
+}
+
+fn learn(scene: &Arc<Scene>, job: &Job) -> Result<Arc<Lesson>> {
+    let learn = || Tracer::new(scene, job.sources.seed(), job.progress);
+    job.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.lesson().clone()))
+}
+
+fn noted<T>((result, notes): (T, Vec<String>)) -> Noted<T> {
+    (Arc::new(result), Arc::new(notes))
+}

@@ -1,0 +1,280 @@
+//! The summary of a run: `summary.json` and the lines at the end of a command.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::exposure::EnergyBalance;
+use super::flow::FittedFlow;
+use super::grouping::{CausticFlux, notes_on_dark};
+use super::meter::{Meter, StageCost};
+use super::pairing::TransportCost;
+use super::plan::LeftOut;
+use super::prepare::Prepared;
+use crate::constraint::Constraint;
+use crate::export::Repairs;
+use crate::flow::FlowReport;
+
+/// The numbers of the flow, the worst over all segments.
+#[derive(Clone, Debug, Serialize)]
+pub struct FlowNumbers {
+    /// The report of the fits.
+    #[serde(flatten)]
+    pub flow: FlowReport,
+    /// Mean squared distance of the matching, plane units squared.
+    pub transport_cost: f64,
+    /// The same over a lower bound of the optimum; absent where rows are paired as given, and where the method has no
+    /// transport map to tell one (a comparison takes that of the other methods).
+    pub transport_cost_ratio: Option<f64>,
+    /// Flux of all photons over the requested flux; the frame farthest from 1.
+    pub flux_ratio: f64,
+}
+
+impl FlowNumbers {
+    /// Of each layer of one segment.
+    pub(super) fn of_segment(reports: Vec<FlowReport>, cost: &TransportCost) -> impl Iterator<Item = Self> {
+        let (transport_cost, transport_cost_ratio) = (cost.mean(), cost.ratio(cost.bound));
+        // Each layer has photons of its own, so those that walls shut off add up.
+        let unreachable = reports.iter().map(|report| report.unreachable).sum();
+        let of = move |flow| {
+            let flow = FlowReport { unreachable, ..flow };
+            Self { flow, transport_cost, transport_cost_ratio, flux_ratio: 1.0 }
+        };
+        reports.into_iter().map(of)
+    }
+
+    /// The worse of two in every number.
+    pub(super) fn worst(self, other: Self) -> Self {
+        let ratios = [self.transport_cost_ratio, other.transport_cost_ratio];
+        Self {
+            flow: self.flow.worst(&other.flow),
+            transport_cost: self.transport_cost.max(other.transport_cost),
+            transport_cost_ratio: ratios.into_iter().flatten().reduce(f64::max),
+            flux_ratio: if (other.flux_ratio - 1.0).abs() > (self.flux_ratio - 1.0).abs() {
+                other.flux_ratio
+            } else {
+                self.flux_ratio
+            },
+        }
+    }
+}
+
+/// The conservation of flux.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Energy {
+    /// Flux in the receiver texture over flux of the photons on it, the frame farthest from 1.
+    pub texture_ratio: Option<f64>,
+    /// Photons beyond the texture in the frame with most of them.
+    pub photons_outside: usize,
+}
+
+/// Values that were replaced so that files hold only finite numbers.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct BadValues {
+    /// Values that were not finite, replaced by 0.
+    pub nonfinite_replaced: u64,
+    /// Values too large for half floats, clamped.
+    pub half_clamped: u64,
+    /// The frames that hold them.
+    pub frames: Vec<i32>,
+}
+
+/// The summary of one run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// "render" or "fit".
+    pub command: &'static str,
+    /// The project's name.
+    pub project: String,
+    /// This program and its version.
+    pub software: String,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Photons of one pass.
+    pub photons: usize,
+    /// Passes that were finished.
+    pub passes: usize,
+    /// Passes that were planned; more than were finished in a run that was stopped.
+    pub passes_planned: usize,
+    /// Frames that were written.
+    pub frames: usize,
+    /// The flow; absent where nothing moves.
+    #[serde(flatten)]
+    pub flow: Option<FlowNumbers>,
+    /// The light of each named caustic, and of the rest: their photons follow each other in the tracks. Absent where none
+    /// is named.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub caustics: Vec<CausticFlux>,
+    /// Whether walls were drawn.
+    #[serde(skip)]
+    pub walled: bool,
+    /// Where the light went.
+    pub energy: Energy,
+    /// Replaced values.
+    pub bad_values: BadValues,
+    /// Seconds and peak memory of each stage.
+    pub stages: Vec<StageCost>,
+    /// Seconds of all stages.
+    pub seconds: f64,
+    /// Parts that the project did not need.
+    pub left_out: Vec<LeftOut>,
+    /// Notes for the artist.
+    pub notes: Vec<String>,
+}
+
+impl BadValues {
+    /// Over all frames.
+    pub(super) fn sum(repairs: &[(i32, Repairs)]) -> Self {
+        let bad = |r: &Repairs| r.nonfinite_replaced > 0 || r.half_clamped > 0;
+        Self {
+            nonfinite_replaced: repairs.iter().map(|(_, r)| r.nonfinite_replaced).sum(),
+            half_clamped: repairs.iter().map(|(_, r)| r.half_clamped).sum(),
+            frames: repairs.iter().filter(|(_, r)| bad(r)).map(|(frame, _)| *frame).collect(),
+        }
+    }
+}
+
+/// A note on photons that walls shut off from their targets.
+pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
+    (flow.unreachable > 0).then(|| {
+        format!(
+            "walls shut {} photons off from their targets: these go straight through; leave a gap, or move the target",
+            flow.unreachable
+        )
+    })
+}
+
+/// A note on a solver that stopped above the tolerance of the project.
+fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
+    (flow.solver_residual > tolerance).then(|| {
+        format!(
+            "the fit stopped after {} iterations at a residual of {:.1e} where {tolerance:.0e} is asked for: take a larger alpha, or a lower beta and weight of lines",
+            flow.solver_iterations, flow.solver_residual
+        )
+    })
+}
+
+/// The results of a run.
+pub(super) struct Done<'a> {
+    pub(super) command: &'static str,
+    pub(super) passes: usize,
+    pub(super) flow: &'a FittedFlow,
+    pub(super) balance: EnergyBalance,
+    pub(super) bad_values: BadValues,
+}
+
+impl Summary {
+    pub(super) fn new(prepared: &Prepared, done: Done, meter: &Meter) -> Self {
+        let (project, balance) = (&prepared.project, done.balance);
+        let flow = done.flow.numbers.clone();
+        let flow = flow.map(|mut numbers| {
+            numbers.flux_ratio = balance.flux_ratio.unwrap_or(1.0);
+            numbers.flow.wall_crossings += balance.crossings;
+            numbers.flow.unreachable = numbers.flow.unreachable.max(balance.unreachable);
+            numbers
+        });
+        let stages = meter.costs();
+        let mut notes = prepared.notes.clone();
+        notes.extend(notes_on_dark(&done.flow.caustics));
+        notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
+        let tolerance = project.flow.tolerance.into();
+        notes.extend(flow.iter().filter_map(|numbers| note_on_solver(&numbers.flow, tolerance)));
+        Self {
+            command: done.command,
+            project: project.name.clone(),
+            software: concat!("lightloom ", env!("CARGO_PKG_VERSION")).into(),
+            seed: project.seed,
+            photons: prepared.plan.photons,
+            passes: done.passes,
+            passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
+            frames: if done.command == "render" { prepared.plan.frames } else { 0 },
+            flow,
+            caustics: done.flow.caustics.clone(),
+            walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
+            energy: Energy { texture_ratio: balance.texture_ratio, photons_outside: balance.outside },
+            bad_values: done.bad_values,
+            seconds: stages.iter().map(|cost| cost.seconds).sum(),
+            stages,
+            left_out: prepared.plan.left_out.clone(),
+            notes,
+        }
+    }
+
+    /// Whether a frame holds values that were not finite and had to be replaced.
+    pub fn has_bad_frames(&self) -> bool {
+        self.bad_values.nonfinite_replaced > 0
+    }
+
+    /// As indented JSON.
+    pub fn to_json(&self) -> String {
+        // Plain numbers, strings and lists: serialisation has nothing to fail on.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// As a few lines for people.
+    pub fn to_text(&self) -> String {
+        let mut text = format!(
+            "{}: {} frames, {} passes of {} photons, {:.1} s\n",
+            self.project, self.frames, self.passes, self.photons, self.seconds
+        );
+        for cost in &self.stages {
+            let memory = cost.peak_memory_mib.map_or(String::new(), |mib| format!("  {mib:7.0} MiB"));
+            let _ = writeln!(text, "  {:<12}{:8.2} s{memory}", cost.stage, cost.seconds);
+        }
+        if let Some(FlowNumbers { flow, .. }) = &self.flow {
+            let _ = writeln!(
+                text,
+                "  endpoint error {:.1e}, peak speed {:.2} (straight lines {:.2}), dispersion {:.4}{}",
+                flow.endpoint_error,
+                flow.peak_speed_ratio,
+                flow.straight_peak_ratio,
+                flow.dispersion,
+                if flow.fits > 0 {
+                    format!(", {:.1} solver iterations", flow.solver_iterations_mean)
+                } else {
+                    String::new()
+                }
+            );
+        }
+        if let Some(FlowNumbers { flow, .. }) = self.flow.as_ref().filter(|_| self.walled) {
+            let _ = writeln!(
+                text,
+                "  walls: {} crossings, {} photons shut off",
+                flow.wall_crossings, flow.unreachable
+            );
+        }
+        let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;
+        if !frames.is_empty() {
+            let _ = writeln!(
+                text,
+                "  replaced: {nonfinite_replaced} values that were not finite, {half_clamped} too large for half floats, in frames {frames:?}"
+            );
+        }
+        for left in &self.left_out {
+            let _ = writeln!(text, "  left out: {} ({})", left.what, left.why);
+        }
+        for note in &self.notes {
+            let _ = writeln!(text, "  note: {note}");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photons_shut_off_add_up_over_the_layers_of_a_segment() {
+        let reports = [2, 3].map(|unreachable| FlowReport { unreachable, ..FlowReport::default() }).to_vec();
+        let numbers = FlowNumbers::of_segment(reports, &TransportCost::default()).reduce(FlowNumbers::worst);
+        assert_eq!(numbers.map(|numbers| numbers.flow.unreachable), Some(5));
+    }
+
+    #[test]
+    fn a_solver_that_gave_up_is_noted_and_one_that_arrived_is_not() {
+        let flow = |solver_residual| FlowReport { solver_residual, ..FlowReport::default() };
+        assert!(note_on_solver(&flow(1.5), 1e-4).is_some_and(|note| note.contains("1.5e0")));
+        assert_eq!(note_on_solver(&flow(1e-4), 1e-4), None);
+    }
+}

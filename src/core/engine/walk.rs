@@ -1,0 +1,290 @@
+//! The photons of one pass from key frame to key frame.
+//!
+//! The only loop over the key frames of a project: fits, passes, previews and tracks all step through a [`Walk`].
+
+use std::sync::Arc;
+
+use super::active::{ActiveConstraints, active};
+use super::job::Job;
+use super::key_photons::{KeyPhotons, PassLight};
+use super::key_sources::KeySource;
+use super::memo::Same;
+use super::pairing::{Pairing, PairingMethod, TransportCost};
+use crate::flow::spatial_order;
+use crate::matching::{ContinuousMap, Method, mean_square_distance};
+use crate::photon::Lesson;
+use crate::project::CausticDesc;
+use crate::{Progress, Result};
+
+/// The continuous maps of a segment by group; absent where rows are paired as given, where the group rests, and where it
+/// has no photon.
+pub(super) type Maps = Vec<Option<ContinuousMap>>;
+
+/// The photons of one pass at a key frame, on their way to the next.
+pub(super) struct Walk<'a> {
+    job: &'a Job<'a>,
+    pass: u64,
+    light: PassLight,
+    key: usize,
+    at: Arc<Vec<KeyPhotons>>,
+    origin: Origin,
+}
+
+/// The photons of a pass at both key frames of a segment, row by row.
+pub(super) struct SegmentPhotons {
+    /// Number of the segment, from 0.
+    pub(super) number: usize,
+    /// By group, at the earlier key frame.
+    pub(super) from: Arc<Vec<KeyPhotons>>,
+    /// By group, at the later one.
+    pub(super) to: Arc<Vec<KeyPhotons>>,
+    /// Flux that all photons should have at both, watts; rho does not count.
+    pub(super) requested: [f64; 2],
+    /// The groups that move; those together that share a field.
+    pub(super) layers: Vec<Vec<usize>>,
+    pub(super) matched: Arc<Matched>,
+    /// The lines and walls that act between the two.
+    pub(super) active: ActiveConstraints,
+}
+
+/// The matching of one segment.
+pub(super) struct Matched {
+    /// By group.
+    pairings: Vec<Pairing>,
+    pub(super) maps: Arc<Maps>,
+    pub(super) cost: TransportCost,
+}
+
+/// Where the maps of a segment come from.
+pub(super) enum MapsFrom<'a> {
+    /// The photons of the walk itself. `bounded` asks for a lower bound of the transport cost, which takes as long as a map.
+    Own { bounded: bool },
+    /// Other photons of the same key frames, matched before.
+    Others(&'a Arc<Maps>),
+}
+
+/// Everything that a matching depends on.
+#[derive(PartialEq)]
+pub(super) struct MatchInput {
+    from: Origin,
+    sources: Vec<Same<KeySource>>,
+    method: PairingMethod,
+    anchors: usize,
+    bounded: bool,
+    maps: Option<Same<Maps>>,
+}
+
+/// Everything that the photons at a key frame depend on.
+#[derive(Clone, PartialEq)]
+enum Origin {
+    /// At the first key frame.
+    First(Box<FirstKey>),
+    /// At a later one, as they were matched.
+    Matched(Same<Matched>),
+}
+
+#[derive(Clone, PartialEq)]
+struct FirstKey {
+    guide: Option<Same<Lesson>>,
+    photons: usize,
+    seed: u64,
+    extent: glam::Vec2,
+    caustics: Vec<CausticDesc>,
+    rows: Method,
+    sources: Vec<Same<KeySource>>,
+}
+
+impl<'a> Walk<'a> {
+    /// The photons of `pass` at the first key frame.
+    pub(super) fn start(job: &'a Job, pass: u64) -> Result<Self> {
+        let sources = job.sources;
+        let light = job.light(pass)?;
+        let first = |group| {
+            let at = sources.key(0, group, &light, pass);
+            match job.project.matching {
+                // Neighbours on the plane become neighbours in memory: a step reads each coefficient of the field once.
+                Method::Transport => at.permuted(&spatial_order(&at.positions)),
+                Method::Given => at,
+            }
+        };
+        let at = Arc::new((0..light.groups.len()).map(first).collect());
+        let origin = Origin::First(Box::new(FirstKey {
+            guide: job.guide.as_ref().map(Same::of),
+            photons: job.photons,
+            seed: sources.seed(),
+            extent: job.extent,
+            caustics: job.project.caustics.clone(),
+            rows: job.project.matching,
+            sources: sources.at_key(0),
+        }));
+        Ok(Self { job, pass, light, key: 0, at, origin })
+    }
+
+    /// The light that the groups share.
+    pub(super) fn light(&self) -> &PassLight {
+        &self.light
+    }
+
+    /// The photons of each group at the key frame where they are.
+    pub(super) fn at(&self) -> &Arc<Vec<KeyPhotons>> {
+        &self.at
+    }
+
+    /// The flux that all photons should have there, watts; rho does not count.
+    pub(super) fn requested(&self) -> f64 {
+        self.job.sources.requested(self.key, &self.light)
+    }
+
+    /// Moves on to the next key frame; none after the last. The matching of pass 0 is remembered.
+    ///
+    /// # Errors
+    /// Points that cannot be matched; cancelled.
+    pub(super) fn next(&mut self, maps: MapsFrom) -> Result<Option<SegmentPhotons>> {
+        let (job, number) = (self.job, self.key);
+        if number + 1 >= job.project.keys.len() {
+            return Ok(None);
+        }
+        let layers = self.layers();
+        let (matched, to) = match self.pass {
+            0 => self.remembered(&maps)?,
+            _ => self.pair(&maps, job.progress)?,
+        };
+        let to = Arc::new(to);
+        let before = self.requested();
+        let from = std::mem::replace(&mut self.at, to.clone());
+        self.key += 1;
+        self.origin = Origin::Matched(Same::of(&matched));
+        let requested = [before, self.requested()];
+        let active = active(job.project, number, job.extent);
+        Ok(Some(SegmentPhotons { number, from, to, requested, layers, matched, active }))
+    }
+
+    /// The groups that have photons to move until the next key frame; those together that share a field.
+    fn layers(&self) -> Vec<Vec<usize>> {
+        let groups = self.job.sources.grouping();
+        let moves = |group: &usize| !self.rests(*group) && !self.at[*group].positions.is_empty();
+        let (own, shared): (Vec<_>, Vec<_>) =
+            (0..groups.count()).filter(moves).partition(|&group| groups.own_flow(group));
+        let shared = Some(shared).filter(|groups| !groups.is_empty());
+        shared.into_iter().chain(own.into_iter().map(|group| vec![group])).collect()
+    }
+
+    /// Whether the photons of a group stay in place until the next key frame.
+    fn rests(&self, group: usize) -> bool {
+        self.job.sources.rests(self.key, group)
+    }
+
+    fn method(&self) -> PairingMethod {
+        PairingMethod::of(self.job.project, self.key, self.job.extent)
+    }
+
+    /// The points of a group at the next key frame, not yet paired.
+    fn next_points(&self, group: usize) -> KeyPhotons {
+        self.job.sources.key(self.key + 1, group, &self.light, self.pass)
+    }
+
+    fn remembered(&self, maps: &MapsFrom) -> Result<(Arc<Matched>, Vec<KeyPhotons>)> {
+        let Job { stages, progress, anchors, .. } = *self.job;
+        let input = MatchInput {
+            from: self.origin.clone(),
+            sources: self.job.sources.at_key(self.key + 1),
+            method: self.method(),
+            anchors,
+            bounded: matches!(maps, MapsFrom::Own { bounded: true }),
+            maps: match maps {
+                MapsFrom::Own { .. } => None,
+                MapsFrom::Others(maps) => Some(Same::of(maps)),
+            },
+        };
+        let mut fresh = None;
+        let matched = stages.matchings.get(self.job.slot(self.key), input, progress, |_| {
+            self.job.meter.measure("match", || {
+                progress.begin("match", 1);
+                let (matched, to) = self.pair(maps, progress)?;
+                fresh = Some(to);
+                Ok(matched)
+            })
+        })?;
+        let arrange = |(group, pairing): (usize, &Pairing)| pairing.arrange(self.next_points(group));
+        let to = fresh.unwrap_or_else(|| matched.pairings.iter().enumerate().map(arrange).collect());
+        Ok((matched, to))
+    }
+
+    /// Pairs the photons of all groups with their points of the next key frame: row k of the points is the target of
+    /// photon k.
+    fn pair(&self, maps: &MapsFrom, progress: &Progress) -> Result<(Arc<Matched>, Vec<KeyPhotons>)> {
+        let (mut own, mut pairings, mut arranged) = (Vec::new(), Vec::new(), Vec::new());
+        let mut cost = TransportCost::default();
+        for (group, at) in self.at.iter().enumerate() {
+            let points = self.next_points(group);
+            let made = match maps {
+                MapsFrom::Own { .. } => self.map(group, &points, &progress.inner())?,
+                MapsFrom::Others(_) => None,
+            };
+            let map = match maps {
+                MapsFrom::Own { .. } => made.as_ref(),
+                MapsFrom::Others(maps) => maps[group].as_ref(),
+            };
+            let bound = match (map, maps) {
+                (Some(map), MapsFrom::Own { bounded: true }) => {
+                    map.lower_bound(&at.positions, &points.positions, progress)?
+                }
+                _ => None,
+            };
+            let pairing = self.pairing(group, &points, map, &progress.inner())?;
+            let points = pairing.arrange(points);
+            if matches!(maps, MapsFrom::Own { .. }) && !self.rests(group) && !at.positions.is_empty() {
+                let mean = match map {
+                    Some(map) => map.cost(&at.positions, &points.positions),
+                    None => mean_square_distance(&at.positions, points.positions.iter().copied()),
+                };
+                cost.add(at.positions.len(), mean, bound);
+            }
+            own.push(made);
+            pairings.push(pairing);
+            arranged.push(points);
+        }
+        let maps = match maps {
+            MapsFrom::Own { .. } => Arc::new(own),
+            MapsFrom::Others(maps) => (*maps).clone(),
+        };
+        Ok((Arc::new(Matched { pairings, maps, cost }), arranged))
+    }
+
+    /// The map of a group to `points`; none where rows are paired as given, where the group rests, and where it has no
+    /// photon.
+    fn map(&self, group: usize, points: &KeyPhotons, progress: &Progress) -> Result<Option<ContinuousMap>> {
+        let from = &self.at[group].positions;
+        if self.rests(group) || from.is_empty() {
+            return Ok(None);
+        }
+        let plane = (self.job.extent, self.job.anchors);
+        self.method().map((from, &points.positions), plane, progress)
+    }
+
+    /// The pairing of a group with its `points` along `map`, or along a map of its own where the photons that were matched
+    /// before had none.
+    fn pairing(
+        &self,
+        group: usize,
+        points: &KeyPhotons,
+        map: Option<&ContinuousMap>,
+        progress: &Progress,
+    ) -> Result<Pairing> {
+        let at = &self.at[group];
+        if self.rests(group) {
+            return Ok(Pairing { order: Some(at.origin.clone()), midpoint_offsets: Vec::new() });
+        }
+        if at.positions.is_empty() {
+            return Ok(Pairing::default());
+        }
+        let own = match map {
+            Some(_) => None,
+            None => self.map(group, points, progress)?,
+        };
+        let Some(map) = map.or(own.as_ref()) else { return Ok(Pairing::default()) };
+        let seed = self.job.sources.seed();
+        let paired = map.pair(&at.positions, &points.positions, seed, self.pass, progress)?;
+        Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.midpoint_offsets })
+    }
+}

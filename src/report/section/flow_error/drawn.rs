@@ -1,0 +1,72 @@
+//! What is drawn of the flows that were measured.
+
+use super::{Apart, Knob, Measured, Run, Why};
+use crate::pareto::{Offer, front};
+use crate::plot::{Axis, Line, Panel, Plot, Style};
+
+/// Colours of the settings in balance and of the front; the knobs have those before.
+const BALANCED: usize = 4;
+const FRONT: usize = 5;
+/// Colour of the ring around the project's own setting.
+const OWN: usize = 1;
+
+impl Measured {
+    fn front_panel(&self, title: &str, of_all: bool, error: fn(&Apart) -> f64) -> Panel {
+        let of = |why: &dyn Fn(Why) -> bool| -> Vec<(f64, f64)> {
+            let runs = self.runs.iter().filter(|run| why(run.why));
+            runs.map(|run| (run.seconds, error(&run.error))).collect()
+        };
+        let offer = |run: &Run| Offer { price: run.seconds, error: error(&run.error) };
+        let offers: Vec<Offer> = self.runs.iter().map(offer).collect();
+        let best = front(&offers).into_iter().map(|row| (offers[row].price, offers[row].error));
+        let mut lines = vec![Line::new("front", Style::Line(FRONT), best.collect())];
+        if of_all {
+            let ends = [f64::min, f64::max].map(|end| offers.iter().map(|o| o.price).reduce(end));
+            let level = ends.into_iter().flatten().map(|seconds| (seconds, self.reference_error()));
+            lines.push(Line::new("reference", Style::Law, level.collect()));
+        }
+        for (colour, knob) in Knob::ALL.into_iter().enumerate() {
+            lines.push(Line::new(knob.name(), Style::Dots(colour), of(&|why| why == Why::Alone(knob))));
+        }
+        lines.push(Line::new("all in balance", Style::Dots(BALANCED), of(&|why| why == Why::Balanced)));
+        lines.push(Line::new("the project's", Style::Rings(OWN), of(&|why| why == Why::Own)));
+        if !of_all {
+            // They have their names in the panel before.
+            lines.iter_mut().for_each(|line| line.label.clear());
+        }
+        Panel { title: title.to_owned(), x: Axis::log("seconds"), y: Axis::log("error (plane)"), lines }
+    }
+
+    /// Errors over seconds, of all photons and of the worst.
+    pub(super) fn front_plot(&self) -> Plot {
+        Plot {
+            name: "flow".to_owned(),
+            title: format!("{}: error of the tracks over seconds", self.project.name),
+            panels: vec![
+                self.front_panel("root mean square", true, |apart| apart.rms),
+                self.front_panel("one photon in a thousand", false, |apart| apart.high),
+            ],
+        }
+    }
+
+    /// The error that each knob causes, over its values.
+    pub(super) fn alone_plot(&self) -> Plot {
+        let panel = |(knob, rows): &(Knob, Vec<(usize, Apart)>)| {
+            let point = |&(row, apart): &(usize, Apart)| (knob.of(&self.runs[row].setting), apart.rms);
+            let points: Vec<_> = rows.iter().map(point).collect();
+            let own = rows.iter().filter(|(row, _)| *row == 0).map(point).collect();
+            let lines = vec![Line::new("", Style::Line(0), points), Line::new("", Style::Rings(OWN), own)];
+            let title = knob.name().to_owned();
+            let label = if *knob == Knob::Grid { "cells along the longer side" } else { knob.name() };
+            Panel { title, x: Axis::log(label), y: Axis::log("error (plane)"), lines }
+        };
+        Plot {
+            name: "flow_alone".to_owned(),
+            title: format!(
+                "{}: error that each setting causes alone (ring: the project's)",
+                self.project.name
+            ),
+            panels: self.alone.iter().map(panel).collect(),
+        }
+    }
+}
