@@ -18,7 +18,7 @@
 //! | Eqs. (3) to (7), the fit | `flow/fit.rs`, `flow/bending.rs`, `flow/local.rs` |
 //! | advection, fade, flux blending | `flow/advect.rs`, `flow/fade.rs`, `flow/flux.rs` |
 //! | synthetic turbulence | `flow/turbulence` |
-//! | Sec. 4, progressive rendering | [`render`], [`pipeline`] |
+//! | Sec. 4, progressive rendering | [`render`], [`engine`] |
 //! | Fig. 1, the method before (Günther et al. 2016) | `matching/stylized`, `flow/path.rs`, `pipeline/compare.rs` |
 //!
 //! # What is absent
