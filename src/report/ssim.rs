@@ -19,7 +19,7 @@ const C2: f64 = 9e-4;
 ///
 /// # Panics
 /// When the sizes differ.
-pub(super) fn ssim(a: &Image, b: &Image) -> f64 {
+pub(crate) fn ssim(a: &Image, b: &Image) -> f64 {
     assert_eq!((a.width, a.height), (b.width, b.height), "pictures of one size");
     let (width, reach) = (a.width, REACH.min(a.width.min(a.height).saturating_sub(1) / 2));
     let window = window(reach);

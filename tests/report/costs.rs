@@ -7,7 +7,7 @@ use std::time::Duration;
 use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress};
-use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
+use lightloom_report::{Cell, Effort, Part, Report, Section, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
@@ -27,8 +27,8 @@ fn changed(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Report {
     report
 }
 
-fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Chapter {
-    changed(section, change).chapters.into_iter().next().unwrap()
+fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Section {
+    changed(section, change).sections.into_iter().next().unwrap()
 }
 
 /// A flow that a fine grid resolves well: smooth, and without swirls.
@@ -37,9 +37,9 @@ fn smooth(project: &mut Value) {
 }
 
 /// What the section of the flow says of it, measured once for all tests.
-fn smooth_flow() -> &'static Chapter {
-    static CHAPTER: OnceLock<Chapter> = OnceLock::new();
-    CHAPTER.get_or_init(|| chapter("flow", |project, _| smooth(project)))
+fn smooth_flow() -> &'static Section {
+    static SECTION: OnceLock<Section> = OnceLock::new();
+    SECTION.get_or_init(|| chapter("flow", |project, _| smooth(project)))
 }
 
 /// Across the way of both letters.
@@ -48,7 +48,7 @@ fn wall(project: &mut Value) {
         json!([{ "type": "wall", "points": [[0.3, 0.5], [0.7, 0.5]], "thickness": 0.04 }]);
 }
 
-fn table<'a>(chapter: &'a Chapter, name: &str) -> &'a Table {
+fn table<'a>(chapter: &'a Section, name: &str) -> &'a Table {
     chapter.tables().find(|table| table.name == name).unwrap()
 }
 
@@ -78,7 +78,7 @@ fn column(table: &Table, name: &str, column: &str) -> Vec<f64> {
         .collect()
 }
 
-fn words(chapter: &Chapter) -> String {
+fn words(chapter: &Section) -> String {
     let texts = chapter.parts.iter().filter_map(|part| match part {
         Part::Text(text) => Some(text.as_str()),
         _ => None,
@@ -210,8 +210,8 @@ fn rows_as_given_are_measured_as_they_are() {
 fn a_method_without_fields_has_no_flow_to_measure() {
     let linear = |project: &mut Value, _: &Path| project["method"] = json!("linear");
     let report = changed("flow", linear);
-    assert!(report.chapters.is_empty() && report.absent[0].why.contains("fits no fields"));
-    assert_eq!(changed("matching", linear).chapters.len(), 1);
+    assert!(report.sections.is_empty() && report.absent[0].why.contains("fits no fields"));
+    assert_eq!(changed("matching", linear).sections.len(), 1);
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn the_plot_and_the_table_hold_every_row() {
     let (_folder, path) = project(&["c", "s"]);
     let response = measured();
     assert!(report(&path, &Progress::new()).unwrap() == *response, "the same seed, the same numbers");
-    let chapter = response.chapter();
+    let chapter = response.section();
     let csv = String::from_utf8(chapter.tables().next().unwrap().to_csv().unwrap()).unwrap();
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines.len(), 1 + response.rows.len());

@@ -52,7 +52,7 @@ fn sheet() -> &'static Report {
 }
 
 fn rows(report: &Report) -> Vec<&Row> {
-    report.chapters.iter().flat_map(|chapter| chapter.tables()).flat_map(|table| &table.rows).collect()
+    report.sections.iter().flat_map(|chapter| chapter.tables()).flat_map(|table| &table.rows).collect()
 }
 
 fn number(row: &Row, column: usize) -> Option<f64> {
@@ -63,7 +63,7 @@ fn number(row: &Row, column: usize) -> Option<f64> {
 }
 
 fn pictures(report: &Report) -> Vec<&Picture> {
-    let parts = report.chapters.iter().flat_map(|chapter| &chapter.parts);
+    let parts = report.sections.iter().flat_map(|chapter| &chapter.parts);
     let grids = parts.filter_map(|part| match part {
         Part::Pictures(grid) => Some(&grid.pictures),
         _ => None,
@@ -148,7 +148,7 @@ fn rows_paired_as_given_have_no_passes_to_look_at() {
         "keys": [{ "frame": 1, "shows": shows }, { "frame": 9, "shows": shows }], "matching": "given"
     }));
     let found = measure(&path, Effort::Quick, "render", &Progress::new()).unwrap();
-    assert!(found.chapters.is_empty() && !found.absent[0].failed, "{:?}", found.absent);
+    assert!(found.sections.is_empty() && !found.absent[0].failed, "{:?}", found.absent);
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod gamma;
 mod letters;
 mod light;
 mod stability;
+mod text;
 
 /// The top of the repository.
 fn root() -> &'static Path {

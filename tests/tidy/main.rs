@@ -15,8 +15,9 @@ use module::Module;
 use package::Package;
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "error",
+    "setting",
     "progress",
     "files",
     "math",

@@ -22,6 +22,7 @@
 
 mod noise;
 mod settings;
+mod stored;
 
 use std::f64::consts::FRAC_PI_2;
 
