@@ -98,7 +98,8 @@ fn no_source_file_is_too_long() {
 fn every_source_file_belongs_to_a_package() {
     let read: BTreeSet<_> = packages().into_iter().flat_map(|package| package.files).collect();
     let all = sources(&root().join("src")).into_iter().filter(|file| *file != root().join("src/main.rs"));
-    assert_eq!(read, all.collect());
+    let orphans: Vec<_> = all.filter(|file| !read.contains(file) && !file.ends_with("tests.rs")).collect();
+    assert!(orphans.is_empty(), "{orphans:#?}");
 }
 
 #[test]
