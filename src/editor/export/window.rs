@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{
-    Button, Color32, ColorImage, Context, DragValue, Grid, Response, RichText, ScrollArea, TextEdit,
-    TextureHandle, TextureOptions, Ui, vec2,
+    Button, Color32, ColorImage, Context, DragValue, Grid, RichText, ScrollArea, TextEdit, TextureHandle,
+    TextureOptions, Ui, vec2,
 };
 use lightloom_core::export::FrameFormat;
 use lightloom_core::project::Project;
@@ -16,6 +16,7 @@ use super::status_line::{colour, controls, words};
 use super::{ExportJob, ExportOptions, ExportSettings, Exports, Growing};
 use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
+use crate::editor::reset_label::reset_label;
 use crate::editor::{playback, templates, theme};
 
 /// Width of the settings, points.
@@ -98,7 +99,7 @@ impl ExportWindow {
     fn settings(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, picker: &mut Picker) {
         let (Some(options), Some((own, _))) = (&mut self.options, &self.own) else { return };
         Grid::new("export settings").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
-            name(
+            reset_label(
                 ui,
                 "Frames",
                 "Which frames are rendered, such as 1-100, 1-100x5 or 1,5-10.",
@@ -116,7 +117,7 @@ impl ExportWindow {
                 }
             });
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Size",
                 "Width and height of the pictures in pixels, 16 to 16384.",
@@ -129,7 +130,7 @@ impl ExportWindow {
                 }
             });
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Passes",
                 "Each pass has its own photons: more passes, less noise, sharper edges.",
@@ -139,7 +140,7 @@ impl ExportWindow {
             ui.add(DragValue::new(&mut options.passes).range(1..=100_000).speed(0.2))
                 .accessible_name("Passes");
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Photons",
                 "Photons of one pass. More photons make a finer picture and need more memory.",
@@ -152,7 +153,7 @@ impl ExportWindow {
                 .custom_formatter(|n, _| grouped(n));
             ui.add(photons).accessible_name("Photons per pass");
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Formats",
                 "EXR: linear half floats in layers, for compositing. PNG: display values.",
@@ -171,7 +172,7 @@ impl ExportWindow {
                 ui.add_enabled(self.limit.1, minutes).accessible_name("Minutes");
             });
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Folder",
                 "The output folder; created if it does not exist.",
@@ -277,18 +278,6 @@ impl ExportWindow {
             ui.add(shown.alt_text(&label)).on_hover_text(tip);
             ui.label(RichText::new(label).small().weak());
         }
-    }
-}
-
-/// The label of a setting: double click resets it.
-fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, own: &T) {
-    let text = if value == own { RichText::new(label) } else { RichText::new(label).strong() };
-    let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
-    if response
-        .on_hover_text(format!("{tip} Double click resets it to the project's value."))
-        .double_clicked()
-    {
-        value.clone_from(own);
     }
 }
 

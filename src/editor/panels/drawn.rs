@@ -1,7 +1,10 @@
 //! What was drawn: a list of directed lines and walls, and the values of those that are selected.
 
 mod row;
+mod title;
 mod values;
+
+pub(crate) use title::title;
 
 use std::collections::BTreeSet;
 
@@ -17,15 +20,6 @@ use crate::editor::selection::Selection;
 
 /// The settings of this panel.
 pub(super) const SETTINGS: &[Setting] = values::SETTINGS;
-
-/// What the list calls a constraint: its name, or its kind and number.
-pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
-    let (kind, name) = match constraint {
-        Constraint::DirectedLine(line) => ("Line", &line.name),
-        Constraint::Wall(wall) => ("Wall", &wall.name),
-    };
-    if name.is_empty() { format!("{kind} {}", index + 1) } else { name.clone() }
-}
 
 /// The panel of what was drawn.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {

@@ -3,7 +3,7 @@
 use egui::{Align2, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lightloom_core::constraint::Constraint;
 
-use super::title;
+use super::title::title;
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;

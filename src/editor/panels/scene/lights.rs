@@ -5,7 +5,7 @@ use lightloom_core::project::CausticDesc;
 use lightloom_core::scene::light::{DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightloom_core::scene::{LightDesc, SceneDesc};
 
-use super::{XYZ, list};
+use super::list::{XYZ, list};
 use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::{Choice, Setting};
 use crate::editor::panels::{menu, remove_button, section};

@@ -4,7 +4,8 @@ use egui::Ui;
 use lightloom_core::project::CausticDesc;
 use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
-use super::{XYZ, list, materials};
+use super::list::{XYZ, list};
+use super::materials;
 use crate::editor::action::Action;
 use crate::editor::asset::AssetUse;
 use crate::editor::context::EditorContext;

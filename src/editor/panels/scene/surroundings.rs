@@ -4,7 +4,7 @@ use egui::Ui;
 use lightloom_core::project::PlaneSettings;
 use lightloom_core::scene::{CameraDesc, EnvironmentDesc, ReceiverDesc};
 
-use super::XYZ;
+use super::list::XYZ;
 use crate::editor::context::EditorContext;
 use crate::editor::panels::setting::Setting;
 
