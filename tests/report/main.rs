@@ -5,9 +5,11 @@ use std::path::Path;
 
 mod costs;
 mod gamma;
+#[path = "../letters/mod.rs"]
 mod letters;
 mod light;
 mod stability;
+mod text;
 
 /// The top of the repository.
 fn root() -> &'static Path {

@@ -14,35 +14,35 @@ use crate::photon::Tracer;
 use crate::project::{Project, Shows};
 use crate::{Progress, Result};
 
-/// Photons that look which caustics there are: what casts a thousandth of the light is seen.
+/// Photons by which caustics are found; one with a thousandth of the light is not missed.
 const PILOT: usize = 20_000;
 
-/// What would be done, what is left out and why, and roughly what it costs.
+/// The work ahead, the parts that are left out and why, and the expected cost.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckReport {
     /// The project's name.
     pub project: String,
-    /// What each key frame shows.
+    /// The source of light at each key frame, in words.
     pub keys: Vec<String>,
     /// The caustics that the scene casts, the brightest first; empty where nothing is traced.
     pub caustics: Vec<CastCaustic>,
-    /// What is done, in numbers.
+    /// The planned work in numbers.
     #[serde(flatten)]
     pub plan: Plan,
     /// Expected seconds of all stages.
     pub seconds: f64,
-    /// What the reader should know of the files.
+    /// Notes on the project and its files.
     pub notes: Vec<String>,
 }
 
-/// One caustic that the scene casts: the light of one lamp that came over one mesh last.
+/// One caustic of the scene: the light of one lamp whose last specular mesh was one.
 #[derive(Clone, Debug, Serialize)]
 pub struct CastCaustic {
     /// The lamp.
     pub light: String,
     /// The mesh.
     pub mesh: String,
-    /// Its name in the project; none where it belongs to the rest.
+    /// Its name in the project; none for unnamed ones.
     pub name: Option<String>,
     /// Share of the flux of all caustics, 0..=1.
     pub share: f64,

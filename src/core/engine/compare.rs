@@ -65,7 +65,7 @@ impl Engine {
     /// Renders the project by every method into folders of their names below `out`, and one sheet of all, `compare.png`. At
     /// most `frames` frames, evenly chosen from those of the project; all of them where that is absent.
     ///
-    /// A run that is stopped still writes the sheet of what is there.
+    /// A run that is stopped still writes the sheet of the finished methods.
     ///
     /// # Errors
     /// As [`Engine::render`]; cancelled before the first method was finished.

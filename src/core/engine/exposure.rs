@@ -13,7 +13,7 @@ use super::job::Job;
 use super::key_photons::{all_flux, all_positions};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
-use crate::flow::{Astray, flux};
+use crate::flow::{WallViolations, flux};
 use crate::render::splat::Outside;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Error, Progress, Result};
@@ -21,9 +21,9 @@ use crate::{Error, Progress, Result};
 /// Adds the photons of passes to all frames.
 pub(super) struct Exposures<'a> {
     render: &'a ProgressiveRender,
-    /// Two, in turn: one is filled while the other is kept.
+    /// One is filled while the other is stored.
     works: [Workspace; 2],
-    /// The frame whose light stands in the second, not yet kept.
+    /// The frame whose light is in the second, not yet stored.
     pending: Option<usize>,
     positions: Vec<Vec2>,
     flux: Vec<Vec3>,
@@ -31,18 +31,18 @@ pub(super) struct Exposures<'a> {
     pub(super) balance: EnergyBalance,
 }
 
-/// How well the light was kept, over all frames and passes.
+/// The conservation of flux over all frames and passes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct EnergyBalance {
     /// Most photons of one frame that flowed beyond the texture.
     pub(super) outside: usize,
-    /// Flux of the photons over that of the source, as bright as its caustics are requested to be; the frame farthest from 1.
+    /// Flux of the photons over the requested flux; the frame farthest from 1.
     pub(super) flux_ratio: Option<f64>,
     /// Flux in the texture over flux of the photons on it, the frame farthest from 1.
     pub(super) texture_ratio: Option<f64>,
-    /// Photons of all passes that crossed a wall though a way leads around it.
+    /// Photons of all passes that crossed a wall although a path leads around it.
     pub(super) crossings: usize,
-    /// Most photons of one pass and segment whose target no way reaches.
+    /// Most photons of one pass and segment whose target no path reaches.
     pub(super) unreachable: usize,
 }
 
@@ -110,7 +110,7 @@ impl<'a> Exposures<'a> {
             progress.advance(1);
             progress.check()?;
         }
-        self.balance.keep_astray(trajectories.astray());
+        self.balance.keep_violations(trajectories.wall_violations());
         Ok(())
     }
 
@@ -140,26 +140,26 @@ impl<'a> Exposures<'a> {
 }
 
 impl EnergyBalance {
-    /// Notes the photons of one segment that walls did not keep.
-    pub(super) fn keep_astray(&mut self, astray: Astray) {
-        self.crossings += astray.crossings;
-        self.unreachable = self.unreachable.max(astray.unreachable);
+    /// Records the wall violations of one segment.
+    pub(super) fn keep_violations(&mut self, violations: WallViolations) {
+        self.crossings += violations.crossings;
+        self.unreachable = self.unreachable.max(violations.unreachable);
     }
 
-    /// Notes one frame: what lies beyond the texture, the flux of its photons, that requested for, and that in the texture, watts.
+    /// Records one frame: the photons beyond the texture, and the flux of its photons, requested, and in the texture, watts.
     fn keep(&mut self, outside: Outside, flux: f64, requested: f64, lit: f64) {
         self.outside = self.outside.max(outside.photons);
         self.keep_flux_ratio(flux, requested);
         farther(&mut self.texture_ratio, lit, flux - outside.flux.element_sum());
     }
 
-    /// Notes the flux of one frame's photons against what is requested for, both in watts.
+    /// Records the flux of one frame's photons against the requested flux, watts.
     pub(super) fn keep_flux_ratio(&mut self, flux: f64, requested: f64) {
         farther(&mut self.flux_ratio, flux, requested);
     }
 }
 
-/// Keeps the ratio that is farther from 1; there is none where there is no light.
+/// Keeps the ratio that is farther from 1; none where there is no light.
 fn farther(kept: &mut Option<f64>, part: f64, whole: f64) {
     let ratio = part / whole;
     if whole > 0.0 && kept.is_none_or(|k| (ratio - 1.0).abs() > (k - 1.0).abs()) {
@@ -167,7 +167,7 @@ fn farther(kept: &mut Option<f64>, part: f64, whole: f64) {
     }
 }
 
-/// Between the values at the ends of a segment at time `t`, as the flux goes.
+/// Linear interpolation between the values at the ends of a segment at time `t`, as flux is blended.
 pub(super) fn between([from, to]: [f64; 2], t: f64) -> f64 {
     from * (1.0 - t) + to * t
 }

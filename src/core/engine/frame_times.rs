@@ -5,7 +5,7 @@ use crate::project::{KeyFrame, Moment, moment};
 /// The distinct moments of a list of frames, in the order in which photons pass them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FrameTimes {
-    /// Moments, segment by segment, times rising.
+    /// Snapshots, segment by segment, times rising.
     pub(super) moments: Vec<Moment>,
     /// For each requested frame, in the requested order: its number and the index of its moment.
     pub(super) frames: Vec<(i32, usize)>,

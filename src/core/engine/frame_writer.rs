@@ -75,7 +75,7 @@ impl FrameWriter<'_> {
         Ok((BadValues::sum(&repairs), thumbnails))
     }
 
-    /// A frame as it stands in screen values, none where it is not among the frames of this run.
+    /// The current picture of a frame in screen values; none for a frame that is not rendered.
     pub(super) fn picture(&self, times: &FrameTimes, frame: i32) -> Result<Option<Image>> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Which photons belong together: one group for each named caustic, and one for all the rest.
+//! Groups of photons: one for each named caustic, and one for the others.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +15,11 @@ use crate::{Error, Result};
 #[derive(Clone)]
 pub(super) struct Grouping {
     caustics: Vec<CausticDesc>,
-    /// What belongs to each caustic.
+    /// The members of each caustic.
     members: Vec<Members>,
 }
 
-/// Which lights and meshes of the scene a caustic takes, by index.
+/// The lights and meshes of the scene that belong to a caustic, by index.
 #[derive(Clone)]
 struct Members {
     lights: Vec<bool>,
@@ -71,7 +71,7 @@ impl Grouping {
         Ok(Self { caustics, members })
     }
 
-    /// How many groups.
+    /// The number of groups.
     pub(super) fn count(&self) -> usize {
         self.caustics.len() + 1
     }
@@ -108,7 +108,7 @@ impl Grouping {
         shares
     }
 
-    /// What there is of each group, from its photons and their flux; empty where no caustic is named.
+    /// The flux of each group, from its number of photons and their flux; empty where no caustic is named.
     pub(super) fn lights(&self, groups: impl Iterator<Item = (usize, DVec3)>) -> Vec<CausticFlux> {
         if self.count() == 1 {
             return Vec::new();
@@ -128,7 +128,7 @@ impl Grouping {
     }
 }
 
-/// That caustic `i` takes any of what its `name` stands for.
+/// Checks that caustic `i` has any light or mesh of the name it asks for.
 fn require(kind: &str, i: usize, name: Option<&str>, known: &[&str], takes: &[bool]) -> Result<()> {
     match name {
         Some(name) if !takes.contains(&true) => {
@@ -148,7 +148,7 @@ fn of_mesh(caustic: &CausticDesc, mesh: &str) -> bool {
     caustic.mesh.as_deref().is_none_or(|name| name == mesh || part_of(name))
 }
 
-/// What the artist should know of names that several lights or meshes of a scene bear.
+/// Notes on names that several lights or meshes of a scene share.
 pub(super) fn notes_on_names(scene: &Scene) -> Vec<String> {
     let lights = scene.lights().iter().map(|light| light.name()).collect::<Vec<_>>();
     let meshes = scene.meshes().iter().map(|mesh| mesh.name.as_str()).collect::<Vec<_>>();
@@ -164,7 +164,7 @@ pub(super) fn notes_on_names(scene: &Scene) -> Vec<String> {
     notes
 }
 
-/// What the artist should know of named caustics without a photon.
+/// Notes on named caustics without a photon.
 pub(super) fn notes_on_dark(caustics: &[CausticFlux]) -> Vec<String> {
     let dark = caustics.iter().filter(|caustic| caustic.photons == 0);
     let note = |name: &String| {

@@ -15,7 +15,7 @@ use crate::project::Project;
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
-/// What all stages of one piece of work are given.
+/// The context of all stages of one piece of work.
 pub(super) struct Job<'a> {
     pub(super) stages: &'a Stages,
     pub(super) client: Client,

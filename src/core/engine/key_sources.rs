@@ -143,7 +143,7 @@ impl KeySources {
     }
 
     /// The same of which at most `count` rows of the point files, the same of each, stand for all where rows are paired as
-    /// given; and how many photons that leaves of `count`.
+    /// given; and the number of photons that remain of `count`.
     pub(super) fn thinned(&self, method: Method, count: usize) -> Result<(Self, usize)> {
         let mut thinned = self.clone();
         let Some(rows) = self.given_rows(method)? else { return Ok((thinned, count)) };
@@ -229,7 +229,7 @@ impl KeySources {
         light.groups.iter().zip(gains).map(|(group, gain)| (group.total * gain).element_sum()).sum()
     }
 
-    /// How the light of a pass falls to the caustics; empty where none is named.
+    /// The flux of each caustic in a pass; empty where none is named.
     pub(super) fn caustics(&self, light: &PassLight) -> Vec<CausticFlux> {
         self.grouping.lights(light.groups.iter().map(|group| (group.count, group.total)))
     }

@@ -93,7 +93,7 @@ struct Making<I> {
     progress: Progress,
 }
 
-/// How often a thread that waits for another's result looks whether it was cancelled.
+/// Interval at which a thread that waits for another's result checks for cancellation.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 impl<I, O> Default for Memo<I, O> {

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-/// What one stage took.
+/// The cost of one stage.
 #[derive(Clone, Debug, Serialize)]
 pub struct StageCost {
     /// The stage's name.

@@ -1,4 +1,4 @@
-//! The folder into which a run writes.
+//! The output folder of a run.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn is_of_report(path: &Path) -> bool {
     path.parent().is_some_and(|folder| folder.ends_with("report")) && (ends("csv") || ends("svg"))
 }
 
-/// What stands in an output folder beside the frames.
+/// Files in an output folder beside the frames.
 const OUTPUTS: [&str; 9] = [
     "summary.json",
     "contact_sheet.png",
@@ -53,7 +53,7 @@ const OUTPUTS: [&str; 9] = [
     "report.json",
 ];
 
-/// Writes what a run has to say of itself, such as its summary, as the file `name` of its folder.
+/// Writes the report of a run, such as its summary, as the file `name` of its folder.
 ///
 /// # Errors
 /// The system refuses.

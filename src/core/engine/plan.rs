@@ -1,4 +1,4 @@
-//! What this project needs, decided once: what is left out costs neither time nor memory.
+//! The plan of work for a project. Parts that are left out cost neither time nor memory.
 
 use glam::Vec2;
 use serde::Serialize;
@@ -10,25 +10,25 @@ use crate::project::{Project, Shows};
 use crate::render::frames::FrameStore;
 use crate::{Error, Result};
 
-/// A part of the road that this project does not need.
+/// A part of the work that a project does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
-    /// What is not done.
+    /// The part.
     pub what: &'static str,
-    /// Why not.
+    /// The reason.
     pub why: &'static str,
 }
 
-/// What will be done, and roughly what it costs.
+/// The work ahead and its expected cost.
 #[derive(Clone, Debug, Serialize)]
 pub struct Plan {
     /// Photons of one pass.
     pub photons: usize,
     /// Progressive passes.
     pub passes: usize,
-    /// Frames asked for.
+    /// Requested frames.
     pub frames: usize,
-    /// What is not needed.
+    /// Parts that are not needed.
     pub left_out: Vec<LeftOut>,
     /// The stages in order, with the seconds each is expected to take.
     pub stages: Vec<(&'static str, f64)>,
@@ -38,7 +38,7 @@ pub struct Plan {
     pub scratch_mib: f64,
 }
 
-/// Measured on two cores of a server of 2024; only the progress bar and `check` live on them.
+/// Measured on two cores of a server of 2024; used by the progress bar and by `check` only.
 mod pace {
     /// Caustic photons landed per second.
     pub(super) const TRACE: f64 = 1.0e6;
@@ -90,7 +90,7 @@ pub(super) fn plan(
     plan
 }
 
-/// Whether a part is not needed, which part, and why not.
+/// Whether a part is not needed, its name, and the reason.
 type Unneeded = (bool, &'static str, &'static str);
 
 fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
@@ -119,7 +119,7 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     parts.into_iter().filter(|part| part.0).map(|(_, what, why)| LeftOut { what, why }).collect()
 }
 
-/// What lies between matching and arrival, where light moves.
+/// The parts between matching and arrival, for projects whose light moves.
 fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
     let (flow, given) = (project.fits(), project.matching == Method::Given);
     let [linear, stylized] = [Movement::Linear, Movement::Stylized].map(|method| project.method == method);
@@ -211,7 +211,7 @@ fn swirls(project: &Project) -> Option<&TurbulenceSettings> {
     project.flow.turbulence.as_ref().filter(|turbulence| project.fits() && turbulence.is_on())
 }
 
-/// Fields that carry light to key `key`: one that all share, and one for each caustic that flows by itself; what is
+/// The number of fields that carry light to key `key`: a shared one, and one for each caustic with its own flow; light that is
 /// physical before and after needs none.
 fn layers(project: &Project, key: usize) -> usize {
     let (before, after) = (&project.keys[key - 1], &project.keys[key]);
@@ -253,7 +253,7 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
 const MIB: f64 = 1_048_576.0;
 
 impl Plan {
-    /// Refuses work that would not fit into the memory that is free now, where the system tells how much that is.
+    /// Refuses work that would not fit into the free memory, where the system tells how much that is.
     pub(super) fn require_memory(&self) -> Result<()> {
         let Some(free) = free_mib().filter(|free| self.memory_mib > *free) else { return Ok(()) };
         let what = format!(

@@ -1,11 +1,10 @@
-//! How much work a picture is worth: the only place that decides numbers of photons, cells and steps below the project's
-//! own.
+//! Qualities: the only place that decides numbers of photons, cells and steps below the project's own.
 
 use crate::constraint::Constraint;
 use crate::matching::Method;
 use crate::project::Project;
 
-/// How much work a picture is worth. A lower quality is the same project with smaller numbers.
+/// The quality of a picture: a lower one is the same project with smaller numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quality {
     /// An answer while the hand still moves: 4000 photons, 32 cells, 12 steps.

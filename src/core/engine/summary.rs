@@ -18,7 +18,7 @@ use crate::flow::FlowReport;
 /// The numbers of the flow, the worst over all segments.
 #[derive(Clone, Debug, Serialize)]
 pub struct FlowNumbers {
-    /// What was seen while the fields were fitted.
+    /// The report of the fits.
     #[serde(flatten)]
     pub flow: FlowReport,
     /// Mean squared distance of the matching, plane units squared.
@@ -26,7 +26,7 @@ pub struct FlowNumbers {
     /// The same over a lower bound of the optimum; absent where rows are paired as given, and where the method has no
     /// transport map to tell one (a comparison takes that of the other methods).
     pub transport_cost_ratio: Option<f64>,
-    /// Flux of all photons over that of the source, times the colour and brightness asked for; the frame farthest from 1.
+    /// Flux of all photons over the requested flux; the frame farthest from 1.
     pub flux_ratio: f64,
 }
 
@@ -43,7 +43,7 @@ impl FlowNumbers {
         reports.into_iter().map(of)
     }
 
-    /// The worse of both in every number.
+    /// The worse of two in every number.
     pub(super) fn worst(self, other: Self) -> Self {
         let ratios = [self.transport_cost_ratio, other.transport_cost_ratio];
         Self {
@@ -59,7 +59,7 @@ impl FlowNumbers {
     }
 }
 
-/// How well the light was kept.
+/// The conservation of flux.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Energy {
     /// Flux in the receiver texture over flux of the photons on it, the frame farthest from 1.
@@ -68,7 +68,7 @@ pub struct Energy {
     pub photons_outside: usize,
 }
 
-/// Values that had to be replaced so that the files hold only finite numbers.
+/// Values that were replaced so that files hold only finite numbers.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct BadValues {
     /// Values that were not finite, replaced by 0.
@@ -116,9 +116,9 @@ pub struct Summary {
     pub stages: Vec<StageCost>,
     /// Seconds of all stages.
     pub seconds: f64,
-    /// What this project did not need.
+    /// Parts that the project did not need.
     pub left_out: Vec<LeftOut>,
-    /// What the reader should know.
+    /// Notes for the artist.
     pub notes: Vec<String>,
 }
 
@@ -134,7 +134,7 @@ impl BadValues {
     }
 }
 
-/// Light that walls could not lead to its target.
+/// A note on photons that walls shut off from their targets.
 pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
     (flow.unreachable > 0).then(|| {
         format!(
@@ -144,7 +144,7 @@ pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
     })
 }
 
-/// A solver that gave up before it was as near as the project asks.
+/// A note on a solver that stopped above the tolerance of the project.
 fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
     (flow.solver_residual > tolerance).then(|| {
         format!(

@@ -11,6 +11,7 @@ pub mod kronecker;
 pub mod lanczos;
 pub mod mixed_gram;
 pub mod multigrid;
+pub mod normal_blocks;
 pub mod null_space;
 pub mod operator;
 pub mod real;

@@ -1,7 +1,6 @@
 //! The scene: glass, lights, camera, receiver, sky.
 
 mod lights;
-mod list;
 mod materials;
 mod meshes;
 mod surroundings;
@@ -10,14 +9,14 @@ use egui::Ui;
 use lightloom_core::project::Project;
 use lightloom_core::scene::SceneDesc;
 
-use super::fold;
-use super::setting::Setting;
+use super::control::Control;
+use super::widgets::fold;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[&[Setting]] =
-    &[meshes::SETTINGS, materials::SETTINGS, lights::SETTINGS, surroundings::SETTINGS];
+pub(super) const CONTROLS: &[&[Control]] =
+    &[meshes::CONTROLS, materials::CONTROLS, lights::CONTROLS, surroundings::CONTROLS];
 
 /// The scene panel.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {

@@ -1,4 +1,4 @@
-//! The velocity at one frame, for arrows, streamlines and maps.
+//! The velocity field at one frame, for arrows, streamlines and maps.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use glam::{Mat2, Vec2};
 
 use crate::flow::field::{Field, Grid};
 
-/// Everything that moves some caustics at one frame: the fitted field and the turbulence together.
+/// The velocity field of some caustics at one frame: the fitted field plus the turbulence.
 pub struct FieldAt {
     /// The fitted field first.
     fields: Vec<Field>,
@@ -14,17 +14,17 @@ pub struct FieldAt {
 }
 
 impl FieldAt {
-    /// Of fields whose velocities add up, the fitted one first; none where there is no field.
+    /// The sum of these fields, the fitted one first; none where there is no field.
     pub(super) fn new(fields: Vec<Field>, rows: Vec<Range<usize>>) -> Option<Self> {
         (!fields.is_empty()).then_some(Self { fields, rows })
     }
 
-    /// The rows of the photons that it moves.
+    /// The rows of its photons.
     pub fn rows(&self) -> &[Range<usize>] {
         &self.rows
     }
 
-    /// The grid on which it was fitted; turbulence has its own.
+    /// The grid of the fitted field; turbulence has its own.
     pub fn grid(&self) -> Grid {
         self.fields[0].grid()
     }
@@ -34,13 +34,13 @@ impl FieldAt {
         self.fields.iter().map(|field| field.velocity(p)).sum()
     }
 
-    /// How much the flow spreads (above 0) or gathers (below) at a plane point, per segment.
+    /// Divergence at a plane point, per segment: above 0 the flow spreads.
     pub fn divergence(&self, p: Vec2) -> f32 {
         let gradient = self.gradient(p);
         gradient.x_axis.x + gradient.y_axis.y
     }
 
-    /// How fast the flow turns at a plane point, counter-clockwise above 0, radians per segment times two.
+    /// Curl at a plane point, per segment: above 0 the flow turns counter-clockwise.
     pub fn curl(&self, p: Vec2) -> f32 {
         let gradient = self.gradient(p);
         gradient.x_axis.y - gradient.y_axis.x

@@ -99,12 +99,12 @@ impl Preview {
         &self.keys.groups
     }
 
-    /// Whether the photons of a frame are worked out; those of frames outside are at the nearest key.
+    /// Whether the photons of a frame are known; frames outside show the nearest key frame.
     pub fn is_ready(&self, frame: i32) -> bool {
         self.frames[self.slot(frame)].is_some()
     }
 
-    /// Where all photons are at a frame, plane units; none before it is worked out. Frames outside show the nearest key.
+    /// Positions of all photons at a frame, plane units; none before they are known. Frames outside show the nearest key frame.
     pub fn positions(&self, frame: i32) -> Option<&[Vec2]> {
         self.frames[self.slot(frame)].as_deref()
     }
@@ -139,8 +139,8 @@ impl Preview {
         layers.filter_map(|layer| field(&layer.groups, layer.flow.fields()?)).collect()
     }
 
-    /// What the fit leaves undone at a frame: for each photon, guidance minus the velocity of its field, plane units per
-    /// segment; zero for those that no field moves there. None before the frame is worked out.
+    /// The residual of the fit at a frame: for each photon, guidance minus the velocity of its field, plane units per
+    /// segment; zero for those that no field moves there. None before the frame is known.
     ///
     /// # Errors
     /// `Cancelled`; around walls ways must be found anew.
@@ -166,13 +166,12 @@ impl Preview {
         Ok(Some(residuals))
     }
 
-    /// Where the photons of a frame are bound for: their places at the next key, row by row.
+    /// The targets of the photons at a frame: their positions at the next key frame, row by row.
     pub fn targets(&self, frame: i32) -> &[Vec2] {
         &self.lights(frame).0[1].positions
     }
 
-    /// The way of the photon in row `row` over the frames that are worked out, with their numbers. None for a row that
-    /// there is not.
+    /// The trajectory of the photon in row `row` over the known frames, with their numbers; empty beyond the last row.
     pub fn track(&self, row: usize) -> Vec<(i32, Vec2)> {
         let at =
             |(frame, positions): (i32, &Option<Arc<[Vec2]>>)| Some((frame, *positions.as_ref()?.get(row)?));
@@ -195,9 +194,9 @@ impl Preview {
         rows
     }
 
-    /// How unsteady the motion is at a frame: the change of the photons' step from this frame to the next, over the step
+    /// The unsteadiness of the motion at a frame: the change of the photons' step from this frame to the next, over the step
     /// itself, both root mean square. 0 for even motion, 2 where every step turns back. None at the first and the last
-    /// frame, where nothing moves, and before the neighbours are worked out.
+    /// frame, where nothing moves, and before the neighbours are known.
     pub fn unsteadiness(&self, frame: i32) -> Option<f64> {
         let frames = self.frames();
         if frame <= *frames.start() || frame >= *frames.end() {
@@ -212,7 +211,7 @@ impl Preview {
         (step > 0.0).then(|| (change / step).sqrt())
     }
 
-    /// The numbers of the flow, the worst over all segments; none before all is worked out, and where nothing moves.
+    /// The numbers of the flow, the worst over all segments; none before all frames are known, and where nothing moves.
     pub fn numbers(&self) -> Option<&FlowNumbers> {
         self.numbers.as_ref()
     }
@@ -222,17 +221,17 @@ impl Preview {
         &self.keys.caustics
     }
 
-    /// What this project does not need.
+    /// Parts that the project does not need.
     pub fn left_out(&self) -> &[LeftOut] {
         &self.keys.left_out
     }
 
-    /// What the artist should know.
+    /// Notes for the artist.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Seconds of the stages that ran for it, so far; what was remembered from before does not appear.
+    /// The cost of the stages that ran for it; remembered results do not appear.
     pub fn stages(&self) -> &[StageCost] {
         &self.stages
     }

@@ -12,10 +12,10 @@ use crate::engine::key_photons::{KeyPhotons, all_positions};
 /// Snapshots of one preview at most, about: each holds one pointer per frame.
 const SNAPSHOTS: usize = 400;
 
-/// Gathers the frames of a preview and shows it as it grows.
+/// A preview that gathers frames and is shown as it grows.
 pub(super) struct Growing<'a> {
     preview: Preview,
-    /// The frame that is waited for.
+    /// The frame on screen.
     first: i32,
     ready: &'a mut dyn FnMut(&Arc<Preview>),
     /// Frames since the last snapshot.
@@ -23,7 +23,7 @@ pub(super) struct Growing<'a> {
 }
 
 impl<'a> Growing<'a> {
-    /// Knows the photons at the keys, and shows them. `first` is the frame that is waited for.
+    /// A preview of the key frames alone, which is shown. `first` is the frame on screen.
     pub(super) fn new(keys: Keys, first: i32, ready: &'a mut dyn FnMut(&Arc<Preview>)) -> Self {
         let (frames, segments) = (keys.moments.len(), keys.lights.len() - 1);
         let at_key = |moment: &crate::project::Moment| {
@@ -52,12 +52,12 @@ impl<'a> Growing<'a> {
         moments.filter(inside).map(|(slot, moment)| (slot, moment.time)).unzip()
     }
 
-    /// The segment of the frame that is waited for.
+    /// The segment of the frame on screen.
     pub(super) fn first_segment(&self) -> usize {
         self.preview.moment(self.first).segment
     }
 
-    /// Takes the photons at the frame of a slot.
+    /// Adds the photons at the frame of a slot.
     pub(super) fn add(&mut self, slot: usize, positions: &Arc<[Vec2]>) {
         if self.preview.frames[slot].is_some() {
             return;
@@ -70,13 +70,13 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Takes what moves the photons of a segment.
+    /// Adds the flow of a segment.
     pub(super) fn fitted(&mut self, number: usize, segment: &Arc<FittedSegment>) {
         self.preview.segments[number] = Some(segment.clone());
         self.show();
     }
 
-    /// The preview with all there is.
+    /// The preview.
     pub(super) fn finish(self) -> Preview {
         self.preview
     }
@@ -110,7 +110,7 @@ impl Composition {
         (layers > 0).then_some(composition)
     }
 
-    /// Takes where the photons of some groups are at a moment; returns all photons once all layers are there.
+    /// Adds the positions of some groups at a moment; returns those of all groups once all layers are there.
     pub(super) fn take(
         &mut self,
         groups: &[usize],

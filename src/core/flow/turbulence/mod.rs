@@ -22,6 +22,7 @@
 
 mod noise;
 mod settings;
+mod stored;
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -29,9 +30,9 @@ use glam::Vec2;
 
 pub use settings::TurbulenceSettings;
 
-use self::noise::{Noise, NoiseMaker};
+use self::noise::{NoiseMaker, fields};
 use super::fade::smoothstep;
-use super::field::{Field, Grid};
+use super::field::Field;
 
 /// The turbulence of one segment.
 pub struct Turbulence {
@@ -89,13 +90,4 @@ impl Turbulence {
         let time = (self.number as f64 + t) * self.rate;
         (time as u64, time.fract())
     }
-}
-
-/// The fields of a noise, `scale` times as strong.
-fn fields(grids: &[Grid], noise: &Noise, scale: f64) -> Vec<Field> {
-    let field = |(grid, psi): (&Grid, &Vec<f64>)| {
-        let psi: Vec<f32> = psi.iter().map(|c| (scale * c) as f32).collect();
-        Field::from_potentials(*grid, &psi, &vec![0.0; psi.len()])
-    };
-    grids.iter().zip(noise).map(field).collect()
 }

@@ -1,4 +1,4 @@
-//! From a map to a bijection: those who are farthest from any target choose first, each takes the nearest that is free.
+//! A greedy bijection from a map: points farthest from any target choose first, each takes the nearest free target.
 
 use std::cmp::Reverse;
 use std::ops::Range;
@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use crate::{Progress, Result};
 
-/// Most points in a leaf of the tree.
+/// Limit of points in a leaf of the tree.
 const LEAF: usize = 8;
-/// Choices between two looks at the progress.
+/// Choices between two progress updates.
 const REPORT: usize = 1024;
 
 /// The target row of each point of `warped`, as many as `target`: points in falling order of the distance to their nearest
