@@ -211,7 +211,7 @@ impl LivePreview {
         self.pictures.painted()
     }
 
-    /// What the free look saw last.
+    /// The last picture of the orbit view.
     pub fn look(&self) -> Seen {
         self.orbit.seen()
     }
