@@ -6,7 +6,7 @@ use divan::{Bencher, black_box};
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::fit::{Blend, FitSettings, Fitter};
+use lightloom_core::flow::fit::{Assembly, Blend, FitSettings, Fitter, Rows};
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn main() {

@@ -8,10 +8,12 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::defaults::{enabled, is_false};
+use super::common::{Common, enabled, is_false};
 use super::span::{Span, Window};
 use super::stroke;
-use crate::{Error, Result};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// Distance of the samples along a line, plane units: half a cell of the default grid.
 const SPACING: f32 = 1.0 / 256.0;
@@ -23,6 +25,7 @@ const ACROSS: usize = 9;
 /// A line that the light shall follow, from its first point to its last.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct DirectedLine {
     /// The artist's name for it.
     #[serde(default)]
@@ -30,32 +33,45 @@ pub struct DirectedLine {
     /// Points in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
     /// 10000 points.
     pub points: Vec<[f32; 2]>,
-    /// How strongly it pulls, 0 to 1000: a factor on `flow.beta`. Default 1.
-    #[serde(default = "one")]
+    /// Factor on `flow.beta` ([`Self::WEIGHT`]).
+    #[serde(default = "default_weight")]
     pub weight: f32,
-    /// Its speed over that of the light around it, 0 to 100. Default 1.
-    #[serde(default = "one")]
+    /// Its speed over that of the light around it ([`Self::SPEED`]).
+    #[serde(default = "default_speed")]
     pub speed: f32,
-    /// How far beside the line it pulls, ever less, in plane units, 0.001 to 1. Default 0.05.
+    /// Reach to each side, plane units ([`Self::WIDTH`]).
     #[serde(default = "default_width")]
     pub width: f32,
     /// The frames during which it pulls (default: all).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<Span>,
-    /// Whether it pulls at all (default true).
+    /// Whether it pulls at all.
     #[serde(default = "enabled")]
     pub enabled: bool,
-    /// Whether the editor keeps it from being changed (default false).
+    /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
 }
 
-fn one() -> f32 {
-    1.0
+settings! { DirectedLine {
+    /// Strength of the line: a factor on beta. Raise it where light ignores this line alone.
+    WEIGHT = Setting::real("constraints[directed_line].weight", [0.0, 1000.0], &[1.0]);
+    /// Speed along the line over that of the light around it. 1 steers without hurrying.
+    SPEED = Setting::real("constraints[directed_line].speed", [0.0, 100.0], &[1.0]);
+    /// How far beside the line it pulls, ever less; the plane's longer side is 1.
+    WIDTH = Setting::real("constraints[directed_line].width", [0.001, 1.0], &[0.05]).unit("plane units");
+} }
+
+fn default_weight() -> f32 {
+    DirectedLine::WEIGHT.value()
+}
+
+fn default_speed() -> f32 {
+    DirectedLine::SPEED.value()
 }
 
 fn default_width() -> f32 {
-    0.05
+    DirectedLine::WIDTH.value()
 }
 
 /// A directed line in one segment of the animation, sampled.
@@ -83,8 +99,8 @@ impl DirectedLine {
         Self {
             name: String::new(),
             points,
-            weight: 1.0,
-            speed: 1.0,
+            weight: default_weight(),
+            speed: default_speed(),
             width: default_width(),
             span: None,
             enabled: true,
@@ -94,15 +110,9 @@ impl DirectedLine {
 
     pub(super) fn check(&self, place: &str) -> Result<()> {
         stroke::check(&self.points, place)?;
-        let check = |name: &str, value: f32, low: f32, high: f32| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
-        };
-        check("weight", self.weight, 0.0, 1000.0)?;
-        check("speed", self.speed, 0.0, 100.0)?;
-        check("width", self.width, 0.001, 1.0)?;
+        Self::WEIGHT.check(self.weight, place)?;
+        Self::SPEED.check(self.speed, place)?;
+        Self::WIDTH.check(self.width, place)?;
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 

@@ -10,12 +10,13 @@ pub mod stroke;
 pub mod visibility;
 pub mod wall;
 
-mod defaults;
+mod common;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use barrier::Barriers;
+pub use common::Common;
 pub use directed_line::{ActiveLine, DirectedLine};
 pub use span::{Span, Window};
 pub use visibility::{VisibilityGraph, WallPath};
@@ -69,7 +70,7 @@ impl Constraint {
         }
     }
 
-    /// When it acts; always where there is no span.
+    /// When it acts; always without a span.
     pub fn span(&self) -> Option<&Span> {
         match self {
             Self::DirectedLine(line) => line.span.as_ref(),

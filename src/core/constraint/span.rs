@@ -3,21 +3,32 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 use crate::{Error, Result};
 
 /// The frames during which a constraint acts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Span {
-    /// First frame, -1000000 to 1000000.
+    /// First frame.
     pub from: i32,
     /// Last frame, not before `from`.
     pub to: i32,
-    /// Frames over which a directed line sets in and fades out within the span, 0 to 100000, default 0. A wall stands
-    /// or does not.
+    /// Frames over which a directed line sets in and fades out ([`Self::FADE`]).
     #[serde(default)]
     pub fade: u32,
 }
+
+settings! { Span {
+    /// First frame in which the constraint acts.
+    FROM = Setting::whole("constraints[].span.from", [-1e6, 1e6], &[]);
+    /// Last frame in which the constraint acts, not before the first.
+    TO = Setting::whole("constraints[].span.to", [-1e6, 1e6], &[]);
+    /// Frames over which a directed line sets in and fades out within its span. A wall stands or does not.
+    FADE = Setting::whole("constraints[].span.fade", [0.0, 100_000.0], &[0.0]).unit("frames");
+} }
 
 /// A span in the flow time of one segment: rises over the first pair of times, falls over the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,17 +41,13 @@ pub struct Window {
 
 impl Span {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        let frames = -1_000_000..=1_000_000;
-        if !frames.contains(&self.from) || !frames.contains(&self.to) || self.to < self.from {
-            let what = format!(
-                "frames {} to {}; give frames from -1000000 to 1000000, the last not before the first",
-                self.from, self.to
-            );
-            return Err(Error::value(format!("{place}.span"), what));
-        }
-        if self.fade > 100_000 {
-            let what = format!("is {} frames, must be 0 to 100000", self.fade);
-            return Err(Error::value(format!("{place}.span.fade"), what));
+        let place = format!("{place}.span");
+        Self::FROM.check(self.from, &place)?;
+        Self::TO.check(self.to, &place)?;
+        Self::FADE.check(self.fade, &place)?;
+        if self.to < self.from {
+            let what = format!("ends at frame {}, before it begins at {}", self.to, self.from);
+            return Err(Error::value(place, what));
         }
         Ok(())
     }

@@ -8,14 +8,17 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::defaults::{enabled, is_false};
+use super::common::{Common, enabled, is_false};
 use super::span::{Span, Window};
 use super::stroke;
-use crate::{Error, Result};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A line that no light crosses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct Wall {
     /// The artist's name for it.
     #[serde(default)]
@@ -23,22 +26,28 @@ pub struct Wall {
     /// The line in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
     /// 10000 points. A loop ends where it begins.
     pub points: Vec<[f32; 2]>,
-    /// Thickness in plane units, 0.0001 to 0.5. Default 0.0234, three cells of the default grid.
+    /// Twice the distance that light keeps from the line, plane units ([`Self::THICKNESS`]).
     #[serde(default = "default_thickness")]
     pub thickness: f32,
     /// The frames during which it stands (default: all). Light that it holds back meanwhile goes on afterwards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<Span>,
-    /// Whether it stands at all (default true).
+    /// Whether it stands at all.
     #[serde(default = "enabled")]
     pub enabled: bool,
-    /// Whether the editor keeps it from being changed (default false).
+    /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
 }
 
+settings! { Wall {
+    /// Thickness of the wall, by default three cells of the default grid: light on its way around keeps half of it away
+    /// from the line. Narrower gaps count as closed.
+    THICKNESS = Setting::real("constraints[wall].thickness", [1e-4, 0.5], &[3.0 / 128.0]).unit("plane units");
+} }
+
 fn default_thickness() -> f32 {
-    3.0 / 128.0
+    Wall::THICKNESS.value()
 }
 
 /// A wall in one segment of the animation.
@@ -67,10 +76,7 @@ impl Wall {
 
     pub(super) fn check(&self, place: &str) -> Result<()> {
         stroke::check(&self.points, place)?;
-        if !(1e-4..=0.5).contains(&self.thickness) {
-            let what = format!("is {}, must be 0.0001 to 0.5 plane units", self.thickness);
-            return Err(Error::value(format!("{place}.thickness"), what));
-        }
+        Self::THICKNESS.check(self.thickness, place)?;
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 

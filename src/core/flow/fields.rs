@@ -33,13 +33,27 @@ impl Fields {
     /// # Panics
     /// When there is no step, or a field is missing before the fade has ended.
     pub fn from_nodes(nodes: Vec<Field>, steps: usize, fade: Fade, mean_straight: f32) -> Self {
-        let fields = Self { nodes, ..Self::new(steps, fade, mean_straight, None, None) };
-        let asked = (0..steps).filter(|&n| fields.time(n) < fade.end()).count();
-        assert!(asked > 0 && fields.nodes.len() >= asked, "a field for every step until the fade ends");
-        fields
+        let fields = Self::from_spaced_nodes(nodes, [steps, 1], fade, mean_straight);
+        fields.unwrap_or_else(|| panic!("a field for every step until the fade ends"))
     }
 
-    /// No fields yet, for `steps` fits.
+    /// Fields that are given, not fitted: `nodes[n]` is the field at t = n `substeps` / `steps`. None where a field is
+    /// missing before the fade has ended.
+    pub fn from_spaced_nodes(
+        nodes: Vec<Field>,
+        [steps, substeps]: [usize; 2],
+        fade: Fade,
+        mean_straight: f32,
+    ) -> Option<Self> {
+        if steps == 0 || substeps == 0 || !steps.is_multiple_of(substeps) {
+            return None;
+        }
+        let fields = Self { nodes, steps, substeps, ..Self::new(steps, fade, mean_straight, None, None) };
+        let count = fields.nodes.len();
+        let whole = count >= steps / substeps || fields.node_time(count) >= fade.end();
+        (count > 0 && whole).then_some(fields)
+    }
+
     pub(super) fn new(
         steps: usize,
         fade: Fade,
@@ -72,6 +86,11 @@ impl Fields {
     /// Time steps of the photons; several for each field where walls stand, so that paths turn smoothly.
     pub fn steps(&self) -> usize {
         self.steps
+    }
+
+    /// Time steps of the photons for each field.
+    pub fn substeps(&self) -> usize {
+        self.substeps
     }
 
     /// The fields in order of time, see [`Self::node_time`], until the fade ends: all photons go straight from there on.

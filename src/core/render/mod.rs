@@ -2,7 +2,7 @@
 //!
 //! On a plane, progressive photon mapping is a histogram of each pass ([`splat`]) filtered with the kernel of the pass
 //! ([`density`]), summed per frame in a scratch file ([`frames`]). The camera sees the texture through a sparse matrix
-//! ([`visible`]); a frame is [`background`] + matrix x texture. [`view`] makes it fit for a screen. [`mod@look`] shows
+//! ([`visible`]); a frame is [`mod@background`] + matrix x texture. [`view`] makes it fit for a screen. [`mod@look`] shows
 //! a scene at once from anywhere, to find one's way in it.
 
 pub mod background;

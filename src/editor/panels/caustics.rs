@@ -6,33 +6,23 @@ use egui::Ui;
 use lightloom_core::project::{CausticDesc, CausticKey, Project};
 use lightloom_core::scene::LightDesc;
 
-use super::setting::Setting;
-use super::{add_button, keys, remove_button, section, shows};
+use super::control::Control;
+use super::widgets::{add_button, remove_button, section};
+use super::{keys, shows};
 use crate::editor::asset::TargetSlot;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::unique_name::unique_name;
 
-const NAME: Setting =
-    Setting::text("Name", "caustics[].name").help("By what the key frames call it; each name once.");
-const LIGHT: Setting =
-    Setting::part("Light", "caustics[].light").help("The light that casts it. Default any.");
-const MESH: Setting = Setting::part("Mesh", "caustics[].mesh")
-    .help("The glass or mirror that the light met last. Default any. What fits several caustics belongs to the first in the list.");
-const OWN: Setting = Setting::switch("Own flow", "caustics[].own_flow", false).help(
-    "It flows by a field of its own and never mixes with the others; else all that move share one field.",
-);
-const COLOUR: Setting =
-    Setting::colour("Colour", "keys[].caustics.c.colour", [0.0, 1000.0], &[1.0, 1.0, 1.0])
-        .help("Factor on its light at this key frame, linear Rec.709. White leaves the light's own colour.");
-const BRIGHTNESS: Setting =
-    Setting::real("Brightness", "keys[].caustics.c.brightness", [0.0, 1000.0], &[1.0])
-        .slider(0.0, 10.0)
-        .help("Factor on its light at this key frame. 1 keeps the energy.");
-const SHOWS: Setting = Setting::part("Shows", "keys[].caustics.c.shows");
+const NAME: Control = Control::new("Name", CausticDesc::NAME);
+const LIGHT: Control = Control::new("Light", CausticDesc::LIGHT);
+const MESH: Control = Control::new("Mesh", CausticDesc::MESH);
+const OWN: Control = Control::new("Own flow", CausticDesc::OWN_FLOW);
+const COLOUR: Control = Control::new("Colour", CausticKey::COLOUR);
+const BRIGHTNESS: Control = Control::new("Brightness", CausticKey::BRIGHTNESS).slider(0.0, 10.0);
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = &[NAME, LIGHT, MESH, OWN, COLOUR, BRIGHTNESS, SHOWS];
+pub(super) const CONTROLS: &[Control] = &[NAME, LIGHT, MESH, OWN, COLOUR, BRIGHTNESS];
 
 /// The panel of caustics.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
@@ -81,7 +71,7 @@ fn values(
     caustic: &mut CausticDesc,
 ) {
     section(ui, &caustic.name);
-    if let Some(name) = NAME.words(ui, index, &caustic.name) {
+    if let Some(name) = NAME.text(ui, index, &caustic.name) {
         editor.ask(Edit::RenameCaustic(index, name));
     }
     if let Some(scene) = &project.scene {
@@ -98,7 +88,7 @@ fn values(
     if let Some(shows) = shows::show(ui, editor, &place, before.shows.as_ref()) {
         own.shows = shows;
     }
-    COLOUR.tint(ui, &mut own.colour);
+    COLOUR.colour(ui, &mut own.colour);
     BRIGHTNESS.number(ui, &mut own.brightness);
     if own != before {
         let mut key = key.clone();

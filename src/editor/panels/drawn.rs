@@ -1,6 +1,6 @@
 //! What was drawn: a list of directed lines and walls, and the values of those that are selected.
 
-mod row;
+pub(super) mod row;
 mod values;
 
 use std::collections::BTreeSet;
@@ -8,24 +8,16 @@ use std::collections::BTreeSet;
 use egui::Ui;
 use lightloom_core::constraint::Constraint;
 
-use super::setting::Setting;
-use super::{Icon, icon_button, remove_button, section};
+use super::control::Control;
+use super::icons::Icon;
+use super::widgets::{icon_button, remove_button, section};
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = values::SETTINGS;
-
-/// What the list calls a constraint: its name, or its kind and number.
-pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
-    let (kind, name) = match constraint {
-        Constraint::DirectedLine(line) => ("Line", &line.name),
-        Constraint::Wall(wall) => ("Wall", &wall.name),
-    };
-    if name.is_empty() { format!("{kind} {}", index + 1) } else { name.clone() }
-}
+pub(super) const CONTROLS: &[Control] = values::CONTROLS;
 
 /// The panel of what was drawn.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
@@ -49,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
             ui.add_space(8.0);
             ui.weak("Select a line or a wall for its values.");
         }
-        [one] => section(ui, &title(&constraints[one], one)),
+        [one] => section(ui, &row::title(&constraints[one], one)),
         _ => section(ui, &format!("{} selected", chosen.len())),
     }
     values::show(ui, editor, constraints, &chosen);

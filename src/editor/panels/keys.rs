@@ -3,30 +3,20 @@
 use egui::Ui;
 use lightloom_core::project::{Ease, KeyFrame};
 
-use super::setting::{Choice, Setting};
-use super::{aside, remove_button, shows};
+use super::control::Control;
+use super::shows;
+use super::widgets::{aside, remove_button};
 use crate::editor::action::Action;
 use crate::editor::asset::TargetSlot;
 use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
-const FRAME: Setting = Setting::whole("Frame", "keys[].frame", [-1e6, 1e6], &[])
-    .help("When the light shows this. Key frames can also be dragged in the timeline.");
-const EASE: Setting = Setting::choice(
-    "Ease",
-    "keys[].ease",
-    &[
-        Choice::new("smooth", "Smooth", "starts and ends at rest"),
-        Choice::new("linear", "Linear", "at constant pace"),
-        Choice::new("in", "In", "starts at rest, arrives at full pace"),
-        Choice::new("out", "Out", "starts at full pace, comes to rest"),
-    ],
-)
-.help("How the time runs from this key frame to the next.");
+const FRAME: Control = Control::new("Frame", KeyFrame::FRAME);
+const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "In", "Out"]);
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = &[FRAME, EASE];
+pub(super) const CONTROLS: &[Control] = &[FRAME, EASE];
 
 /// The key that the panels show: the one that was chosen, or the last at or before the playhead.
 pub(super) fn shown(editor: &EditorContext) -> usize {
@@ -102,15 +92,15 @@ pub(super) fn replace(editor: &mut EditorContext, index: usize, key: KeyFrame) {
 
 /// The frame of a key, between its neighbours.
 fn frame(ui: &mut Ui, keys: &[KeyFrame], index: usize, key: &mut KeyFrame) {
-    let mut setting = FRAME;
+    let mut control = FRAME;
     if let Some(before) = index.checked_sub(1).and_then(|i| keys.get(i)) {
-        setting.range[0] = f64::from(before.frame) + 1.0;
+        control.setting.range[0] = f64::from(before.frame) + 1.0;
     }
     if let Some(after) = keys.get(index + 1) {
-        setting.range[1] = f64::from(after.frame) - 1.0;
+        control.setting.range[1] = f64::from(after.frame) - 1.0;
     }
     let mut frame = [key.frame];
-    if setting.numbers(ui, &mut frame, [""]) {
+    if control.numbers(ui, &mut frame, [""]) {
         key.frame = frame[0];
     }
 }

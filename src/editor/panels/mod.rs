@@ -1,6 +1,7 @@
 //! The panels: they read the document and answer with actions. One panel, one file, one line in [`PANELS`].
 
 mod caustics;
+pub mod control;
 mod drawn;
 mod fade;
 mod flow;
@@ -11,19 +12,16 @@ mod presets;
 pub(super) mod readouts;
 mod render;
 mod scene;
-pub mod setting;
 mod shows;
 mod turbulence;
 mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
 
-pub(crate) use drawn::title;
-use icons::Icon;
+pub use control::Control;
+pub(crate) use drawn::row::title;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
-pub use setting::Setting;
-use widgets::{add_button, aside, fold, icon_button, menu, remove_button, section};
 
 use super::context::EditorContext;
 use super::session::Panel;
@@ -38,24 +36,24 @@ pub struct PanelInfo {
     /// What stands in it.
     pub help: &'static str,
     show: fn(&mut Ui, &mut EditorContext),
-    settings: &'static [&'static [Setting]],
+    controls: &'static [&'static [Control]],
 }
 
 /// All panels, in the order of their tabs.
 #[rustfmt::skip]
 pub const PANELS: &[PanelInfo] = &[
-    PanelInfo { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, settings: &[flow::SETTINGS, turbulence::SETTINGS, fade::SETTINGS] },
-    PanelInfo { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, settings: &[drawn::SETTINGS] },
-    PanelInfo { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, settings: &[caustics::SETTINGS] },
-    PanelInfo { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, settings: &[keys::SETTINGS, shows::SETTINGS] },
-    PanelInfo { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, settings: scene::SETTINGS },
-    PanelInfo { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, settings: &[render::SETTINGS] },
-    PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, settings: &[] },
+    PanelInfo { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, controls: &[flow::CONTROLS, turbulence::CONTROLS, fade::CONTROLS] },
+    PanelInfo { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, controls: &[drawn::CONTROLS] },
+    PanelInfo { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, controls: &[caustics::CONTROLS] },
+    PanelInfo { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, controls: &[keys::CONTROLS, shows::CONTROLS] },
+    PanelInfo { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, controls: scene::CONTROLS },
+    PanelInfo { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, controls: &[render::CONTROLS] },
+    PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, controls: &[] },
 ];
 
 /// All settings of the panels.
-pub fn settings() -> impl Iterator<Item = &'static Setting> {
-    PANELS.iter().flat_map(|entry| entry.settings).copied().flatten()
+pub fn controls() -> impl Iterator<Item = &'static Control> {
+    PANELS.iter().flat_map(|entry| entry.controls).copied().flatten()
 }
 
 /// The tabs, and the panel that is chosen.

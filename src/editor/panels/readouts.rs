@@ -3,9 +3,10 @@
 use egui::{Color32, RichText, Ui};
 use lightloom_core::engine::{Preview, Quality};
 use lightloom_core::flow::FlowReport;
+use lightloom_core::setting::format::number;
 
-use super::setting::{NAMES, format_number};
-use super::{fold, section};
+use super::control::row::LABELS;
+use super::widgets::{fold, section};
 use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
@@ -34,7 +35,7 @@ fn of(preview: &Preview, frame: i32, tolerance: f32) -> Vec<Readout> {
     };
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} ({detail})", format_number(preview.photons() as f64, true)),
+        value: format!("{} ({detail})", number(preview.photons() as f64, true)),
         help: "Photons of the preview; it gets finer while nothing is changed.",
         is_bad: false,
     }];
@@ -67,11 +68,11 @@ fn of_energy(energy: f64) -> Readout {
 fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
     let [early, middle, late] = flow.crossing_index.map(percent);
     let plain = |name, value, help| Readout { name, value, help, is_bad: false };
-    let count = |name, number: usize, help| Readout {
+    let count = |name, count: usize, help| Readout {
         name,
-        value: format_number(number as f64, true),
+        value: number(count as f64, true),
         help,
-        is_bad: number > 0,
+        is_bad: count > 0,
     };
     vec![
         count(
@@ -91,12 +92,12 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         ),
         plain(
             "Dispersion",
-            format_number(digits(flow.dispersion), false),
+            number(digits(flow.dispersion), false),
             "How much neighbours differ in velocity, over the run. Low values look like one fluid.",
         ),
         plain(
             "Peak speed",
-            format!("{} x", format_number(digits(flow.peak_speed_ratio), false)),
+            format!("{} x", number(digits(flow.peak_speed_ratio), false)),
             "Fastest photons over the mean straight speed. Lower the speed limit of the fade where light darts.",
         ),
         plain(
@@ -111,7 +112,7 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         ),
         Readout {
             name: "Solver residual",
-            value: format_number(digits(flow.solver_residual), false),
+            value: number(digits(flow.solver_residual), false),
             help: "Relative residual of the solver, the worst. Above the tolerance the fit did not end.",
             is_bad: flow.solver_residual > f64::from(tolerance),
         },
@@ -124,7 +125,7 @@ fn digits(value: f64) -> f64 {
 }
 
 fn percent(share: f64) -> String {
-    format!("{} %", format_number(digits(100.0 * share), false))
+    format!("{} %", number(digits(100.0 * share), false))
 }
 
 /// The panel of readouts.
@@ -148,7 +149,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     }
     section(ui, "Seconds of each stage");
     for stage in preview.stages() {
-        let seconds = format_number(digits(stage.seconds), false);
+        let seconds = number(digits(stage.seconds), false);
         let help = "Wall-clock time; what was remembered does not run again.";
         line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
     }
@@ -172,9 +173,9 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
 fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let size = egui::vec2(NAMES, ui.text_style_height(&egui::TextStyle::Body));
+        let size = egui::vec2(LABELS, ui.text_style_height(&egui::TextStyle::Body));
         ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-            ui.set_min_width(NAMES);
+            ui.set_min_width(LABELS);
             ui.add(egui::Label::new(RichText::new(name).weak()).truncate()).on_hover_text(help);
         });
         ui.add(egui::Label::new(RichText::new(value).color(colour)).truncate()).on_hover_text(help);
@@ -194,7 +195,7 @@ pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
 fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} photons", format_number(preview.photons() as f64, true)),
+        value: format!("{} photons", number(preview.photons() as f64, true)),
         help: "Photons of the preview.",
         is_bad: false,
     }];
@@ -209,7 +210,7 @@ fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
         (unreachable, "unreachable", "Photons whose target no way around the walls reaches."),
     ] {
         if count > 0 {
-            let value = format!("{} {words}", format_number(count as f64, true));
+            let value = format!("{} {words}", number(count as f64, true));
             all.push(Readout { name: "Walls", value, help, is_bad: true });
         }
     }

@@ -9,17 +9,14 @@ use egui::Ui;
 use lightloom_core::project::Project;
 use lightloom_core::scene::SceneDesc;
 
-use super::fold;
-use super::setting::Setting;
+use super::control::Control;
+use super::widgets::fold;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[&[Setting]] =
-    &[meshes::SETTINGS, materials::SETTINGS, lights::SETTINGS, surroundings::SETTINGS];
-
-/// Names of the components of a place.
-const XYZ: [&str; 3] = ["x", "y", "z"];
+pub(super) const CONTROLS: &[&[Control]] =
+    &[meshes::CONTROLS, materials::CONTROLS, lights::CONTROLS, surroundings::CONTROLS];
 
 /// The scene panel.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
@@ -60,24 +57,4 @@ fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
 fn fold_open(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, add);
-}
-
-/// A list of names of which one can be chosen; a click on the chosen one closes it.
-fn list<'a>(
-    ui: &mut Ui,
-    kind: &str,
-    names: impl Iterator<Item = (&'a str, &'a str)>,
-    chosen: &mut Option<usize>,
-) {
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        for (i, (name, aside)) in names.enumerate() {
-            let size = egui::vec2(ui.available_width(), 22.0);
-            let button = egui::Button::selectable(*chosen == Some(i), name);
-            let button = button.right_text(egui::RichText::new(aside).weak()).truncate();
-            if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
-                *chosen = if *chosen == Some(i) { None } else { Some(i) };
-            }
-        }
-    });
 }

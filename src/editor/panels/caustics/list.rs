@@ -3,11 +3,11 @@
 use egui::{Button, Color32, RichText, Ui, vec2};
 use lightloom_core::project::{CausticDesc, Project};
 use lightloom_core::scene::LightDesc;
+use lightloom_core::setting::format::number;
 
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::panels::icons::{self, Icon, SIDE};
-use crate::editor::panels::setting::format_number;
 
 /// One caustic, or the rest.
 pub(super) fn row(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
@@ -81,6 +81,6 @@ fn cast(editor: &EditorContext, group: usize) -> Option<String> {
     let preview = editor.preview.preview()?;
     let light = preview.caustics().get(group)?;
     let watts = format!("{:.2e}", light.watts).parse().unwrap_or(light.watts);
-    let photons = format_number(light.photons as f64, true);
-    Some(format!("{} W, {photons} photons", format_number(watts, false)))
+    let photons = number(light.photons as f64, true);
+    Some(format!("{} W, {photons} photons", number(watts, false)))
 }

@@ -3,12 +3,11 @@
 use egui::{Align2, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lightloom_core::constraint::Constraint;
 
-use super::title;
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::panels::control::text;
 use crate::editor::panels::icons::{self, Icon};
-use crate::editor::panels::setting;
 use crate::editor::selection::Selection;
 use crate::editor::theme;
 
@@ -18,6 +17,15 @@ const HEIGHT: f32 = 24.0;
 const BUTTON: f32 = 24.0;
 /// Room for the sign of the kind, points.
 const SIGN: f32 = 26.0;
+
+/// The name of a constraint in the list: its own, or its kind and number.
+pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
+    let (kind, name) = match constraint {
+        Constraint::DirectedLine(line) => ("Line", &line.name),
+        Constraint::Wall(wall) => ("Wall", &wall.name),
+    };
+    if name.is_empty() { format!("{kind} {}", index + 1) } else { name.clone() }
+}
 
 /// One constraint in the list.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, index: usize) {
@@ -90,7 +98,7 @@ fn rename(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, inde
         Constraint::Wall(wall) => &wall.name,
     };
     let mut place = ui.new_child(egui::UiBuilder::new().max_rect(words));
-    let (response, new) = setting::words_field(&mut place, field_id(index), now, words.width());
+    let (response, new) = text::field(&mut place, field_id(index), now, words.width());
     if let Some(new) = new {
         editor.ask(Edit::Change(vec![(index, with(constraint, |name, _, _| *name = new))]));
     }

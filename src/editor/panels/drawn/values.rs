@@ -1,52 +1,25 @@
 //! The values of what is selected, one or several at once.
 
 use egui::Ui;
-use lightloom_core::constraint::{Constraint, DirectedLine, Span, Wall};
+use lightloom_core::constraint::{Common, Constraint, DirectedLine, Span, Wall};
+use lightloom_core::setting::format::number;
 
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::panels::aside;
-use crate::editor::panels::setting::{Choice, Setting, format_number};
+use crate::editor::panels::control::Control;
+use crate::editor::panels::widgets::aside;
 
-const WEIGHT: Setting = Setting::real("Weight", "constraints[directed_line].weight", [0.0, 1000.0], &[1.0])
-    .slider(0.0, 100.0)
-    .logarithmic()
-    .help("How strongly the line pulls: a factor on beta. Raise it where light ignores this line alone.");
-const SPEED: Setting = Setting::real("Speed", "constraints[directed_line].speed", [0.0, 100.0], &[1.0])
-    .slider(0.1, 10.0)
-    .logarithmic()
-    .help("Speed along the line over that of the light around it. 1 steers and does not hurry.");
-const WIDTH: Setting = Setting::real("Width", "constraints[directed_line].width", [0.001, 1.0], &[0.05])
-    .slider(0.005, 0.5)
-    .logarithmic()
-    .help("How far beside the line it pulls, ever less, in plane units: the longer side of the plane is 1.");
-const THICKNESS: Setting =
-    Setting::real("Thickness", "constraints[wall].thickness", [1e-4, 0.5], &[3.0 / 128.0])
-        .slider(0.001, 0.2)
-        .logarithmic()
-        .help("Light on its way around keeps half of it away from the wall, in plane units. Narrower gaps count as closed.");
-const SPAN: Setting = Setting::choice(
-    "Acts",
-    "constraints[].span",
-    &[Choice::new("", "Always", "in all frames"), Choice::new("", "In frames", "from one frame to another")],
-)
-.help("When it acts.");
-const FROM: Setting = Setting::whole("From frame", "constraints[].span.from", [-1e6, 1e6], &[])
-    .help("First frame in which it acts.");
-const TO: Setting = Setting::whole("To frame", "constraints[].span.to", [-1e6, 1e6], &[])
-    .help("Last frame in which it acts.");
-const FADE: Setting = Setting::whole("Fade", "constraints[].span.fade", [0.0, 100_000.0], &[0.0])
-    .unit("frames")
-    .help("Frames over which a line sets in and fades out, within its span.");
-const NAME: Setting = Setting::text("Name", "constraints[].name").help("The artist's name for it.");
-const ON: Setting =
-    Setting::switch("On", "constraints[].enabled", true).help("The eye in the list: whether it acts at all.");
-const LOCKED: Setting = Setting::switch("Locked", "constraints[].locked", false)
-    .help("The padlock in the list: keeps it from being changed.");
+const WEIGHT: Control = Control::new("Weight", DirectedLine::WEIGHT).log_slider(0.0, 100.0);
+const SPEED: Control = Control::new("Speed", DirectedLine::SPEED).log_slider(0.1, 10.0);
+const WIDTH: Control = Control::new("Width", DirectedLine::WIDTH).log_slider(0.005, 0.5).without_suffix();
+const THICKNESS: Control = Control::new("Thickness", Wall::THICKNESS).log_slider(0.001, 0.2).without_suffix();
+const SPAN: Control = Control::new("Acts", Common::SPAN).labels(&["Always", "In frames"]);
+const FROM: Control = Control::new("From frame", Span::FROM);
+const TO: Control = Control::new("To frame", Span::TO);
+const FADE: Control = Control::new("Fade", Span::FADE);
 
 /// The settings of what was drawn; name, eye and padlock stand in the list.
-pub(super) const SETTINGS: &[Setting] =
-    &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE, NAME, ON, LOCKED];
+pub(super) const CONTROLS: &[Control] = &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE];
 
 /// A change of one constraint.
 type Change = Box<dyn Fn(&mut Constraint)>;
@@ -137,7 +110,7 @@ fn wall_values(ui: &mut Ui, editor: &EditorContext, mut wall: Wall, changes: &mu
 fn in_plane(ui: &mut Ui, editor: &EditorContext, length: f32) {
     let project = editor.document.project();
     let cells = project.flow.grid.cells(project.extent()).into_iter().max().unwrap_or(0);
-    let tenths = |value: f32| format_number((f64::from(value) * 10.0).round() / 10.0, false);
+    let tenths = |value: f32| number((f64::from(value) * 10.0).round() / 10.0, false);
     aside(ui, &format!("{} % of the plane, {} cells", tenths(length * 100.0), tenths(length * cells as f32)));
 }
 
@@ -169,9 +142,9 @@ fn span(ui: &mut Ui, editor: &EditorContext, now: Option<Span>, fades: bool, cha
 }
 
 /// A field without a slider: frames have no end.
-fn whole<T: egui::emath::Numeric>(setting: &Setting, ui: &mut Ui, value: &mut T) -> bool {
+fn whole<T: egui::emath::Numeric>(control: &Control, ui: &mut Ui, value: &mut T) -> bool {
     let mut values = [*value];
-    let changed = setting.numbers(ui, &mut values, [""]);
+    let changed = control.numbers(ui, &mut values, [""]);
     *value = values[0];
     changed
 }

@@ -2,37 +2,28 @@
 
 use egui::Ui;
 use lightloom_core::project::CausticDesc;
+use lightloom_core::scene::mesh::Transform;
 use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
-use super::{XYZ, list, materials};
+use super::materials;
 use crate::editor::action::Action;
 use crate::editor::asset::AssetUse;
 use crate::editor::context::EditorContext;
-use crate::editor::panels::setting::Setting;
-use crate::editor::panels::{remove_button, section, shows};
+use crate::editor::panels::control::Control;
+use crate::editor::panels::shows;
+use crate::editor::panels::widgets::{XYZ, list, remove_button, section};
 use crate::editor::unique_name::unique_name;
 
-const NAME: Setting =
-    Setting::text("Name", "scene.meshes[].name").help("Shown in the list of caustics; each name once.");
-const FILE: Setting =
-    Setting::part("File", "scene.meshes[].file").help("An OBJ file, relative to the project.");
-const MOVE: Setting = Setting::vector("Place", "scene.meshes[].transform.translate", [-1e6, 1e6], &[0.0; 3])
-    .help("Where the file's origin stands, x y z in metres; y is up.");
-const TURN: Setting =
-    Setting::vector("Turn", "scene.meshes[].transform.rotate", [-36_000.0, 36_000.0], &[0.0; 3])
-        .help("Turn about the x, then y, then z axis in degrees.");
-const SCALE: Setting = Setting::real("Scale", "scene.meshes[].transform.scale", [1e-12, 1e12], &[1.0])
-    .slider(0.001, 1000.0)
-    .logarithmic()
-    .help("Factor on the file's units: 0.001 for a file in millimetres.");
-const SMOOTH: Setting = Setting::switch("Smooth", "scene.meshes[].smooth", true)
-    .help("Smooth shading over edges of less than 50 degrees; off for facets, as of a gem.");
-const PRIORITY: Setting = Setting::whole("Priority", "scene.meshes[].priority", [-1000.0, 1000.0], &[0.0])
-    .slider(-10.0, 10.0)
-    .help("Where solids of glass overlap, as wine and its glass do, the higher priority fills the place.");
+const NAME: Control = Control::new("Name", MeshDesc::NAME);
+const FILE: Control = Control::new("File", MeshDesc::FILE);
+const MOVE: Control = Control::new("Place", Transform::TRANSLATE);
+const TURN: Control = Control::new("Turn", Transform::ROTATE);
+const SCALE: Control = Control::new("Scale", Transform::SCALE).log_slider(0.001, 1000.0);
+const SMOOTH: Control = Control::new("Smooth", MeshDesc::SMOOTH);
+const PRIORITY: Control = Control::new("Priority", MeshDesc::PRIORITY).slider(-10.0, 10.0);
 
 /// The settings of a mesh.
-pub(super) const SETTINGS: &[Setting] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
+pub(super) const CONTROLS: &[Control] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
 /// The list, and the values of the mesh that is chosen. Caustics follow a name.
 pub(super) fn show(
@@ -63,7 +54,7 @@ pub(super) fn show(
     let taken: Vec<String> = scene.meshes.iter().map(|mesh| mesh.name.clone()).collect();
     let mesh = &mut scene.meshes[index];
     section(ui, &mesh.name);
-    if let Some(name) = NAME.words(ui, index, &mesh.name).filter(|name| !name.is_empty()) {
+    if let Some(name) = NAME.text(ui, index, &mesh.name).filter(|name| !name.is_empty()) {
         let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         follow(caustics, &mesh.name, &name);
         mesh.name = name;

@@ -1,4 +1,8 @@
-//! Files: read only if regular and never more than was asked for; written whole or not at all.
+//! Files: read only if regular and never more than was asked for; written whole or not at all. Array files: [`npy`],
+//! [`npz`].
+
+pub mod npy;
+pub mod npz;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read as _, Write as _};

@@ -3,15 +3,17 @@
 use egui::emath::Numeric;
 use egui::{DragValue, Response, Slider, SliderClamping, Ui};
 
-use super::{Kind, Setting, format};
+use lightloom_core::setting::{Kind, format};
+
+use super::Control;
 
 /// Width of a field beside a slider, points.
 const FIELD: f32 = 68.0;
 /// Least width of a slider: below it there is only the field.
 const SLIDER: f32 = 48.0;
 
-impl Setting {
-    /// A slider and a field. Answers whether the value is another now.
+impl Control {
+    /// A slider and a field. Whether the value changed.
     pub fn number<T: Numeric>(&self, ui: &mut Ui, value: &mut T) -> bool {
         self.number_beside(ui, value, 0.0)
     }
@@ -24,22 +26,24 @@ impl Setting {
             self.slider_and_field(ui, value, width);
         });
         if row.reset
-            && let [default] = self.default
+            && let [default] = self.setting.default
         {
             *value = T::from_f64(*default);
         }
         before != *value
     }
 
-    /// A number that may be absent: a switch beside it, called `absent`. Switched on it begins at `first`.
+    /// A number that may be absent, with a check box labelled `absent`; unchecked it begins at `first`. Whether it
+    /// changed.
     pub fn optional<T: Numeric>(&self, ui: &mut Ui, value: &mut Option<T>, absent: &str, first: f64) -> bool {
         let before = *value;
         let changed = before.is_some();
         let row = self.row(ui, changed, |ui| {
             let mut none = value.is_none();
-            let switch =
-                ui.checkbox(&mut none, absent).accessible_name(format!("{}: {absent}", self.spoken()));
-            self.explain(switch);
+            let switch = ui
+                .checkbox(&mut none, absent)
+                .accessible_name(format!("{}: {absent}", self.accessible_name()));
+            self.with_tooltip(switch);
             match (none, &mut *value) {
                 (true, value) => *value = None,
                 (false, Some(value)) => {
@@ -56,7 +60,7 @@ impl Setting {
         before != *value
     }
 
-    /// A field for each component, which are called `names`.
+    /// A field for each component, by these `names`. Whether the value changed.
     pub fn numbers<const N: usize, T: Numeric>(
         &self,
         ui: &mut Ui,
@@ -67,26 +71,26 @@ impl Setting {
         let row = self.row(ui, self.is_changed(&before.map(Numeric::to_f64)), |ui| {
             let width = (ui.available_width() - 4.0 * (N as f32 - 1.0)) / N as f32;
             for (component, name) in value.iter_mut().zip(names) {
-                self.field(ui, component, width, &format!("{} {name}", self.spoken()));
+                self.field(ui, component, width, &format!("{} {name}", self.accessible_name()));
             }
         });
-        if row.reset && self.default.len() == N {
-            for (component, default) in value.iter_mut().zip(self.default) {
+        if row.reset && self.setting.default.len() == N {
+            for (component, default) in value.iter_mut().zip(self.setting.default) {
                 *component = T::from_f64(*default);
             }
         }
         before != *value
     }
 
-    /// Whether a value is another than the default, as far as its type can tell them apart.
+    /// Whether a value differs from the default, as 32 bits tell them apart.
     pub(super) fn is_changed(&self, value: &[f64]) -> bool {
         let differ = |(a, b): (&f64, &f64)| (*a as f32) != (*b as f32);
-        self.default.len() != value.len() || value.iter().zip(self.default).any(differ)
+        self.setting.default.len() != value.len() || value.iter().zip(self.setting.default).any(differ)
     }
 
     fn slider_and_field<T: Numeric>(&self, ui: &mut Ui, value: &mut T, room: f32) {
         if room < SLIDER + FIELD {
-            self.field(ui, value, room, &self.spoken());
+            self.field(ui, value, room, &self.accessible_name());
             return;
         }
         ui.spacing_mut().slider_width = room - FIELD - 4.0;
@@ -102,12 +106,12 @@ impl Setting {
             .smallest_positive(smallest(self))
             // A value beyond the slider's ends stays until the slider is moved.
             .clamping(SliderClamping::Edits);
-        if self.kind == Kind::Whole {
+        if self.setting.kind == Kind::Whole {
             slider = slider.integer();
         }
-        let response = ui.add(slider).accessible_name(self.spoken());
-        self.explain(response);
-        self.field(ui, value, FIELD, &format!("{} value", self.spoken()));
+        let response = ui.add(slider).accessible_name(self.accessible_name());
+        self.with_tooltip(response);
+        self.field(ui, value, FIELD, &format!("{} value", self.accessible_name()));
     }
 
     /// A field to drag or to type in.
@@ -118,8 +122,12 @@ impl Setting {
         width: f32,
         name: &str,
     ) -> Response {
-        let whole = self.kind == Kind::Whole || T::INTEGRAL;
-        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let whole = self.setting.kind == Kind::Whole || T::INTEGRAL;
+        let suffix = if self.suffix && !self.setting.unit.is_empty() {
+            format!(" {}", self.setting.unit)
+        } else {
+            String::new()
+        };
         let before = value.to_f64();
         let field = DragValue::from_get_set(|new| {
             if let Some(new) = new {
@@ -127,26 +135,26 @@ impl Setting {
             }
             value.to_f64()
         })
-        .range(self.clamp(self.range[0])..=self.range[1])
+        .range(self.clamp(self.setting.range[0])..=self.setting.range[1])
         .clamp_existing_to_range(false)
         .speed(speed(self, before, whole))
         .suffix(suffix)
         // What is typed counts when it is complete.
         .update_while_editing(false)
         .custom_formatter(|value, _| format::number(value, whole))
-        .custom_parser(|text| format::parse(text, self.unit));
+        .custom_parser(|text| format::parse(text, self.setting.unit));
         // Long numbers need the room.
         ui.spacing_mut().button_padding.x = 2.0;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
         let response = ui.add_sized(size, field).accessible_name(name);
-        self.explain(response)
+        self.with_tooltip(response)
     }
 }
 
-/// What the ends of the slider above stand for.
-pub(in crate::editor::panels) fn ends(ui: &mut Ui, low: &str, high: &str) {
+/// The meaning of the two ends of the slider above.
+pub(in crate::editor::panels) fn end_labels(ui: &mut Ui, low: &str, high: &str) {
     ui.horizontal(|ui| {
-        let left = super::NAMES + 4.0;
+        let left = super::row::LABELS + 4.0;
         let width = ui.available_width() - left - FIELD - 4.0;
         let (rect, _) = ui.allocate_exact_size(egui::vec2(left + width, 12.0), egui::Sense::hover());
         let font = egui::TextStyle::Small.resolve(ui.style());
@@ -157,16 +165,16 @@ pub(in crate::editor::panels) fn ends(ui: &mut Ui, low: &str, high: &str) {
     });
 }
 
-/// Where a slider by factors begins that reaches down to 0.
-fn smallest(setting: &Setting) -> f64 {
-    if setting.slider[0] > 0.0 { setting.slider[0] } else { setting.slider[1] * 1e-4 }
+/// Where a logarithmic slider begins that reaches down to 0.
+fn smallest(control: &Control) -> f64 {
+    if control.slider[0] > 0.0 { control.slider[0] } else { control.slider[1] * 1e-4 }
 }
 
-/// Change of the value for a point of dragging.
-fn speed(setting: &Setting, value: f64, whole: bool) -> f64 {
-    let [low, high] = setting.slider;
-    let speed = if setting.logarithmic {
-        0.01 * value.abs().max(smallest(setting))
+/// Change of the value per point of dragging.
+fn speed(control: &Control, value: f64, whole: bool) -> f64 {
+    let [low, high] = control.slider;
+    let speed = if control.logarithmic {
+        0.01 * value.abs().max(smallest(control))
     } else if high - low > 1000.0 {
         // Places in a scene reach far and stand near.
         0.01 * value.abs().max(0.5)

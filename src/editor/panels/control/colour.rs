@@ -2,11 +2,11 @@
 
 use egui::Ui;
 
-use super::Setting;
+use super::Control;
 
-impl Setting {
-    /// A picker and three fields. Answers whether the colour is another now.
-    pub fn tint(&self, ui: &mut Ui, value: &mut [f32; 3]) -> bool {
+impl Control {
+    /// A picker and three fields. Whether the colour changed.
+    pub fn colour(&self, ui: &mut Ui, value: &mut [f32; 3]) -> bool {
         let before = *value;
         let changed = self.is_changed(&before.map(f64::from));
         let row = self.row(ui, changed, |ui| {
@@ -14,20 +14,18 @@ impl Setting {
             let scale = value.iter().copied().fold(1.0, f32::max);
             let mut shown = value.map(|channel| (channel / scale).clamp(0.0, 1.0));
             ui.spacing_mut().interact_size.x = 28.0;
-            let picker = ui.color_edit_button_rgb(&mut shown).accessible_name(self.spoken());
-            let picker = self.explain(picker);
+            let picker = ui.color_edit_button_rgb(&mut shown).accessible_name(self.accessible_name());
+            let picker = self.with_tooltip(picker);
             if picker.changed() {
                 *value = shown.map(|channel| self.clamp(f64::from(channel * scale)) as f32);
             }
             let width = (ui.available_width() - 8.0) / 3.0;
             for (channel, name) in value.iter_mut().zip(["red", "green", "blue"]) {
-                self.field(ui, channel, width, &format!("{} {name}", self.spoken()));
+                self.field(ui, channel, width, &format!("{} {name}", self.accessible_name()));
             }
         });
-        if row.reset
-            && let [r, g, b] = *self.default
-        {
-            *value = [r as f32, g as f32, b as f32];
+        if row.reset {
+            *value = self.setting.value();
         }
         before != *value
     }

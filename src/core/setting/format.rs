@@ -47,7 +47,7 @@ fn grouped(value: f64) -> String {
 }
 
 /// The number that somebody typed: blanks, a comma for the point and the unit do not matter.
-pub(super) fn parse(text: &str, unit: &str) -> Option<f64> {
+pub fn parse(text: &str, unit: &str) -> Option<f64> {
     let text: String = text.trim().trim_end_matches(unit).split_whitespace().collect();
     let text = text.replace(',', ".").replace('−', "-");
     text.parse().ok().filter(|value: &f64| value.is_finite())
