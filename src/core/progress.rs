@@ -70,7 +70,7 @@ impl Progress {
     }
 
     /// Declares the stages ahead, in order, with the seconds each is expected to take.
-    pub fn set_road(&self, stages: Vec<(&'static str, f64)>) {
+    pub fn set_stages(&self, stages: Vec<(&'static str, f64)>) {
         *self.road() = Road { expected: stages, ..Road::default() };
     }
 
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn the_whole_counts_each_stage_by_its_expected_seconds() {
         let progress = Progress::new();
-        progress.set_road(vec![("trace", 1.0), ("render", 3.0)]);
+        progress.set_stages(vec![("trace", 1.0), ("render", 3.0)]);
         progress.begin("render", 10);
         progress.advance(5);
         let seen = progress.snapshot();
@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn the_whole_never_goes_back_over_stages_that_come_twice() {
         let progress = Progress::new();
-        progress.set_road(vec![("match", 1.0), ("fit", 1.0), ("match", 1.0), ("fit", 1.0), ("write", 1.0)]);
+        progress.set_stages(vec![("match", 1.0), ("fit", 1.0), ("match", 1.0), ("fit", 1.0), ("write", 1.0)]);
         let mut last = 0.0;
         for stage in ["match", "fit", "match", "fit", "unheard of", "write"] {
             progress.begin(stage, 2);

@@ -76,7 +76,7 @@ pub fn report(
 ) -> Result<Report> {
     let start = Instant::now();
     let chosen = section::choose(only)?;
-    progress.set_road(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
+    progress.set_stages(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
     let mut bench = Workbench::new(engine, project, effort, scratch, progress)?;
     let (mut chapters, mut absent) = (Vec::new(), Vec::new());
     for section in chosen {

@@ -53,7 +53,7 @@ impl Engine {
         let Some((tracer, scene)) = tracer.as_ref().zip(prepared.scene.as_deref()) else { return Ok(None) };
         let trace = |&photons: &usize| {
             let (_, report) = tracer.trace(0, photons, progress)?;
-            Ok(Traced { photons, rays: report.ledger.rays, seconds: report.seconds })
+            Ok(Traced { photons, rays: report.balance.rays, seconds: report.seconds })
         };
         let traced = counts.iter().map(trace).collect::<Result<_>>()?;
         Ok(Some(TraceGauge { traced, bare_rays_per_second: bare_rays_per_second(scene) }))

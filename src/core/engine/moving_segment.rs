@@ -14,7 +14,7 @@ use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
 use crate::flow::{Course, FlowReport, FlowSettings, flux};
 use crate::project::Project;
-use crate::render::Paper;
+use crate::render::PlaneMaterial;
 use crate::{Error, Progress, Result};
 
 /// The photons of the first two key frames between which they move, matched: row k of [`Self::target`] is where photon k of
@@ -36,7 +36,7 @@ pub struct MovingSegment {
     /// Seconds of "trace" and "match", over all segments up to this one.
     pub costs: Vec<StageCost>,
     /// The look of light on the plane.
-    pub paper: Paper,
+    pub plane_material: PlaneMaterial,
     project: Project,
     photons: SegmentPhotons,
 }
@@ -82,7 +82,7 @@ impl Engine {
                         lines: photons.active.lines.clone(),
                         walls: photons.active.walls.clone(),
                         costs: meter.costs(),
-                        paper: prepared.paper(),
+                        plane_material: prepared.plane_material(),
                         project: project.clone(),
                         photons,
                     });

@@ -15,7 +15,7 @@ use exr::prelude::{
 use glam::Vec3;
 use half::f16;
 
-use super::{Frame, Repairs};
+use super::{Frame, RepairedSamples};
 use crate::{Error, Result};
 
 /// What a frame's file says about itself.
@@ -34,10 +34,10 @@ pub struct Metadata {
 }
 
 /// Writes a frame. Returns what had to be repaired; the numbers stand in the file, too.
-pub fn write(path: &Path, frame: &Frame<'_>) -> Result<Repairs> {
+pub fn write(path: &Path, frame: &Frame<'_>) -> Result<RepairedSamples> {
     let size = (frame.background.width, frame.background.height);
     assert_eq!(size, (frame.caustic.width, frame.caustic.height), "layers of one size");
-    let mut repairs = Repairs::default();
+    let mut repairs = RepairedSamples::default();
     let mut finite = |v: Vec3| {
         let fixed = v.to_array().map(|v| if v.is_finite() { v } else { 0.0 });
         repairs.nonfinite_replaced += v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
@@ -81,7 +81,7 @@ fn encoding() -> Encoding {
     Encoding { compression: Compression::PIZ, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing }
 }
 
-fn attributes(name: &str, metadata: &Metadata, repairs: Repairs) -> LayerAttributes {
+fn attributes(name: &str, metadata: &Metadata, repairs: RepairedSamples) -> LayerAttributes {
     let mut attributes = LayerAttributes::named(name);
     attributes.software_name = Some(Text::from(concat!("Lightloom ", env!("CARGO_PKG_VERSION"))));
     attributes.frames_per_second = Some(metadata.frames_per_second);

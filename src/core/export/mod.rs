@@ -14,9 +14,9 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use comparison::{Comparison, Row, write_comparison};
+pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use exr::Metadata;
-pub use overlay::{Drawn, MAGENTA, ORANGE, Overlay};
+pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};
@@ -61,14 +61,14 @@ pub struct Frame<'a> {
 
 /// Values that no file can hold, and what became of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Repairs {
+pub struct RepairedSamples {
     /// Samples beyond the largest half float, clamped to it.
     pub half_clamped: u64,
     /// Samples that were not finite, replaced by 0.
     pub nonfinite_replaced: u64,
 }
 
-impl std::ops::AddAssign for Repairs {
+impl std::ops::AddAssign for RepairedSamples {
     fn add_assign(&mut self, other: Self) {
         self.half_clamped += other.half_clamped;
         self.nonfinite_replaced += other.nonfinite_replaced;
@@ -86,7 +86,7 @@ pub fn write_frame(
     frame: &Frame<'_>,
     view: &View,
     depth: PngDepth,
-) -> Result<Repairs> {
+) -> Result<RepairedSamples> {
     match format {
         FrameFormat::Exr => exr::write(path, frame),
         FrameFormat::Png => {
@@ -94,7 +94,7 @@ pub fn write_frame(
             let nonfinite =
                 beauty.pixels.iter().flat_map(|p| p.to_array()).filter(|v| !v.is_finite()).count();
             png::write(path, &view.apply(&beauty), depth)?;
-            Ok(Repairs { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
+            Ok(RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
         }
     }
 }

@@ -1,16 +1,16 @@
 //! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after something specular.
 
-mod aim;
-mod learn;
+mod diagnosis;
+mod emission_plan;
+mod guide_learner;
 mod path;
 mod trace;
-mod why;
 
 use glam::{Vec2, Vec3};
 
-pub use aim::Aim;
-pub use path::Ledger;
-pub use trace::{Lesson, TraceReport, Tracer};
+pub use emission_plan::EmissionGuiding;
+pub use path::FluxBalance;
+pub use trace::{EmissionGuide, TraceReport, Tracer};
 
 /// Caustic photons in columns of equal length. Their order is such that the first n are an even sample of all.
 #[derive(Clone, Debug, Default, PartialEq)]

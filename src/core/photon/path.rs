@@ -23,7 +23,7 @@ pub(super) struct Landing {
 
 /// Where the flux of the lights went [W], per channel. `emitted` is the sum of all others, to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
+pub struct FluxBalance {
     /// Sent towards glass and mirrors.
     pub emitted: DVec3,
     /// Fell on the receiver after something specular: the caustics.
@@ -44,8 +44,8 @@ pub struct Ledger {
     pub rays: u64,
 }
 
-impl Ledger {
-    fn columns(&mut self) -> [&mut DVec3; 8] {
+impl FluxBalance {
+    fn fluxes(&mut self) -> [&mut DVec3; 8] {
         let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct, .. } = self;
         [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
     }
@@ -57,7 +57,7 @@ impl Ledger {
 
     /// Adds another one.
     pub(super) fn add(&mut self, mut other: Self) {
-        for (column, more) in self.columns().into_iter().zip(other.columns()) {
+        for (column, more) in self.fluxes().into_iter().zip(other.fluxes()) {
             *column += *more;
         }
         self.rays += other.rays;
@@ -65,27 +65,27 @@ impl Ledger {
 
     /// Multiplies the fluxes by a factor.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
-        self.columns().into_iter().for_each(|column| *column *= factor);
+        self.fluxes().into_iter().for_each(|column| *column *= factor);
         self
     }
 }
 
-/// Follows a photon of `flux` along `ray`, from a light in `media`, and enters its end in the ledger.
+/// Follows a photon of `flux` along `ray`, from a light in `media`, and enters its end in the balance.
 pub(super) fn follow(
     scene: &Scene,
     mut ray: Ray,
     flux: Vec3,
     media: Media,
     rng: &mut Stream,
-    ledger: &mut Ledger,
+    balance: &mut FluxBalance,
 ) -> Option<Landing> {
     let mut beam = Beam::new(flux, media);
     let mut last_specular = None;
-    ledger.emitted += flux.as_dvec3();
+    balance.emitted += flux.as_dvec3();
     for surface in 0..MAX_SURFACES {
-        ledger.rays += 1;
+        balance.rays += 1;
         let Some(mut hit) = scene.intersect(&ray) else {
-            let end = if last_specular.is_some() { &mut ledger.escaped } else { &mut ledger.direct };
+            let end = if last_specular.is_some() { &mut balance.escaped } else { &mut balance.direct };
             *end += beam.weight.as_dvec3();
             return None;
         };
@@ -103,26 +103,26 @@ pub(super) fn follow(
             }
             SurfaceId::Receiver | SurfaceId::Floor => None,
         };
-        let survived = survive(&mut beam.weight, flux, rng);
-        ledger.absorbed += (arriving - beam.weight).as_dvec3();
+        let survived = roulette(&mut beam.weight, flux, rng);
+        balance.absorbed += (arriving - beam.weight).as_dvec3();
         if !survived {
             return None;
         }
         match (next, last_specular) {
             (Some(direction), _) => ray = Ray::leaving(&hit, direction),
             (None, None) => {
-                ledger.direct += beam.weight.as_dvec3();
+                balance.direct += beam.weight.as_dvec3();
                 return None;
             }
-            (None, Some(mesh)) => return end(scene, &hit, &ray, beam.weight, mesh, ledger),
+            (None, Some(mesh)) => return end(scene, &hit, &ray, beam.weight, mesh, balance),
         }
     }
-    ledger.capped += beam.weight.as_dvec3();
+    balance.capped += beam.weight.as_dvec3();
     None
 }
 
 /// Restores the mean of the channels to that of `flux`, or ends the photon, so that the expectation stays.
-fn survive(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
+fn roulette(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
     let left = weight.element_sum() / flux.element_sum();
     if left > 0.999_999 {
         return true;
@@ -139,16 +139,16 @@ fn end(
     ray: &Ray,
     flux: Vec3,
     mesh: u16,
-    ledger: &mut Ledger,
+    balance: &mut FluxBalance,
 ) -> Option<Landing> {
     let lit = ray.direction.dot(hit.geometric_normal) < 0.0;
     let column = match hit.surface {
         SurfaceId::Receiver if lit => {
-            ledger.landed += flux.as_dvec3();
+            balance.landed += flux.as_dvec3();
             return Some(Landing { position: scene.receiver().plane_from_world(hit.point), flux, mesh });
         }
-        SurfaceId::Floor if lit => &mut ledger.surround,
-        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut ledger.blocked,
+        SurfaceId::Floor if lit => &mut balance.surround,
+        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut balance.blocked,
     };
     *column += flux.as_dvec3();
     None

@@ -1,7 +1,7 @@
 //! Traces light paths in parallel until exactly as many photons landed as were asked for.
 //!
 //! How many candidates a pass needs is fixed beforehand from the landing rate seen in [`Tracer::new`], with a margin, and all
-//! of them are traced, spread evenly (stratified) over the cells of the [`Plan`]; so what each photon stands for, flux /
+//! of them are traced, spread evenly (stratified) over the cells of the [`EmissionPlan`]; so what each photon stands for, flux /
 //! candidates, is known before any is traced and the estimate has no bias. Of the few photons too many an even share is
 //! left out, at random offset, and the others take over its flux in proportion. Only if luck is worse than five standard
 //! deviations are candidates added; the bias of that is far below the noise of a single photon.
@@ -11,9 +11,9 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::aim::{Aim, Plan};
-use super::path::{Ledger, follow};
-use super::{Photons, why};
+use super::emission_plan::{EmissionGuiding, EmissionPlan};
+use super::path::{FluxBalance, follow};
+use super::{Photons, diagnosis};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Error, Progress, Result};
@@ -39,7 +39,7 @@ pub struct TraceReport {
     /// Caustic photons that landed; a few more than were asked for.
     pub landed: u64,
     /// Where the flux went [W]; `emitted` is what was sent towards glass and mirrors.
-    pub ledger: Ledger,
+    pub balance: FluxBalance,
     /// Wall time.
     pub seconds: f64,
 }
@@ -47,16 +47,16 @@ pub struct TraceReport {
 /// Traces the caustic photons of a scene, pass by pass.
 pub struct Tracer<'a> {
     scene: &'a Scene,
-    lesson: Lesson,
+    guide: EmissionGuide,
 }
 
 /// Where the lights of a scene must shine, learned once. It holds as long as meshes, lights, receiver and seed stay
 /// what they are. Cheap to clone.
 #[derive(Clone)]
-pub struct Lesson(Arc<Learned>);
+pub struct EmissionGuide(Arc<GuidedEmission>);
 
-struct Learned {
-    plan: Plan,
+struct GuidedEmission {
+    plan: EmissionPlan,
     seed: u64,
     /// Photons landed per candidate.
     rate: f64,
@@ -68,49 +68,54 @@ struct Batch {
     photons: Photons,
     /// The cell each photon came from.
     cells: Vec<u32>,
-    ledger: Ledger,
+    balance: FluxBalance,
 }
 
 impl<'a> Tracer<'a> {
     /// Learns where the lights must shine. Fails with the first reason if no caustic falls on the receiver.
     pub fn new(scene: &'a Scene, seed: u64, progress: &Progress) -> Result<Self> {
-        Self::aimed(scene, Aim::Learned, seed, progress)
+        Self::with_guiding(scene, EmissionGuiding::Learned, seed, progress)
     }
 
     /// As [`Self::new`], with emission narrowed less: to compare with, at many times the cost.
-    pub fn aimed(scene: &'a Scene, aim: Aim, seed: u64, progress: &Progress) -> Result<Self> {
-        let plan = Plan::new(scene, aim, seed, progress)?;
-        let mut learned = Learned { plan, seed, rate: 0.0 };
-        if learned.plan.cells.is_empty() {
-            return Err(why::no_caustic(scene, &learned.plan.ledgers));
+    pub fn with_guiding(
+        scene: &'a Scene,
+        guiding: EmissionGuiding,
+        seed: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let plan = EmissionPlan::new(scene, guiding, seed, progress)?;
+        let mut emission = GuidedEmission { plan, seed, rate: 0.0 };
+        if emission.plan.cells.is_empty() {
+            return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
         for pilot in 0..PILOTS {
-            let batches = learned.set(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
+            let batches = emission.trace_candidates(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
             let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
-            learned.rate = cells.len() as f64 / PILOT as f64;
-            if !learned.plan.activate(&cells) {
+            emission.rate = cells.len() as f64 / PILOT as f64;
+            if !emission.plan.activate(&cells) {
                 break;
             }
         }
-        if learned.rate == 0.0 {
-            return Err(why::no_caustic(scene, &learned.plan.ledgers));
+        if emission.rate == 0.0 {
+            return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
-        Ok(Self { scene, lesson: Lesson(Arc::new(learned)) })
+        Ok(Self { scene, guide: EmissionGuide(Arc::new(emission)) })
     }
 
     /// Traces on where another tracer has learned where to shine, in a scene of the same meshes, lights and receiver.
-    pub fn resume(scene: &'a Scene, lesson: Lesson) -> Self {
-        Self { scene, lesson }
+    pub fn with_guide(scene: &'a Scene, guide: EmissionGuide) -> Self {
+        Self { scene, guide }
     }
 
-    /// What was learned, for [`Self::resume`].
-    pub fn lesson(&self) -> &Lesson {
-        &self.lesson
+    /// What was learned, for [`Self::with_guide`].
+    pub fn guide(&self) -> &EmissionGuide {
+        &self.guide
     }
 
     /// Photons landed per candidate sent.
     pub fn landing_rate(&self) -> f64 {
-        self.lesson.0.rate
+        self.guide.0.rate
     }
 
     /// Traces exactly `count` caustic photons of a pass. Equal for equal (seed, pass, count), on any number of threads.
@@ -122,35 +127,36 @@ impl<'a> Tracer<'a> {
         }
         let mut batches: Vec<Batch> = Vec::new();
         let (mut landed, mut candidates) = (0, 0);
-        let learned = &*self.lesson.0;
-        let expected = learned.candidates_for(count as u64);
+        let emission = &*self.guide.0;
+        let expected = emission.candidates_for(count as u64);
         while landed < count as u64 {
             if candidates > 100 * expected {
                 let what =
                     format!("only {landed} of {count} photons landed, far fewer than the pilot run promised");
                 return Err(Error::Numeric { stage: "trace", what });
             }
-            let wanted = learned.candidates_for(count as u64 - landed);
-            batches.extend(learned.set(self.scene, (pass, candidates, wanted), progress)?);
+            let wanted = emission.candidates_for(count as u64 - landed);
+            batches.extend(emission.trace_candidates(self.scene, (pass, candidates, wanted), progress)?);
             candidates += wanted;
             landed = batches.iter().map(|batch| batch.photons.len() as u64).sum();
         }
-        let mut ledger = Ledger::default();
-        batches.iter().for_each(|batch| ledger.add(batch.ledger));
-        let offset = (Stream::new(learned.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
+        let mut balance = FluxBalance::default();
+        batches.iter().for_each(|batch| balance.add(batch.balance));
+        let offset =
+            (Stream::new(emission.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
         let factor = landed as f64 / count as f64 / candidates as f64;
         let photons = thin(batches, count as u64, landed, offset, factor as f32);
         let report = TraceReport {
             candidates,
             landed,
-            ledger: ledger.scaled(1.0 / candidates as f64),
+            balance: balance.scaled(1.0 / candidates as f64),
             seconds: start.elapsed().as_secs_f64(),
         };
         Ok((photons, report))
     }
 }
 
-impl Learned {
+impl GuidedEmission {
     /// Candidates that yield `count` photons unless luck is worse than five standard deviations; whole batches.
     fn candidates_for(&self, count: u64) -> u64 {
         let count = count as f64;
@@ -163,7 +169,7 @@ impl Learned {
 
     /// Traces `count` candidates of a pass, a multiple of `BATCH`, spread over all cells; `first` is the index of the
     /// first in its pass.
-    fn set(
+    fn trace_candidates(
         &self,
         scene: &Scene,
         (pass, first, count): (u64, u64, u64),
@@ -173,7 +179,7 @@ impl Learned {
             .into_par_iter()
             .map(|batch| {
                 progress.check()?;
-                let batch = self.batch(scene, (pass, first, count), batch * BATCH);
+                let batch = self.trace_batch(scene, (pass, first, count), batch * BATCH);
                 progress.advance(batch.photons.len() as u64);
                 Ok(batch)
             })
@@ -182,7 +188,7 @@ impl Learned {
 
     /// Candidate i of a set takes the i-th of `count` equal shares of the cells: neighbours in a batch meet the same
     /// triangles, and find them in the cache.
-    fn batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
+    fn trace_batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
         let mut result = Batch::default();
         let share = |candidate: u64, within: f64| (candidate as f64 + within) / count as f64;
         let last = self.plan.cells.len() - 1;
@@ -197,7 +203,7 @@ impl Learned {
             let domain = &self.plan.domains[cell.domain as usize];
             let u = cell.corner.map(|corner| corner + rng.f32() * cell.size);
             let Some((ray, media)) = domain.sample(scene, u, &mut rng) else { continue };
-            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.ledger);
+            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.balance);
             if let Some(landing) = landing {
                 result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
                 result.cells.push(at as u32);

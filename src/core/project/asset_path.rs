@@ -10,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 use crate::{Error, Result};
 
 /// Longer paths are refused by most systems.
-const LONGEST: usize = 4096;
+const MAX_PATH_BYTES: usize = 4096;
 
 /// Resolves the asset paths of one project.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ impl AssetFolder {
         if written.is_empty() {
             return Err(wrong("names no file; give a path relative to the project file"));
         }
-        if written.len() > LONGEST {
+        if written.len() > MAX_PATH_BYTES {
             return Err(wrong("… is longer than 4096 bytes; shorten the path"));
         }
         if written.contains('\0') {

@@ -11,7 +11,7 @@ use super::{KeyFrame, Project, Shows};
 use crate::{Error, Result};
 
 /// Most caustics of a project.
-const MOST: usize = 1000;
+const MAX_CAUSTICS: usize = 1000;
 
 /// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -107,8 +107,9 @@ pub(super) fn by_name<'de, D: Deserializer<'de>>(
 /// The named caustics, and what the keys say of them.
 pub(super) fn check(project: &Project) -> Result<()> {
     let caustics = &project.caustics;
-    if caustics.len() > MOST {
-        let what = format!("names {} caustics, at most {MOST} can be told apart; join some", caustics.len());
+    if caustics.len() > MAX_CAUSTICS {
+        let what =
+            format!("names {} caustics, at most {MAX_CAUSTICS} can be told apart; join some", caustics.len());
         return Err(Error::Limit { place: "caustics".into(), what });
     }
     if !caustics.is_empty() && project.scene.is_none() {
@@ -131,7 +132,7 @@ pub(super) fn check(project: &Project) -> Result<()> {
         for (name, caustic) in &key.caustics {
             let place = format!("keys[{i}].caustics.{name}");
             if !names.contains(name.as_str()) {
-                return Err(Error::value(place, unknown("caustic", name, names.iter().copied())));
+                return Err(Error::value(place, unknown_name("caustic", name, names.iter().copied())));
             }
             caustic.check(&place)?;
         }
@@ -140,7 +141,7 @@ pub(super) fn check(project: &Project) -> Result<()> {
 }
 
 /// What to say of a name that nothing bears.
-pub(crate) fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<_> = known.map(|name| format!("'{name}'")).collect();
     if known.is_empty() {
         return format!("there is no {kind} '{name}', and no other");

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::file::unknown;
-use super::{Project, VERSION, describe};
+use super::{Project, VERSION, schema_docs};
 use crate::{Error, Result};
 
 /// Larger files are no projects: photons and pictures stand in files of their own.
-pub(super) const MOST_BYTES: u64 = 64 << 20;
+pub(super) const MAX_BYTES: u64 = 64 << 20;
 
 pub(super) fn load(path: &Path) -> Result<Project> {
-    parse(&crate::files::read_regular_file(path, MOST_BYTES)?, path)
+    parse(&crate::files::read_regular_file(path, MAX_BYTES)?, path)
 }
 
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
@@ -93,7 +93,7 @@ fn place(error: &serde_json::Error, field: &str) -> String {
 fn what(error: &serde_json::Error, field: &str) -> String {
     let full = error.to_string();
     let reason = full.rsplit_once(" at line ").map_or(full.as_str(), |(reason, _)| reason);
-    match (error.is_eof(), describe::field(&Project::json_schema(), field)) {
+    match (error.is_eof(), schema_docs::description(&Project::json_schema(), field)) {
         (true, _) => format!("the file ends too early ({reason}); is it cut off?"),
         (false, Some(meaning)) => format!("{reason}. This is: {meaning}"),
         (false, None) => reason.to_owned(),

@@ -10,12 +10,12 @@
 
 mod asset_path;
 mod caustic;
-mod describe;
 mod file;
 pub mod frames;
 mod keyframe;
 mod load;
 mod output;
+mod schema_docs;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -25,10 +25,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use asset_path::AssetFolder;
-pub(crate) use caustic::unknown;
+pub(crate) use caustic::unknown_name;
 pub use caustic::{CausticDesc, CausticKey};
 pub use file::ProjectFile;
-pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
+pub use keyframe::{Ease, KeyFrame, SegmentTime, Shows, segment_time};
 pub use output::OutputSettings;
 
 use crate::constraint::Constraint;

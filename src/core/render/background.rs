@@ -16,7 +16,7 @@ use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
 use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
-use crate::scene::material::fresnel::toward;
+use crate::scene::material::fresnel::facing_normals;
 use crate::scene::material::{Beam, Material};
 use crate::scene::{Hit, Media, Ray, Scene};
 use crate::{Progress, Result};
@@ -33,11 +33,11 @@ const NOISY: [u32; 2] = [8, 64];
 const TOLERANCE: f32 = 0.016;
 /// How much brighter than the mean of the picture a light may appear in glass or a mirror. Lamps are thousands of times
 /// brighter, and a pixel that caught one reflection of a small lamp by chance would sparkle; this is white all the same.
-const GLINT: f32 = 50.0;
+const FIREFLY_LIMIT: f32 = 50.0;
 
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
 pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
-    sampled(scene, settings, seed, true, progress)
+    render(scene, settings, seed, true, progress)
 }
 
 /// As [`background`], but no pixel takes more than the first light paths: noisy, and ready in a known time.
@@ -47,21 +47,21 @@ pub fn rough_background(
     seed: u64,
     progress: &Progress,
 ) -> Result<Image> {
-    sampled(scene, settings, seed, false, progress)
+    render(scene, settings, seed, false, progress)
 }
 
-fn sampled(
+fn render(
     scene: &Scene,
     settings: &RenderSettings,
     seed: u64,
-    until_good: bool,
+    adaptive: bool,
     progress: &Progress,
 ) -> Result<Image> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
-    let mut paths = Paths { scene, media, width, height, glint: 0.0 };
-    let brightness = paths.brightness(seed);
-    paths.glint = GLINT * brightness;
+    let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
+    let brightness = tracer.brightness(seed);
+    tracer.firefly_limit = FIREFLY_LIMIT * brightness;
     let base = settings.background_samples;
     progress.begin("background", 2 * height as u64);
     let mut pixels: Vec<Pixel> = (0..width * height)
@@ -72,7 +72,7 @@ fn sampled(
             for (x, pixel) in row.iter_mut().enumerate() {
                 progress.check()?;
                 while wanted(y * width + x, pixel) {
-                    (0..base).for_each(|_| paths.sample(x, y, pixel));
+                    (0..base).for_each(|_| tracer.sample(x, y, pixel));
                 }
             }
             progress.advance(1);
@@ -81,12 +81,12 @@ fn sampled(
     };
     trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
     let mean = |pixels: &[Pixel]| Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
-    if !until_good {
+    if !adaptive {
         return Ok(mean(&pixels));
     }
     let floor = 0.5 * brightness;
     let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
-    let near_noise = near(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
+    let near_noise = dilated(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
     trace(&mut pixels, &|i, pixel| {
         near_noise[i] && (pixel.count < NOISY[0] * base || (pixel.count < NOISY[1] * base && noisy(pixel)))
     })?;
@@ -94,7 +94,7 @@ fn sampled(
 }
 
 /// Which pixels are marked or have a marked pixel among their eight neighbours.
-fn near(marked: &[bool], width: usize) -> Vec<bool> {
+fn dilated(marked: &[bool], width: usize) -> Vec<bool> {
     let height = marked.len() / width;
     let around = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
     (0..marked.len())
@@ -142,16 +142,16 @@ impl Pixel {
 }
 
 /// The path tracer.
-struct Paths<'a> {
+struct PathTracer<'a> {
     scene: &'a Scene,
     media: Media,
     width: usize,
     height: usize,
     /// Largest luminance of a light seen in glass or a mirror.
-    glint: f32,
+    firefly_limit: f32,
 }
 
-impl Paths<'_> {
+impl PathTracer<'_> {
     /// Mean luminance of the picture, without lights in glass and mirrors, from a few thousand paths.
     fn brightness(&self, seed: u64) -> f32 {
         const PATHS: usize = 4096;
@@ -187,7 +187,7 @@ impl Paths<'_> {
             if bounces == 0 {
                 // Lights stand in nobody's way: what lies behind them is added, too.
                 let seen = beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
-                let most = if surface == 0 { f32::INFINITY } else { self.glint };
+                let most = if surface == 0 { f32::INFINITY } else { self.firefly_limit };
                 radiance += seen * (most / luminance(seen).max(f32::MIN_POSITIVE)).min(1.0);
             }
             let Some(hit) = hit else {
@@ -197,7 +197,7 @@ impl Paths<'_> {
             let material = scene.material(hit.surface);
             let next = if let Material::Diffuse(diffuse) = material {
                 beam.weight *= Vec3::from(diffuse.albedo);
-                let (geometric, normal) = toward(&hit, ray.direction);
+                let (geometric, normal) = facing_normals(&hit, ray.direction);
                 radiance += beam.weight * self.direct(&hit, geometric, normal, index, bounces, sampler);
                 let next = cosine_direction(normal, sampler.pair(index, 1 + bounces));
                 bounces += 1;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
-use super::density::{Smoother, default_radius, radius_of_pass};
+use super::density::{KernelFilter, default_radius, radius_of_pass};
 use super::frames::FrameStore;
 use super::settings::RenderSettings;
-use super::splat::{Outside, Splatter};
+use super::splat::{OutsidePhotons, Splatter};
 use super::texture::{ReceiverTexture, TextureLayout};
 use crate::Result;
 
@@ -32,7 +32,7 @@ pub struct ProgressiveRender {
 pub struct Workspace {
     texture: ReceiverTexture,
     splatter: Splatter,
-    smoother: Smoother,
+    filter: KernelFilter,
 }
 
 impl Workspace {
@@ -41,7 +41,7 @@ impl Workspace {
         Self {
             texture: ReceiverTexture::new(layout),
             splatter: Splatter::default(),
-            smoother: Smoother::default(),
+            filter: KernelFilter::default(),
         }
     }
 
@@ -71,22 +71,28 @@ impl ProgressiveRender {
         positions: &[Vec2],
         flux: &[Vec3],
         work: &mut Workspace,
-    ) -> Result<Outside> {
+    ) -> Result<OutsidePhotons> {
         let outside = self.expose(pass, positions, flux, work);
-        self.keep(frame, work)?;
+        self.accumulate(frame, work)?;
         Ok(outside)
     }
 
     /// The first half of [`Self::add`]: the photons' light is in the workspace.
-    pub fn expose(&self, pass: usize, positions: &[Vec2], flux: &[Vec3], work: &mut Workspace) -> Outside {
+    pub fn expose(
+        &self,
+        pass: usize,
+        positions: &[Vec2],
+        flux: &[Vec3],
+        work: &mut Workspace,
+    ) -> OutsidePhotons {
         let outside = work.splatter.splat(positions, flux, &mut work.texture);
-        work.smoother.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
+        work.filter.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
         outside
     }
 
     /// The second half: adds the light in the workspace to a frame. It waits for the system on one thread, so let it run
     /// beside the next exposure.
-    pub fn keep(&self, frame: usize, work: &Workspace) -> Result<()> {
+    pub fn accumulate(&self, frame: usize, work: &Workspace) -> Result<()> {
         self.store.add(frame, &work.texture)
     }
 

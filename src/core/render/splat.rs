@@ -15,7 +15,7 @@ const CHUNK: usize = 1 << 16;
 
 /// What did not land on the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outside {
+pub struct OutsidePhotons {
     /// Photons beyond the margin, or without a finite place or flux.
     pub photons: usize,
     /// Their flux in watts, as far as it is finite.
@@ -32,13 +32,13 @@ pub struct Splatter {
 /// The photons of one chunk by band, in their order within each.
 #[derive(Debug, Default)]
 struct Chunk {
-    bands: Vec<Vec<Landed>>,
-    outside: Outside,
+    bands: Vec<Vec<TexelPhoton>>,
+    outside: OutsidePhotons,
 }
 
 /// A photon in texel coordinates; rows counted within its band.
 #[derive(Clone, Copy, Debug)]
-struct Landed {
+struct TexelPhoton {
     x: f32,
     y: f32,
     flux: Vec3,
@@ -50,7 +50,12 @@ impl Splatter {
     ///
     /// # Panics
     /// If the columns differ in length.
-    pub fn splat(&mut self, positions: &[Vec2], flux: &[Vec3], texture: &mut ReceiverTexture) -> Outside {
+    pub fn splat(
+        &mut self,
+        positions: &[Vec2],
+        flux: &[Vec3],
+        texture: &mut ReceiverTexture,
+    ) -> OutsidePhotons {
         assert_eq!(positions.len(), flux.len(), "one flux per photon");
         let layout = *texture.layout();
         let chunks = positions.len().div_ceil(CHUNK);
@@ -83,7 +88,7 @@ impl Splatter {
             let above = texture.texels_mut().iter_mut().skip(first).take(columns);
             above.zip(seam).for_each(|(texel, &flux)| *texel += flux);
         }
-        sorted.iter().fold(Outside::default(), |sum, chunk| Outside {
+        sorted.iter().fold(OutsidePhotons::default(), |sum, chunk| OutsidePhotons {
             photons: sum.photons + chunk.outside.photons,
             flux: sum.flux + chunk.outside.flux,
         })
@@ -93,7 +98,7 @@ impl Splatter {
 impl Chunk {
     fn sort(&mut self, layout: &TextureLayout, positions: &[Vec2], flux: &[Vec3]) {
         let limit = Vec2::new((layout.columns - 1) as f32, (layout.rows - 1) as f32);
-        self.outside = Outside::default();
+        self.outside = OutsidePhotons::default();
         self.bands.resize_with(layout.rows.div_ceil(BAND), Vec::new);
         self.bands.iter_mut().for_each(Vec::clear);
         for (&position, &flux) in positions.iter().zip(flux) {
@@ -103,7 +108,7 @@ impl Chunk {
             if inside && flux.is_finite() {
                 let row = p.y as usize;
                 let (band, row) = (row / BAND, (row % BAND) as f32);
-                self.bands[band].push(Landed { x: p.x, y: row + p.y.fract(), flux });
+                self.bands[band].push(TexelPhoton { x: p.x, y: row + p.y.fract(), flux });
             } else {
                 self.outside.photons += 1;
                 self.outside.flux += if flux.is_finite() { flux.as_dvec3() } else { DVec3::ZERO };
@@ -112,7 +117,7 @@ impl Chunk {
     }
 }
 
-impl Landed {
+impl TexelPhoton {
     /// Adds the photon to the rows of its band and to the seam above them.
     fn add(&self, columns: usize, rows: &mut [Vec4], seam: &mut [Vec4]) {
         let (column, row) = (self.x as usize, self.y as usize);

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 
 pub use camera::CameraDesc;
 pub use environment::EnvironmentDesc;
-pub use light::{Ball, LightDesc};
+pub use light::{LightDesc, Sphere};
 pub use material::Material;
 pub use media::Media;
 pub use mesh::MeshDesc;
@@ -81,9 +81,9 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A ball that encloses it, slightly larger than needed, so that rounding leaves no vertex outside.
-    pub fn ball(&self) -> Ball {
-        Ball { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
+    /// A sphere that encloses it, slightly larger than needed, so that rounding leaves no vertex outside.
+    pub fn bounding_sphere(&self) -> Sphere {
+        Sphere { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
     }
 }
 
@@ -126,7 +126,7 @@ impl Scene {
     ) -> Result<(Self, Vec<String>)> {
         desc.check("scene")?;
         let (geometry, mut notes) = Geometry::load(&desc.meshes, assets, &Progress::new())?;
-        let (scene, more) = Self::with(desc, Arc::new(geometry))?;
+        let (scene, more) = Self::with_geometry(desc, Arc::new(geometry))?;
         notes.extend(more);
         Ok((scene, notes))
     }
@@ -135,7 +135,7 @@ impl Scene {
     ///
     /// # Errors
     /// `Value` names the first value that cannot be used.
-    pub fn with(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
+    pub fn with_geometry(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
         resolve::scene(desc, geometry)
     }
 

@@ -45,7 +45,7 @@ pub(super) fn geometry(
     Ok((Geometry { accel: Accel::new(&triangles, progress)?, meshes }, notes))
 }
 
-/// See [`Scene::with`].
+/// See [`Scene::with_geometry`].
 pub(super) fn scene(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Scene, Vec<String>)> {
     desc.check("scene")?;
     let receiver = desc.receiver.resolve("scene.receiver")?;

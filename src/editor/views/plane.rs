@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, Painter, Rect, Ui, pos2};
 use glam::{Vec2, vec2};
-use lightloom_core::render::{Paper, ViewSettings};
+use lightloom_core::render::{PlaneMaterial, ViewSettings};
 
 use super::{Views, wipe};
 use crate::editor::canvas::space::Space;
@@ -56,7 +56,7 @@ fn drawing(
     painter: &Painter,
     clip: Rect,
     space: &Space,
-    (extent, paper): (Vec2, Paper),
+    (extent, paper): (Vec2, PlaneMaterial),
     view: &ViewSettings,
     photons: &Arc<PhotonColumns>,
 ) -> Drawing {

@@ -61,7 +61,7 @@ pub struct GammaResponse {
 pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -> Result<GammaResponse> {
     let mut project = Quality::Preview.apply(project);
     project.method = Movement::Flow;
-    progress.set_road(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
+    progress.set_stages(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
     let photons = engine.moving_segment(&project, None, progress)?;
     progress.begin("gamma", (KINDS.len() * GAMMAS.len()) as u64);
     let mut rows = Vec::new();

@@ -77,7 +77,7 @@ pub struct StabilityRow {
 pub fn stability(size: Size, progress: &Progress) -> Result<Stability> {
     let start = Instant::now();
     let all: Vec<(&str, Vec<Case>)> = GROUPS.iter().map(|group| (group.name, (group.cases)(size))).collect();
-    progress.set_road(vec![("stability", size.pick(40.0, 600.0))]);
+    progress.set_stages(vec![("stability", size.pick(40.0, 600.0))]);
     progress.begin("stability", all.iter().map(|(_, cases)| cases.len() as u64).sum());
     let mut rows = Vec::new();
     for (group, cases) in all {

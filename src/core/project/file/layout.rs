@@ -3,7 +3,7 @@
 use super::merge::Piece;
 
 /// Longest line, bytes: as in the projects that come with the program.
-const LONGEST: usize = 110;
+const MAX_PATH_BYTES: usize = 110;
 
 /// What a file's own text shows of how it is laid out.
 pub(super) struct Style<'a> {
@@ -44,7 +44,7 @@ impl<'a> Style<'a> {
     fn write(&self, piece: &Piece, depth: usize, column: usize, text: &mut String) {
         let start = text.len();
         // A comma may follow.
-        if one_line(piece, LONGEST.saturating_sub(column + 1), text) {
+        if one_line(piece, MAX_PATH_BYTES.saturating_sub(column + 1), text) {
             return;
         }
         text.truncate(start);
@@ -86,12 +86,12 @@ impl<'a> Style<'a> {
     /// Numbers and points, as many on a line as fit.
     fn fill(&self, items: &[Piece], depth: usize, text: &mut String) {
         text.push('[');
-        let mut column = LONGEST;
+        let mut column = MAX_PATH_BYTES;
         for (i, item) in items.iter().enumerate() {
             let mut word = String::new();
             self.write(item, depth, self.width(depth), &mut word);
             text.push_str(if i > 0 { "," } else { "" });
-            if column + word.len() + 2 > LONGEST {
+            if column + word.len() + 2 > MAX_PATH_BYTES {
                 self.begin_line(depth, text);
                 column = self.width(depth);
             } else {

@@ -7,15 +7,15 @@
 //! The kernel is a box applied three times along rows and columns: the quadratic B-spline, smooth and round within
 //! 3 %. Boxes of fractional length follow Gwosdek et al. 2011, *Theoretical foundations of Gaussian convolution by
 //! extended box filtering*: a whole box plus a fraction of one texel on either side, with exactly the variance asked
-//! for. Long boxes are summed on the run, which makes the cost independent of the radius (`boxes`); the three short boxes of
-//! many photons are one short sum per axis, and where no light is nothing is done (`taps`).
+//! for. Long boxes are summed on the run, which makes the cost independent of the radius (`running_sum`); the three short boxes of
+//! many photons are one short sum per axis, and where no light is nothing is done (`short_kernel`).
 
-mod boxes;
-mod taps;
+mod running_sum;
+mod short_kernel;
 
 use super::texture::ReceiverTexture;
-use boxes::{Box1, Running};
-use taps::Taps;
+use running_sum::{ExtendedBox, RunningSum};
+use short_kernel::ShortKernel;
 
 /// The share of the variance kept by a radius from pass to pass, Knaus and Zwicker's alpha.
 const ALPHA: f64 = 2.0 / 3.0;
@@ -25,7 +25,7 @@ const BOXES: usize = 3;
 const LANES: usize = 4;
 /// Texels to either side up to which one short sum is faster than three running ones: measured, on 2.4 M texels all lit, 1024
 /// to a row.
-const LONGEST_TAPS: usize = 24;
+const MAX_SHORT_REACH: usize = 24;
 
 /// The kernel radius of pass `pass` (from 0), from that of the first, both in plane units:
 /// r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1), i = 1, 2, ...
@@ -46,22 +46,22 @@ pub fn default_radius(photons: usize, area: f32) -> f32 {
 
 /// The filter with its buffers, kept from call to call.
 #[derive(Debug, Default)]
-pub struct Smoother {
-    running: Running,
-    taps: Taps,
+pub struct KernelFilter {
+    running: RunningSum,
+    short: ShortKernel,
 }
 
-impl Smoother {
+impl KernelFilter {
     /// Spreads the light with the kernel of `radius` (plane units), which reaches as far as the radius along each axis
     /// and has the variance radius^2/9. Flux is conserved: at the border the kernel is reflected.
     pub fn filter(&mut self, texture: &mut ReceiverTexture, radius: f32) {
         let variance = f64::from(radius / texture.layout().texel).powi(2) / 9.0 / BOXES as f64;
-        let kernel = Box1::with_variance(variance);
+        let kernel = ExtendedBox::with_variance(variance);
         if kernel.is_identity() {
             return;
         }
-        if BOXES * kernel.reach() <= LONGEST_TAPS {
-            self.taps.filter(texture, &kernel.taps());
+        if BOXES * kernel.reach() <= MAX_SHORT_REACH {
+            self.short.filter(texture, &kernel.weights());
         } else {
             self.running.filter(texture, &kernel);
         }

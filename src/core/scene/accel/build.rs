@@ -39,7 +39,7 @@ impl Bounds {
     }
 
     /// Twice the centre.
-    fn place(&self) -> Vec3 {
+    fn doubled_centre(&self) -> Vec3 {
         self.lower + self.upper
     }
 
@@ -153,7 +153,7 @@ fn eight_parts(items: &mut [Item], depth: usize) -> Vec<(usize, Bounds)> {
 /// Sorts the items into two parts and returns the size of the first; both hold at least one.
 fn divide(items: &mut [Item], depth: usize) -> usize {
     let places = items.iter().fold(Bounds::EMPTY, |all, item| {
-        let place = item.bounds.place();
+        let place = item.bounds.doubled_centre();
         all.union(Bounds { lower: place, upper: place })
     });
     if depth < MAX_SAH_DEPTH
@@ -165,7 +165,7 @@ fn divide(items: &mut [Item], depth: usize) -> usize {
     let size = places.upper - places.lower;
     let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
     let middle = items.len() / 2;
-    let place = |item: &Item| item.bounds.place()[axis];
+    let place = |item: &Item| item.bounds.doubled_centre()[axis];
     items.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)).then(a.index.cmp(&b.index)));
     middle
 }
@@ -174,7 +174,7 @@ fn divide(items: &mut [Item], depth: usize) -> usize {
 fn binning(places: &Bounds, axis: usize) -> impl Fn(&Item) -> usize + use<> {
     let low = places.lower[axis];
     let scale = BINS as f32 / (places.upper[axis] - low);
-    move |item| (((item.bounds.place()[axis] - low) * scale) as usize).min(BINS - 1)
+    move |item| (((item.bounds.doubled_centre()[axis] - low) * scale) as usize).min(BINS - 1)
 }
 
 /// Axis and last bin of the first part of the cheapest division; none if all centres coincide.

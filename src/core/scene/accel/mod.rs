@@ -25,11 +25,11 @@ pub(super) struct Accel {
     /// The root first; empty without triangles.
     nodes: Vec<Node>,
     leaves: Vec<Triangles>,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<ShadingData>,
 }
 
 /// What only a hit needs to know of a triangle.
-struct Surface {
+struct ShadingData {
     normals: [Vec3; 3],
     mesh: u16,
 }
@@ -88,7 +88,7 @@ impl Accel {
         let (nodes, leaves, order) = build::build(triangles, progress)?;
         let surface = |i: &u32| {
             let Triangle { normals, mesh, .. } = triangles[*i as usize];
-            Surface { normals, mesh }
+            ShadingData { normals, mesh }
         };
         Ok(Self { nodes, leaves, surfaces: order.iter().map(surface).collect() })
     }
@@ -109,7 +109,7 @@ impl Accel {
     fn hit(&self, leaf: &Triangles, found: &Nearest) -> Hit {
         let index = leaf.first + found.lane;
         let (corner, edge1, edge2) = leaf.lane(found.lane);
-        let Surface { normals: [n0, n1, n2], mesh } = &self.surfaces[index as usize];
+        let ShadingData { normals: [n0, n1, n2], mesh } = &self.surfaces[index as usize];
         let [u, v] = found.weights;
         let geometric = edge1.cross(edge2).normalize();
         let shading = *n0 * (1.0 - u - v) + *n1 * u + *n2 * v;

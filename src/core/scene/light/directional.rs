@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination};
+use super::{Emission, Illumination, Sphere};
 use crate::Result;
 use crate::scene::check;
 
@@ -51,7 +51,7 @@ impl DirectionalLight {
         Vec3::from(self.colour) * (self.irradiance * 2.0 / (2.0 - self.sun().one_minus_cos))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         let target = target.unwrap_or(world);
         let area = std::f32::consts::PI * target.radius * target.radius;
         // Starts outside everything: any point of the disk, moved back by this, has left the world.

@@ -9,24 +9,24 @@ use super::frame;
 use crate::math::rng::Stream;
 use crate::scene::Ray;
 
-/// A ball in world space [m].
+/// A sphere in world space [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
+pub struct Sphere {
     /// Its middle.
     pub centre: Vec3,
     /// Its radius.
     pub radius: f32,
 }
 
-impl Ball {
-    /// The ball around a box.
-    pub fn around(lower: Vec3, upper: Vec3) -> Self {
+impl Sphere {
+    /// The sphere around a box.
+    pub fn around_box(lower: Vec3, upper: Vec3) -> Self {
         // A little larger than the box, so that rounding leaves no corner outside.
         Self { centre: (lower + upper) / 2.0, radius: (upper - lower).length() / 2.0 * 1.0001 + 1e-30 }
     }
 
     /// Whether a ray meets it.
-    pub fn meets(&self, ray: &Ray) -> bool {
+    pub fn intersects(&self, ray: &Ray) -> bool {
         let offset = self.centre - ray.origin;
         let along = offset.dot(ray.direction);
         let closest = (offset - ray.direction * along).length_squared();
@@ -35,7 +35,7 @@ impl Ball {
     }
 
     /// The cone of directions from `point` that meet it: axis and 1 - cosine of its half angle; from inside, all.
-    pub(super) fn cone_from(&self, point: Vec3) -> Cone {
+    pub(super) fn subtended_cone(&self, point: Vec3) -> Cone {
         let offset = self.centre - point;
         let distance = offset.length();
         if distance <= self.radius {
@@ -106,30 +106,30 @@ pub(super) enum Source {
     /// From a point into a cone, of which a spot light lets only its own pass.
     Spot { origin: Vec3, cone: Cone, profile: super::spot::Profile },
     /// Nearly parallel, through a disk around the target.
-    Parallel { sun: Cone, target: Ball, distance: f32 },
+    Parallel { sun: Cone, target: Sphere, distance: f32 },
     /// From a surface that shines after Lambert's law, to all its sides.
-    Surface { surface: Surface },
-    /// From such a surface towards a ball; `widest` is the largest solid angle that any of its points sees of it.
-    SurfaceTo { surface: Surface, target: Ball, widest: f32 },
+    Surface { surface: Emitter },
+    /// From such a surface towards a sphere; `widest` is the largest solid angle that any of its points sees of it.
+    SurfaceTo { surface: Emitter, target: Sphere, widest: f32 },
 }
 
 /// Surfaces that shine.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Surface {
+pub(super) enum Emitter {
     Rectangle { centre: Vec3, half_x: Vec3, half_y: Vec3, normal: Vec3 },
-    Sphere(Ball),
+    Sphere(Sphere),
 }
 
-impl Surface {
+impl Emitter {
     /// A uniform point and its normal.
     fn point(&self, u: [f32; 2]) -> (Vec3, Vec3) {
         match self {
             Self::Rectangle { centre, half_x, half_y, normal } => {
                 (*centre + *half_x * (2.0 * u[0] - 1.0) + *half_y * (2.0 * u[1] - 1.0), *normal)
             }
-            Self::Sphere(ball) => {
+            Self::Sphere(sphere) => {
                 let normal = Cone::ALL.direction(u);
-                (ball.centre + normal * ball.radius, normal)
+                (sphere.centre + normal * sphere.radius, normal)
             }
         }
     }
@@ -144,23 +144,23 @@ impl Surface {
                 };
                 (offset - clamped(*half_x) - clamped(*half_y)).length()
             }
-            Self::Sphere(ball) => (point.distance(ball.centre) - ball.radius).max(0.0),
+            Self::Sphere(sphere) => (point.distance(sphere.centre) - sphere.radius).max(0.0),
         }
     }
 }
 
 impl Emission {
     /// The emission of a Lambertian surface of total `flux`, towards `target` where that is the smaller part of it.
-    pub(super) fn of_surface(surface: Surface, flux: Vec3, target: Option<Ball>) -> Self {
-        let widest = target.map_or(TAU, |ball| {
-            let nearest = surface.distance(ball.centre);
-            if nearest <= ball.radius {
+    pub(super) fn of_surface(surface: Emitter, flux: Vec3, target: Option<Sphere>) -> Self {
+        let widest = target.map_or(TAU, |sphere| {
+            let nearest = surface.distance(sphere.centre);
+            if nearest <= sphere.radius {
                 TAU
             } else {
-                ball.cone_from(ball.centre + Vec3::Y * nearest).solid_angle()
+                sphere.subtended_cone(sphere.centre + Vec3::Y * nearest).solid_angle()
             }
         });
-        // Radiance is flux / (pi area): a photon towards the ball carries cosine x solid angle / pi of the flux.
+        // Radiance is flux / (pi area): a photon towards the sphere carries cosine x solid angle / pi of the flux.
         match target {
             Some(target) if widest < PI => {
                 // 1e-5: rounding must not make an acceptance exceed 1.
@@ -191,7 +191,7 @@ impl Emission {
             }
             Source::SurfaceTo { surface, target, widest } => {
                 let (origin, normal) = surface.point([rng.f32(), rng.f32()]);
-                let cone = target.cone_from(origin);
+                let cone = target.subtended_cone(origin);
                 let direction = cone.direction(u);
                 let share = direction.dot(normal) * cone.solid_angle() / widest;
                 (rng.f32() < share).then(|| Ray::new(origin, direction))

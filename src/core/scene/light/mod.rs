@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use directional::DirectionalLight;
-pub use emission::{Ball, Emission};
+pub use emission::{Emission, Sphere};
 pub use point::PointLight;
 pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
@@ -86,8 +86,8 @@ impl LightDesc {
         }
     }
 
-    /// How its photons leave: those that may meet the ball `target`, or all of them. `world` encloses the scene.
-    pub fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+    /// How its photons leave: those that may meet the sphere `target`, or all of them. `world` encloses the scene.
+    pub fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         match self {
             Self::Point(light) => light.emission(target),
             Self::Spot(light) => light.emission(target),
@@ -98,15 +98,15 @@ impl LightDesc {
     }
 
     /// Whether any of its photons starts in the box between two corners, perhaps.
-    pub(crate) fn touches(&self, lower: Vec3, upper: Vec3) -> bool {
-        let ball = match self {
-            Self::Point(light) => Ball { centre: light.position.into(), radius: 0.0 },
-            Self::Spot(light) => Ball { centre: light.position.into(), radius: 0.0 },
+    pub(crate) fn overlaps_box(&self, lower: Vec3, upper: Vec3) -> bool {
+        let sphere = match self {
+            Self::Point(light) => Sphere { centre: light.position.into(), radius: 0.0 },
+            Self::Spot(light) => Sphere { centre: light.position.into(), radius: 0.0 },
             Self::Directional(_) => return false,
-            Self::Rectangle(light) => light.ball(),
-            Self::Sphere(light) => light.ball(),
+            Self::Rectangle(light) => light.bounding_sphere(),
+            Self::Sphere(light) => light.sphere(),
         };
-        ball.centre.distance_squared(ball.centre.clamp(lower, upper)) <= ball.radius * ball.radius
+        sphere.centre.distance_squared(sphere.centre.clamp(lower, upper)) <= sphere.radius * sphere.radius
     }
 
     /// How it lights `point` (world), for shadow rays; `u` picks the place on lights that have a size, uniform in

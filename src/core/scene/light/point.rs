@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, check_power};
+use super::{Emission, Illumination, Sphere, check_power};
 use crate::Result;
 use crate::scene::check;
 
@@ -37,9 +37,9 @@ impl PointLight {
         check::within(place, "position", &self.position, -1e6, 1e6)
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
-        let cone = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let cone = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let share = cone.solid_angle() / (4.0 * PI);
         Emission {
             flux: Vec3::from(self.colour) * (self.watts * share),

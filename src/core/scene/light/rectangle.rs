@@ -6,8 +6,8 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::Surface;
-use super::{Ball, Emission, Illumination, check_power, frame};
+use super::emission::Emitter;
+use super::{Emission, Illumination, Sphere, check_power, frame};
 use crate::scene::{Ray, check};
 use crate::{Error, Result};
 
@@ -65,19 +65,19 @@ impl RectangleLight {
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
     }
 
-    /// The ball around it.
-    pub(super) fn ball(&self) -> Ball {
+    /// The sphere around it.
+    pub(super) fn bounding_sphere(&self) -> Sphere {
         let radius = glam::Vec2::from(self.size).length() / 2.0;
-        Ball { centre: self.position.into(), radius }
+        Sphere { centre: self.position.into(), radius }
     }
 
     fn radiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.watts / (PI * self.size[0] * self.size[1]))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let (normal, half_x, half_y) = self.axes();
-        let surface = Surface::Rectangle { centre: self.position.into(), half_x, half_y, normal };
+        let surface = Emitter::Rectangle { centre: self.position.into(), half_x, half_y, normal };
         Emission::of_surface(surface, Vec3::from(self.colour) * self.watts, target)
     }
 

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, check_power};
+use super::{Emission, Illumination, Sphere, check_power};
 use crate::scene::check;
 use crate::{Error, Result};
 
@@ -102,11 +102,11 @@ impl SpotLight {
         Vec3::from(self.colour) * (self.watts / profile.solid_angle())
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
         let profile = self.profile();
         let own = Cone { axis: profile.axis, one_minus_cos: profile.outer };
-        let aimed = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let aimed = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let cone = if aimed.one_minus_cos < own.one_minus_cos { aimed } else { own };
         let flux = self.intensity(&profile) * cone.solid_angle();
         Emission { flux, source: Source::Spot { origin, cone, profile } }

@@ -22,7 +22,7 @@ pub fn rgb_of_wavelength(nm: f32) -> Vec3 {
 
 /// Draws a wavelength [nm] in proportion to what `weight` holds of it, and the colour that the beam then has: its
 /// channels sum to those of `weight`, and its expectation is `weight`.
-pub(super) fn pick_wavelength(weight: Vec3, rng: &mut Stream) -> (f32, Vec3) {
+pub(super) fn sample_wavelength(weight: Vec3, rng: &mut Stream) -> (f32, Vec3) {
     let sum = weight.element_sum();
     let choice = rng.f32() * sum;
     let band = if choice < weight.z {

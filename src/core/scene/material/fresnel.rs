@@ -29,7 +29,7 @@ pub fn refract(direction: Vec3, normal: Vec3, cos_i: f32, cos_t: f32, eta: f32) 
 
 /// Geometric and shading normal turned against `direction`. Where the smooth normal faces away though the surface
 /// does not (near a silhouette), the geometric one stands in for it.
-pub fn toward(hit: &Hit, direction: Vec3) -> (Vec3, Vec3) {
+pub fn facing_normals(hit: &Hit, direction: Vec3) -> (Vec3, Vec3) {
     let sign = if direction.dot(hit.geometric_normal) < 0.0 { 1.0 } else { -1.0 };
     let (geometric, shading) = (hit.geometric_normal * sign, hit.shading_normal * sign);
     if direction.dot(shading) < 0.0 { (geometric, shading) } else { (geometric, geometric) }

@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Beam;
-use super::dispersion::pick_wavelength;
-use super::fresnel::{fresnel, reflect, refract, toward};
+use super::dispersion::sample_wavelength;
+use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use crate::Result;
 use crate::math::rng::Stream;
 use crate::scene::{Hit, Mesh, SurfaceId, check};
@@ -83,14 +83,14 @@ impl Glass {
             return direction;
         }
         if self.dispersion.is_some() && beam.wavelength.is_none() {
-            let (nm, colour) = pick_wavelength(beam.weight, rng);
+            let (nm, colour) = sample_wavelength(beam.weight, rng);
             beam.weight = colour;
             beam.wavelength = Some(nm);
         }
         let index =
             |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
         let eta = index(&after) / index(&before);
-        let (next, through) = cross(hit, direction, eta, rng.f32());
+        let (next, through) = scatter_at_boundary(hit, direction, eta, rng.f32());
         beam.media = if through { after } else { before };
         next
     }
@@ -99,8 +99,8 @@ impl Glass {
 /// Reflects with the probability of Fresnel, else refracts; whether it went through. The smooth normal decides the
 /// way, unless that would lead to the wrong side of the true surface: then the true normal does. So every photon goes
 /// on, and none loses or gains energy.
-fn cross(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
-    let (geometric, shading) = toward(hit, direction);
+fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
+    let (geometric, shading) = facing_normals(hit, direction);
     for normal in [shading, geometric] {
         let cos_i = -direction.dot(normal);
         let (reflectance, cos_t) = fresnel(cos_i, eta);

@@ -17,13 +17,13 @@ const EMPTY: Cell = [0.0; LANES * STRIP];
 
 /// The filter with its buffers, kept from call to call.
 #[derive(Debug, Default)]
-pub(super) struct Running {
+pub(super) struct RunningSum {
     strips: Vec<Line>,
 }
 
-impl Running {
+impl RunningSum {
     /// Applies the box three times along columns and rows.
-    pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, kernel: &Box1) {
+    pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, kernel: &ExtendedBox) {
         let columns = texture.layout().columns;
         self.strips.resize_with(columns.div_ceil(STRIP), Line::default);
         let texels: &[f32] = bytemuck::cast_slice(texture.texels());
@@ -64,12 +64,12 @@ fn across(strips: &[Line], x: usize, first: usize, rows: usize) -> Cell {
 
 /// A box of 2 `half` + 1 cells and `edge` of a cell more on either side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Box1 {
+pub(super) struct ExtendedBox {
     half: usize,
     edge: f64,
 }
 
-impl Box1 {
+impl ExtendedBox {
     /// The box whose variance, in cells squared, is `variance`.
     pub(super) fn with_variance(variance: f64) -> Self {
         // A box of 2k+1 cells has the variance k(k+1)/3; k is the largest that does not exceed it.
@@ -89,7 +89,7 @@ impl Box1 {
     }
 
     /// All boxes as one: the weight of the middle and of each distance from it, which add up to 1 over both sides.
-    pub(super) fn taps(&self) -> Vec<f32> {
+    pub(super) fn weights(&self) -> Vec<f32> {
         let norm = 1.0 / (2.0 * self.half as f64 + 1.0 + 2.0 * self.edge);
         let mut one = vec![norm; 2 * self.reach() + 1];
         (one[0], one[2 * self.reach()]) = (self.edge * norm, self.edge * norm);
@@ -139,7 +139,7 @@ impl Line {
     }
 
     /// Takes a line and applies all boxes to it.
-    fn filter(&mut self, line: impl Iterator<Item = Cell>, kernel: &Box1) {
+    fn filter(&mut self, line: impl Iterator<Item = Cell>, kernel: &ExtendedBox) {
         let reach = kernel.half + 1;
         self.padded.clear();
         self.padded.resize(reach, EMPTY);

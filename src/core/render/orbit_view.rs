@@ -1,7 +1,7 @@
-//! A quick look at a scene from anywhere, to find one's way in it: no picture of its light.
+//! A quick look at a scene from anywhere, to find one's distance in it: no picture of its light.
 //!
 //! One ray per pixel goes straight on through glass, which shows as a tinted shape with bright rims, and ends on what is
-//! matt or a mirror, lit by a lamp at the eye. The receiver shows the caustic as it is.
+//! matt or a mirror, lit by a lamp at the shader. The receiver shows the caustic as it is.
 
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ const BORDER: f32 = 1.5;
 
 /// What a look shows beside the scene.
 #[derive(Clone, Copy)]
-pub struct LookLight<'a> {
+pub struct OrbitLight<'a> {
     /// The light on the receiver, watts per texel.
     pub caustic: Option<&'a ReceiverTexture>,
     /// Factor on the lamp at the eye, so that it is as bright on the screen at any exposure: 2^-exposure.
@@ -41,41 +41,41 @@ pub struct LookLight<'a> {
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn look(
+pub fn orbit_image(
     scene: &Scene,
     camera: &Camera,
     size: [u32; 2],
-    light: LookLight,
+    light: OrbitLight,
     progress: &Progress,
 ) -> Result<Image> {
     let mut image = Image::new(size[0] as usize, size[1] as usize);
-    let eye = Eye { scene, light, pixel: 2.0 * camera.half_height / size[1] as f32 };
+    let shader = OrbitShader { scene, light, pixel: 2.0 * camera.half_height / size[1] as f32 };
     let extent = vec2(size[0] as f32, size[1] as f32);
     image.pixels.par_chunks_mut(size[0].max(1) as usize).enumerate().try_for_each(|(y, row)| {
         progress.check()?;
         for (x, pixel) in row.iter_mut().enumerate() {
             let at = vec2(x as f32 + 0.5, y as f32 + 0.5) / extent * 2.0 - 1.0;
-            *pixel = eye.colour(camera.ray(at.x, -at.y, extent.x / extent.y));
+            *pixel = shader.colour(camera.ray(at.x, -at.y, extent.x / extent.y));
         }
         Ok(())
     })?;
     Ok(image)
 }
 
-struct Eye<'a> {
+struct OrbitShader<'a> {
     scene: &'a Scene,
-    light: LookLight<'a>,
+    light: OrbitLight<'a>,
     /// Angle of a pixel, about.
     pixel: f32,
 }
 
-impl Eye<'_> {
+impl OrbitShader<'_> {
     /// The light along one ray.
     fn colour(&self, mut ray: Ray) -> Vec3 {
-        let (mut colour, mut weight, mut way) = (Vec3::ZERO, Vec3::ONE, 0.0);
+        let (mut colour, mut weight, mut distance) = (Vec3::ZERO, Vec3::ONE, 0.0);
         for _ in 0..LAYERS {
             let Some(hit) = self.scene.intersect(&ray) else { break };
-            way += hit.t;
+            distance += hit.t;
             let facing = ray.direction.dot(hit.shading_normal).abs();
             match self.scene.material(hit.surface) {
                 Material::Glass(glass) => {
@@ -94,14 +94,16 @@ impl Eye<'_> {
                     let sky = between(BEHIND, 0.5 + 0.5 * reflected.y) + 0.3 * facing * facing;
                     return colour + weight * Vec3::from(mirror.reflectance) * (sky * self.light.lamp);
                 }
-                Material::Diffuse(diffuse) => return colour + weight * self.matt(&hit, facing, way, diffuse),
+                Material::Diffuse(diffuse) => {
+                    return colour + weight * self.matt(&hit, facing, distance, diffuse);
+                }
             }
         }
         colour + weight * self.light.lamp * between(BEHIND, 0.5 + 0.5 * ray.direction.y)
     }
 
-    /// What a matt surface gives back that is hit after `way` metres.
-    fn matt(&self, hit: &Hit, facing: f32, way: f32, diffuse: &Diffuse) -> Vec3 {
+    /// What a matt surface gives back that is hit after `distance` metres.
+    fn matt(&self, hit: &Hit, facing: f32, distance: f32, diffuse: &Diffuse) -> Vec3 {
         let albedo = Vec3::from(diffuse.albedo);
         let lit = albedo * (self.light.lamp * between(FACING, facing));
         match hit.surface {
@@ -112,7 +114,8 @@ impl Eye<'_> {
                 let p = receiver.plane_from_world(hit.point);
                 let edge = p.min(receiver.extent() - p).min_element();
                 // Seen along it, a pixel covers more of the plane.
-                let border = BORDER * self.pixel * way / facing.max(0.05) / receiver.metres_per_plane_unit();
+                let border =
+                    BORDER * self.pixel * distance / facing.max(0.05) / receiver.metres_per_plane_unit();
                 let line = if edge < border { 0.25 * self.light.lamp } else { 0.0 };
                 lit * GROUND[0] + self.caustic(hit) * albedo + line
             }
@@ -137,16 +140,16 @@ fn between([from, to]: [f32; 2], x: f32) -> f32 {
 
 /// Something of a scene that no ray meets, in a look at it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
+pub struct SceneMarker {
     /// What it is.
-    pub kind: MarkKind,
+    pub kind: MarkerKind,
     /// Its place in pixels from the upper left corner; it may lie beyond the picture.
     pub at: Vec2,
 }
 
-/// What a [`Mark`] stands for.
+/// What a [`SceneMarker`] stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkKind {
+pub enum MarkerKind {
     /// The light of this number in the scene.
     Light(usize),
     /// The camera that the pictures are taken with.
@@ -155,14 +158,14 @@ pub enum MarkKind {
 
 /// Where the lights and the camera of a scene are in a look at it; those behind the eye, and directional lights, are
 /// nowhere.
-pub fn marks(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<Mark> {
+pub fn scene_markers(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<SceneMarker> {
     let size = vec2(size[0] as f32, size[1] as f32);
     let lights = scene.lights().iter().enumerate();
-    let lights = lights.filter_map(|(i, light)| Some((MarkKind::Light(i), light.position()?)));
-    let all = lights.chain([(MarkKind::Camera, scene.camera().position)]);
+    let lights = lights.filter_map(|(i, light)| Some((MarkerKind::Light(i), light.position()?)));
+    let all = lights.chain([(MarkerKind::Camera, scene.camera().position)]);
     let mark = |(kind, place)| {
         let at = camera.project(place, size.x / size.y)?;
-        Some(Mark { kind, at: (vec2(at.x, -at.y) + 1.0) * 0.5 * size })
+        Some(SceneMarker { kind, at: (vec2(at.x, -at.y) + 1.0) * 0.5 * size })
     };
     all.filter_map(mark).collect()
 }

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// The description of the field at a path such as `keys[1].shows.image`, where the schema has one.
-pub(super) fn field(schema: &Value, path: &str) -> Option<String> {
+pub(super) fn description(schema: &Value, path: &str) -> Option<String> {
     let mut node = schema;
     for step in path.split('.') {
         let (name, indices) = step.split_at(step.find('[').unwrap_or(step.len()));

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::aim::Domain;
-use super::path::{Ledger, follow};
+use super::emission_plan::Domain;
+use super::path::{FluxBalance, follow};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -31,7 +31,7 @@ pub(super) struct Leaf {
 }
 
 /// Sends trial paths from one domain.
-pub(super) struct Scout<'a> {
+pub(super) struct GuideLearner<'a> {
     pub scene: &'a Scene,
     pub domain: &'a Domain,
     /// Of the domain.
@@ -39,28 +39,29 @@ pub(super) struct Scout<'a> {
     pub seed: u64,
     pub progress: &'a Progress,
     /// Where the trial paths end.
-    pub ledger: &'a mut Ledger,
+    pub balance: &'a mut FluxBalance,
 }
 
-impl Scout<'_> {
-    /// Fills the ledger, without learning from it.
-    pub(super) fn look_once(&mut self) -> Result<()> {
+impl GuideLearner<'_> {
+    /// Fills the balance, without learning from it.
+    pub(super) fn probe_once(&mut self) -> Result<()> {
         self.probe(FIRST_LEVEL, &all_cells(FIRST_LEVEL), *CELL_PROBES.start()).map(|_| ())
     }
 
-    /// Refines where photons land, level by level, as long as no more than `enough` cells are open.
-    pub(super) fn learn(&mut self, enough: usize) -> Result<Vec<Leaf>> {
+    /// Refines where photons land, level by level, as long as no more than `max_open` cells are open.
+    pub(super) fn learn(&mut self, max_open: usize) -> Result<Vec<Leaf>> {
         let mut leaves = Vec::new();
         let mut open = all_cells(FIRST_LEVEL);
         let mut level = FIRST_LEVEL;
         while !open.is_empty() {
             let probes = (LEVEL_PROBES / open.len() as u64).clamp(*CELL_PROBES.start(), *CELL_PROBES.end());
             let mut landed = self.probe(level, &open, probes)?;
-            if level == FIRST_LEVEL && !landed.contains(&true) && self.ledger.met_specular() {
+            if level == FIRST_LEVEL && !landed.contains(&true) && self.balance.met_specular() {
                 landed = self.probe(level, &open, probes * SECOND_LOOK)?;
             }
             let active = with_neighbours(level, &open, &landed);
-            let refine = level < LAST_LEVEL && 4 * active.iter().filter(|active| **active).count() <= enough;
+            let refine =
+                level < LAST_LEVEL && 4 * active.iter().filter(|active| **active).count() <= max_open;
             let mut next = Vec::new();
             for (at, active) in open.into_iter().zip(active) {
                 if active && refine {
@@ -79,22 +80,22 @@ impl Scout<'_> {
 
     /// Sends `probes` paths from each cell: whether any lands.
     fn probe(&mut self, level: u32, cells: &[[u32; 2]], probes: u64) -> Result<Vec<bool>> {
-        let results: Vec<(Vec<bool>, Ledger)> = cells
+        let results: Vec<(Vec<bool>, FluxBalance)> = cells
             .par_chunks(128)
             .map(|chunk| {
-                let mut ledger = Ledger::default();
+                let mut balance = FluxBalance::default();
                 let landed = chunk.iter().map(|at| {
                     self.progress.check()?;
-                    Ok(self.any_lands(level, *at, probes, &mut ledger))
+                    Ok(self.any_lands(level, *at, probes, &mut balance))
                 });
-                Ok((landed.collect::<Result<_>>()?, ledger))
+                Ok((landed.collect::<Result<_>>()?, balance))
             })
             .collect::<Result<_>>()?;
-        results.iter().for_each(|(_, ledger)| self.ledger.add(*ledger));
+        results.iter().for_each(|(_, balance)| self.balance.add(*balance));
         Ok(results.into_iter().flat_map(|(landed, _)| landed).collect())
     }
 
-    fn any_lands(&self, level: u32, at: [u32; 2], probes: u64, ledger: &mut Ledger) -> bool {
+    fn any_lands(&self, level: u32, at: [u32; 2], probes: u64, balance: &mut FluxBalance) -> bool {
         let size = 0.5_f32.powi(level as i32);
         let [x, y] = at.map(u64::from);
         let cell = (u64::from(self.index) << 44) | (u64::from(level) << 40) | (y << 20) | x;
@@ -104,7 +105,7 @@ impl Scout<'_> {
         for _ in 0..probes {
             let u = at.map(|index| (index as f32 + rng.f32()) * size);
             if let Some((ray, media)) = self.domain.sample(self.scene, u, &mut rng) {
-                landed |= follow(self.scene, ray, flux, media, &mut rng, ledger).is_some();
+                landed |= follow(self.scene, ray, flux, media, &mut rng, balance).is_some();
             }
         }
         landed

@@ -17,12 +17,12 @@ const VECTOR: usize = 32;
 
 /// The filter with its buffer, kept from call to call.
 #[derive(Debug, Default)]
-pub(super) struct Taps {
+pub(super) struct ShortKernel {
     /// The texels of the result, then of the texture before.
     other: Vec<Vec4>,
 }
 
-impl Taps {
+impl ShortKernel {
     /// Filters by the weights of the middle and of each distance from it, which reach no farther than a block; at the
     /// border the kernel is reflected.
     pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, weights: &[f32]) {
@@ -156,7 +156,7 @@ fn weigh(lines: &[&[f32]], weights: &[f32], out: &mut [f32]) {
 mod tests {
     use glam::{Vec2, vec2};
 
-    use super::super::boxes::{Box1, Running};
+    use super::super::running_sum::{ExtendedBox, RunningSum};
     use super::*;
     use crate::render::TextureLayout;
 
@@ -174,10 +174,10 @@ mod tests {
     fn short_sums_and_running_ones_are_the_same_filter() {
         // From a part of a texel to the longest that is taken.
         for variance in [0.1, 0.6, 1.9, 4.0, 15.0] {
-            let kernel = Box1::with_variance(variance);
+            let kernel = ExtendedBox::with_variance(variance);
             let (mut short, mut long) = (texture(), texture());
-            Taps::default().filter(&mut short, &kernel.taps());
-            Running::default().filter(&mut long, &kernel);
+            ShortKernel::default().filter(&mut short, &kernel.weights());
+            RunningSum::default().filter(&mut long, &kernel);
             let gap = short.texels().iter().zip(long.texels()).map(|(a, b)| (*a - *b).abs().max_element());
             // Weights and sums of f32, of values up to 2.
             assert!(gap.fold(0.0, f32::max) < 1e-6, "variance {variance}");
@@ -188,7 +188,7 @@ mod tests {
     fn a_texture_narrower_than_the_kernel_keeps_its_light() {
         let mut texture = ReceiverTexture::new(TextureLayout::new(Vec2::new(1.0, 0.05), 40, 0.0));
         texture.texels_mut()[3] = Vec4::ONE;
-        Taps::default().filter(&mut texture, &Box1::with_variance(15.0).taps());
+        ShortKernel::default().filter(&mut texture, &ExtendedBox::with_variance(15.0).taps());
         assert!((texture.total().x - 1.0).abs() < 1e-6);
     }
 }

@@ -7,38 +7,38 @@
 //! a small share of the candidates, whose photons, if any, weigh more. Where the pilot run meets such a photon, its cell
 //! joins the others.
 
-use super::learn::{Leaf, Scout};
-use super::path::Ledger;
+use super::guide_learner::{GuideLearner, Leaf};
+use super::path::FluxBalance;
 use crate::math::rng::Stream;
-use crate::scene::light::{Ball, Emission};
+use crate::scene::light::{Emission, Sphere};
 use crate::scene::{Media, Ray, Scene};
 use crate::{Progress, Result};
 
 /// Highest rate of candidates in cells from which nothing was seen to land, against the others.
-const RARE: f64 = 1.0 / 16.0;
+const INACTIVE_RATE: f64 = 1.0 / 16.0;
 /// Highest share of all candidates that goes to such cells.
-const RARE_SHARE: f64 = 0.2;
+const INACTIVE_SHARE: f64 = 0.2;
 /// Cells that may be open on one level of the quadtree; fewer for scenes of many lights and targets.
 const MAX_OPEN: usize = 16_384;
 /// Meshes aimed at one by one; more of them are aimed at together.
-const MAX_TARGETS: usize = 16;
+const MAX_CASTERS: usize = 16;
 /// How far emission is narrowed. All have the same expectation; only their cost differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
+pub enum EmissionGuiding {
     /// All the light of every source.
-    Nowhere,
+    Unguided,
     /// Towards the bounds of glass and mirrors.
     Bounds,
     /// To where earlier photons came through. The way to use.
     Learned,
 }
 
-/// The rays from one light that meet the ball around one target and none of the balls before it.
+/// The rays from one light that meet the sphere around one target and none of the balls before it.
 pub(super) struct Domain {
     pub light: u16,
     pub emission: Emission,
     /// Targets whose rays belong to other domains.
-    before: Vec<Ball>,
+    before: Vec<Sphere>,
     /// Whether glass may lie around the place where photons start.
     in_glass: bool,
 }
@@ -47,7 +47,7 @@ impl Domain {
     /// The ray of a point of the square, and the glass it starts in; none if no photon leaves there.
     pub(super) fn sample(&self, scene: &Scene, u: [f32; 2], rng: &mut Stream) -> Option<(Ray, Media)> {
         let ray = self.emission.sample(u, rng)?;
-        if self.before.iter().any(|ball| ball.meets(&ray)) {
+        if self.before.iter().any(|sphere| sphere.intersects(&ray)) {
             return None;
         }
         let media = if self.in_glass { scene.media_at(ray.origin) } else { Media::default() };
@@ -69,58 +69,65 @@ pub(super) struct Cell {
 }
 
 /// All cells of all lights and the share of the candidates each gets.
-pub(super) struct Plan {
+pub(super) struct EmissionPlan {
     pub domains: Vec<Domain>,
     pub cells: Vec<Cell>,
     /// Share of candidates up to and with each cell, rising to 1.
     pub cumulative: Vec<f64>,
     /// What the learning paths of each light met, for the message if nothing lands.
-    pub ledgers: Vec<Ledger>,
+    pub balances: Vec<FluxBalance>,
     leaves: Vec<Leaf>,
 }
 
-impl Plan {
+impl EmissionPlan {
     /// Learns where to shine. Deterministic in the seed.
-    pub(super) fn new(scene: &Scene, aim: Aim, seed: u64, progress: &Progress) -> Result<Self> {
-        let domains = domains(scene, aim);
-        let mut ledgers = vec![Ledger::default(); scene.lights().len()];
+    pub(super) fn new(
+        scene: &Scene,
+        guiding: EmissionGuiding,
+        seed: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let domains = domains(scene, guiding);
+        let mut balances = vec![FluxBalance::default(); scene.lights().len()];
         let mut leaves = Vec::new();
         progress.begin("trace", domains.len() as u64);
         for (index, domain) in domains.iter().enumerate() {
             if domain.power() <= 0.0 {
                 continue;
             }
-            let ledger = &mut ledgers[domain.light as usize];
-            let mut scout = Scout { scene, domain, index: index as u32, seed, progress, ledger };
-            match aim {
-                Aim::Nowhere | Aim::Bounds => {
-                    scout.look_once()?;
+            let balance = &mut balances[domain.light as usize];
+            let mut learner = GuideLearner { scene, domain, index: index as u32, seed, progress, balance };
+            match guiding {
+                EmissionGuiding::Unguided | EmissionGuiding::Bounds => {
+                    learner.probe_once()?;
                     leaves.push(Leaf { domain: index as u32, level: 0, at: [0, 0], active: true });
                 }
-                Aim::Learned => leaves.extend(scout.learn(MAX_OPEN / domains.len().clamp(1, 8))?),
+                EmissionGuiding::Learned => {
+                    leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?)
+                }
             }
             progress.advance(1);
         }
-        Ok(Self::from_leaves(domains, leaves, ledgers))
+        Ok(Self::from_leaves(domains, leaves, balances))
     }
 
-    fn from_leaves(domains: Vec<Domain>, mut leaves: Vec<Leaf>, ledgers: Vec<Ledger>) -> Self {
+    fn from_leaves(domains: Vec<Domain>, mut leaves: Vec<Leaf>, balances: Vec<FluxBalance>) -> Self {
         // Neighbours in the square are neighbours in the list: their rays visit the same memory.
         leaves.sort_by_key(|leaf| (leaf.domain, morton(leaf.at.map(|x| x << (16 - leaf.level)))));
-        let mut plan = Self { domains, cells: Vec::new(), cumulative: Vec::new(), ledgers, leaves };
-        plan.allot();
+        let mut plan = Self { domains, cells: Vec::new(), cumulative: Vec::new(), balances, leaves };
+        plan.allocate();
         plan
     }
 
     /// Gives each leaf its share of the candidates.
-    fn allot(&mut self) {
+    fn allocate(&mut self) {
         let Self { domains, leaves, .. } = self;
         let power = |leaf: &Leaf| domains[leaf.domain as usize].power();
         let flux = |leaf: &Leaf| power(leaf) * 0.25_f64.powi(leaf.level as i32);
         let sum = |active| leaves.iter().filter(|leaf| leaf.active == active).map(flux).sum::<f64>();
         let (active, rest) = (sum(true), sum(false));
         let rare = match (active > 0.0, rest > 0.0) {
-            (true, true) => RARE.min(RARE_SHARE / (1.0 - RARE_SHARE) * active / rest),
+            (true, true) => INACTIVE_RATE.min(INACTIVE_SHARE / (1.0 - INACTIVE_SHARE) * active / rest),
             (true, false) | (false, _) => 1.0,
         };
         let rate = |leaf: &Leaf| if leaf.active { 1.0 } else { rare };
@@ -157,35 +164,35 @@ impl Plan {
             leaf.active = true;
         }
         if changed {
-            self.allot();
+            self.allocate();
         }
         changed
     }
 }
 
 /// One domain for each light and target.
-fn domains(scene: &Scene, aim: Aim) -> Vec<Domain> {
+fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
     let (lower, upper) = scene.bounds();
-    let world = Ball::around(lower, upper);
+    let world = Sphere::around_box(lower, upper);
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
-    let mut targets: Vec<Ball> = specular().map(|mesh| mesh.ball()).collect();
-    if targets.len() > MAX_TARGETS {
+    let mut targets: Vec<Sphere> = specular().map(|mesh| mesh.bounding_sphere()).collect();
+    if targets.len() > MAX_CASTERS {
         let lower = specular().map(|mesh| mesh.lower).fold(lower, glam::Vec3::min);
         let upper = specular().map(|mesh| mesh.upper).fold(upper, glam::Vec3::max);
-        targets = vec![Ball::around(lower, upper)];
+        targets = vec![Sphere::around_box(lower, upper)];
     }
     let mut domains = Vec::new();
     for (light, desc) in scene.lights().iter().enumerate() {
-        let in_glass = specular().any(|mesh| desc.touches(mesh.lower, mesh.upper));
-        let domain = |target, before: &[Ball]| Domain {
+        let in_glass = specular().any(|mesh| desc.overlaps_box(mesh.lower, mesh.upper));
+        let domain = |target, before: &[Sphere]| Domain {
             light: light as u16,
             emission: desc.emission(target, world),
             before: before.to_vec(),
             in_glass,
         };
-        match aim {
-            Aim::Nowhere => domains.push(domain(None, &[])),
-            Aim::Bounds | Aim::Learned => {
+        match guiding {
+            EmissionGuiding::Unguided => domains.push(domain(None, &[])),
+            EmissionGuiding::Bounds | EmissionGuiding::Learned => {
                 domains.extend((0..targets.len()).map(|i| domain(Some(targets[i]), &targets[..i])));
             }
         }

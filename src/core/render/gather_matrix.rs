@@ -27,23 +27,23 @@ const NEGLIGIBLE: f32 = 1e-7;
 
 /// The sparse matrix from the texels of one layout to the pixels of one picture, compressed by rows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Visible {
+pub struct GatherMatrix {
     width: usize,
     height: usize,
     layout: TextureLayout,
-    /// Where the list of each pixel begins in `taps`, and the end.
+    /// Where the list of each pixel begins in `weights`, and the end.
     starts: Vec<usize>,
-    taps: Vec<Tap>,
+    weights: Vec<TexelWeight>,
 }
 
 /// One texel and what a pixel takes from a watt in it, as radiance [W/(sr m^2)].
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Tap {
+struct TexelWeight {
     texel: u32,
     weight: Vec3,
 }
 
-impl Visible {
+impl GatherMatrix {
     /// Looks through the camera of a scene. The same seed gives the same matrix for any number of threads.
     pub fn through_camera(
         scene: &Scene,
@@ -53,7 +53,7 @@ impl Visible {
         progress: &Progress,
     ) -> Result<Self> {
         let (width, height) = (settings.width as usize, settings.height as usize);
-        let eye = Eye { scene, media: scene.media_at(scene.camera().position), width, height };
+        let camera = CameraSampler { scene, media: scene.media_at(scene.camera().position), width, height };
         let watts = texel_area(layout, scene.receiver().metres_per_plane_unit()).recip();
         progress.begin("visible", height as u64);
         let rows = (0..height).into_par_iter().map(|y| {
@@ -65,7 +65,7 @@ impl Visible {
                 let mut samples = settings.camera_samples;
                 let mut index = 0;
                 while index < samples {
-                    let (seen, specular) = eye.look(x, y, sampler.pair(index, 0), rng);
+                    let (seen, specular) = camera.look(x, y, sampler.pair(index, 0), rng);
                     row.add(layout, seen);
                     index += 1;
                     if specular && samples == settings.camera_samples {
@@ -126,8 +126,8 @@ impl Visible {
         image.pixels.par_chunks_mut(self.width).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.iter_mut().enumerate() {
                 let pixel_index = y * self.width + x;
-                let taps = &self.taps[self.starts[pixel_index]..self.starts[pixel_index + 1]];
-                *pixel = taps.iter().map(|tap| tap.weight * texels[tap.texel as usize].xyz()).sum();
+                let weights = &self.weights[self.starts[pixel_index]..self.starts[pixel_index + 1]];
+                *pixel = weights.iter().map(|texel| texel.weight * texels[texel.texel as usize].xyz()).sum();
             }
         });
         image
@@ -140,13 +140,13 @@ impl Visible {
 
     fn from_rows(width: usize, height: usize, layout: &TextureLayout, rows: Vec<Row>) -> Self {
         let mut starts = Vec::with_capacity(width * height + 1);
-        let mut taps = Vec::with_capacity(rows.iter().map(|row| row.taps.len()).sum());
+        let mut weights = Vec::with_capacity(rows.iter().map(|row| row.weights.len()).sum());
         starts.push(0);
         for row in rows {
-            starts.extend(row.ends.iter().map(|end| taps.len() + end));
-            taps.extend_from_slice(&row.taps);
+            starts.extend(row.ends.iter().map(|end| weights.len() + end));
+            weights.extend_from_slice(&row.weights);
         }
-        Self { width, height, layout: *layout, starts, taps }
+        Self { width, height, layout: *layout, starts, weights }
     }
 }
 
@@ -177,9 +177,9 @@ pub(super) fn flat_pixel(extent: Vec2, size: Vec2) -> f32 {
 fn camera_pixel(scene: &Scene, settings: &RenderSettings) -> Option<f32> {
     const PROBES: usize = 64;
     let (width, height) = (settings.width as usize, settings.height as usize);
-    let eye = Eye { scene, media: Media::default(), width, height };
+    let camera = CameraSampler { scene, media: Media::default(), width, height };
     let place = |x: f32, y: f32| {
-        let hit = scene.intersect(&eye.ray(vec2(x, y)))?;
+        let hit = scene.intersect(&camera.ray(vec2(x, y)))?;
         (hit.surface == SurfaceId::Receiver).then(|| scene.receiver().plane_from_world(hit.point))
     };
     let mut sizes: Vec<f32> = (0..PROBES * PROBES)
@@ -199,14 +199,14 @@ fn texel_area(layout: &TextureLayout, metres: f32) -> f32 {
 }
 
 /// The camera with the picture in front of it.
-struct Eye<'a> {
+struct CameraSampler<'a> {
     scene: &'a Scene,
     media: Media,
     width: usize,
     height: usize,
 }
 
-impl Eye<'_> {
+impl CameraSampler<'_> {
     /// The ray through a place of the picture, in pixels from its upper left corner.
     fn ray(&self, at: Vec2) -> Ray {
         let size = vec2(self.width as f32, self.height as f32);
@@ -245,9 +245,9 @@ impl Eye<'_> {
 #[derive(Debug, Default)]
 struct Row {
     ends: Vec<usize>,
-    taps: Vec<Tap>,
+    weights: Vec<TexelWeight>,
     /// Taps of the samples of the current pixel.
-    loose: Vec<Tap>,
+    loose: Vec<TexelWeight>,
 }
 
 impl Row {
@@ -255,20 +255,20 @@ impl Row {
     fn add(&mut self, layout: &TextureLayout, seen: Option<(Vec2, Vec3)>) {
         let Some((point, weight)) = seen else { return };
         for (texel, share) in layout.bilinear(point).into_iter().flatten() {
-            self.loose.push(Tap { texel: texel as u32, weight: weight * share });
+            self.loose.push(TexelWeight { texel: texel as u32, weight: weight * share });
         }
     }
 
-    /// Merges the taps of the current pixel, multiplies them by `scale`, and goes on to the next.
+    /// Merges the weights of the current pixel, multiplies them by `scale`, and goes on to the next.
     fn finish_pixel(&mut self, scale: f32) {
-        self.loose.sort_by_key(|tap| tap.texel);
+        self.loose.sort_by_key(|texel| texel.texel);
         for same in self.loose.chunk_by(|a, b| a.texel == b.texel) {
-            let weight: Vec3 = same.iter().map(|tap| tap.weight).sum();
+            let weight: Vec3 = same.iter().map(|texel| texel.weight).sum();
             if weight.max_element() > NEGLIGIBLE {
-                self.taps.push(Tap { texel: same[0].texel, weight: weight * scale });
+                self.weights.push(TexelWeight { texel: same[0].texel, weight: weight * scale });
             }
         }
         self.loose.clear();
-        self.ends.push(self.taps.len());
+        self.ends.push(self.weights.len());
     }
 }

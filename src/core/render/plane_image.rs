@@ -9,14 +9,14 @@ use crate::scene::{Receiver, material::Material};
 
 /// How light on the plane becomes the radiance that the eye sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Paper {
+pub struct PlaneMaterial {
     /// Share of the irradiance that is radiance: albedo / pi [1/sr].
     pub reflected: Vec3,
     /// Metres per plane unit.
     pub metres: f32,
 }
 
-impl Paper {
+impl PlaneMaterial {
     /// White paper of one metre by plane unit: the plane of a project without scene.
     pub const WHITE: Self = Self { reflected: Vec3::splat(1.0 / std::f32::consts::PI), metres: 1.0 };
 
@@ -36,7 +36,7 @@ impl Paper {
 }
 
 /// The picture of the texels whose middle lies on the plane of `extent`; its upper row is the upper edge of the plane.
-pub fn plane_picture(texture: &ReceiverTexture, extent: Vec2, paper: Paper) -> Image {
+pub fn plane_image(texture: &ReceiverTexture, extent: Vec2, paper: PlaneMaterial) -> Image {
     let layout = texture.layout();
     let border = (-layout.origin / layout.texel).round().as_uvec2();
     let size = (extent / layout.texel).round().as_uvec2();
@@ -68,7 +68,7 @@ mod tests {
         let mut texture = ReceiverTexture::new(TextureLayout::new(extent, 64, 0.1));
         // One watt near the upper left corner of the plane.
         Splatter::default().splat(&[vec2(0.25, 0.4)], &[Vec3::ONE], &mut texture);
-        let picture = plane_picture(&texture, extent, Paper::WHITE);
+        let picture = plane_image(&texture, extent, PlaneMaterial::WHITE);
         assert_eq!((picture.width, picture.height), (64, 32));
         let brightest = picture.pixels.iter().enumerate().max_by(|a, b| a.1.x.total_cmp(&b.1.x));
         let (x, y) = brightest.map_or((0, 0), |(i, _)| (i % 64, i / 64));
