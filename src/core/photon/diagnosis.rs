@@ -1,10 +1,10 @@
-//! Why is there no caustic? The first condition that fails, and who takes part.
+//! The diagnosis of a scene without caustics: the first condition that fails, with the objects concerned.
 
 use super::FluxBalance;
 use crate::Error;
 use crate::scene::Scene;
 
-/// The error that tells the artist which link of the chain light, caster, receiver is broken.
+/// The error that names the broken link of the chain light, caster, receiver.
 pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
     let casters: Vec<&str> = scene
         .meshes()
@@ -44,7 +44,7 @@ pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
     )
 }
 
-/// What happens to a light's photons, in the order of their way.
+/// The fate of a light's photons, in the order of their path.
 fn broken_link(balance: &FluxBalance) -> String {
     let sum = |flux: glam::DVec3| flux.element_sum();
     let met = sum(balance.emitted - balance.direct);

@@ -1,11 +1,11 @@
-//! Where a light must shine to make caustics. Nearly all of its light misses the glass, or leaves it for elsewhere, so
-//! photons are sent only where earlier ones came through.
+//! Emission guiding: importance sampling of the rays that lead to caustics. Nearly all light misses the glass, or leaves
+//! it for elsewhere, so candidates are sent mostly where earlier photons reached the receiver.
 //!
-//! The rays from a light to one specular mesh are the unit square ([`Emission`]), area in proportion to flux. A quadtree over the
-//! square learns which cells send photons to the receiver. Cells that do, with their neighbours, get candidates in
-//! proportion to their flux, so their photons weigh the same. The others are not cut off, which would lose light: they get
-//! a small share of the candidates, whose photons, if any, weigh more. Where the pilot run meets such a photon, its cell
-//! joins the others.
+//! The rays from a light to one specular mesh (a caster) are parametrised by the unit square ([`Emission`]), area in
+//! proportion to flux. A quadtree over the square learns which cells are active: they, or a neighbour, send photons to
+//! the receiver. Active cells get candidates in proportion to their flux, so their photons have equal flux. The others
+//! keep a small share of the candidates with more flux each, so that the estimate stays unbiased; where the pilot run
+//! sees a photon land from one, that cell becomes active.
 
 use super::guide_learner::{GuideLearner, Leaf};
 use super::path::FluxBalance;
@@ -14,37 +14,38 @@ use crate::scene::light::{Emission, Sphere};
 use crate::scene::{Media, Ray, Scene};
 use crate::{Progress, Result};
 
-/// Highest rate of candidates in cells from which nothing was seen to land, against the others.
+/// Highest rate of candidates in inactive cells, relative to active ones.
 const INACTIVE_RATE: f64 = 1.0 / 16.0;
-/// Highest share of all candidates that goes to such cells.
+/// Highest share of all candidates in inactive cells.
 const INACTIVE_SHARE: f64 = 0.2;
-/// Cells that may be open on one level of the quadtree; fewer for scenes of many lights and targets.
+/// Most cells to be refined on one level of the quadtree; fewer for scenes of many lights and casters.
 const MAX_OPEN: usize = 16_384;
-/// Meshes aimed at one by one; more of them are aimed at together.
+/// Most casters with bounding spheres of their own; more of them share one.
 const MAX_CASTERS: usize = 16;
-/// How far emission is narrowed. All have the same expectation; only their cost differs.
+
+/// How emission is importance-sampled. All have the same expectation; only their cost differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmissionGuiding {
     /// All the light of every source.
     Unguided,
-    /// Towards the bounds of glass and mirrors.
+    /// Towards the bounding spheres of glass and mirrors.
     Bounds,
-    /// To where earlier photons came through. The way to use.
+    /// By the cells from which trial photons reached the receiver; the default.
     Learned,
 }
 
-/// The rays from one light that meet the sphere around one target and none of the balls before it.
+/// The rays from one light that meet the bounding sphere of one caster and none of the spheres before it.
 pub(super) struct Domain {
     pub light: u16,
     pub emission: Emission,
-    /// Targets whose rays belong to other domains.
+    /// Spheres whose rays belong to other domains.
     before: Vec<Sphere>,
-    /// Whether glass may lie around the place where photons start.
+    /// Whether photons may start inside glass.
     in_glass: bool,
 }
 
 impl Domain {
-    /// The ray of a point of the square, and the glass it starts in; none if no photon leaves there.
+    /// The ray of a point of the square and the glass it starts in; none if no photon leaves there.
     pub(super) fn sample(&self, scene: &Scene, u: [f32; 2], rng: &mut Stream) -> Option<(Ray, Media)> {
         let ray = self.emission.sample(u, rng)?;
         if self.before.iter().any(|sphere| sphere.intersects(&ray)) {
@@ -59,7 +60,7 @@ impl Domain {
     }
 }
 
-/// A cell of a domain's square, and what a candidate from it carries.
+/// A cell of a domain's square with the flux of its candidates.
 pub(super) struct Cell {
     pub domain: u32,
     pub corner: [f32; 2],
@@ -68,19 +69,19 @@ pub(super) struct Cell {
     pub flux: glam::Vec3,
 }
 
-/// All cells of all lights and the share of the candidates each gets.
+/// The cells of all lights with their shares of the candidates.
 pub(super) struct EmissionPlan {
     pub domains: Vec<Domain>,
     pub cells: Vec<Cell>,
-    /// Share of candidates up to and with each cell, rising to 1.
+    /// Cumulative share of the candidates, up to and including each cell; ends at 1.
     pub cumulative: Vec<f64>,
-    /// What the learning paths of each light met, for the message if nothing lands.
+    /// The flux balance of each light's trial paths, for the diagnosis if nothing lands.
     pub balances: Vec<FluxBalance>,
     leaves: Vec<Leaf>,
 }
 
 impl EmissionPlan {
-    /// Learns where to shine. Deterministic in the seed.
+    /// Learns the active cells. Deterministic in the seed.
     pub(super) fn new(
         scene: &Scene,
         guiding: EmissionGuiding,
@@ -112,14 +113,14 @@ impl EmissionPlan {
     }
 
     fn from_leaves(domains: Vec<Domain>, mut leaves: Vec<Leaf>, balances: Vec<FluxBalance>) -> Self {
-        // Neighbours in the square are neighbours in the list: their rays visit the same memory.
+        // In Z order neighbours in the square are near in the list: their rays visit the same memory.
         leaves.sort_by_key(|leaf| (leaf.domain, morton(leaf.at.map(|x| x << (16 - leaf.level)))));
         let mut plan = Self { domains, cells: Vec::new(), cumulative: Vec::new(), balances, leaves };
         plan.allocate();
         plan
     }
 
-    /// Gives each leaf its share of the candidates.
+    /// Allocates the candidates to the leaves.
     fn allocate(&mut self) {
         let Self { domains, leaves, .. } = self;
         let power = |leaf: &Leaf| domains[leaf.domain as usize].power();
@@ -155,7 +156,7 @@ impl EmissionPlan {
         self.cumulative.last_mut().into_iter().for_each(|last| *last = 1.0);
     }
 
-    /// Makes those of the given cells active that were not: whether any was.
+    /// Activates the given cells; whether any was inactive.
     pub(super) fn activate(&mut self, cells: &[u32]) -> bool {
         let mut changed = false;
         for cell in cells {
@@ -170,16 +171,16 @@ impl EmissionPlan {
     }
 }
 
-/// One domain for each light and target.
+/// The domains: one for each light and caster.
 fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
     let (lower, upper) = scene.bounds();
     let world = Sphere::around_box(lower, upper);
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
-    let mut targets: Vec<Sphere> = specular().map(|mesh| mesh.bounding_sphere()).collect();
-    if targets.len() > MAX_CASTERS {
+    let mut casters: Vec<Sphere> = specular().map(|mesh| mesh.bounding_sphere()).collect();
+    if casters.len() > MAX_CASTERS {
         let lower = specular().map(|mesh| mesh.lower).fold(lower, glam::Vec3::min);
         let upper = specular().map(|mesh| mesh.upper).fold(upper, glam::Vec3::max);
-        targets = vec![Sphere::around_box(lower, upper)];
+        casters = vec![Sphere::around_box(lower, upper)];
     }
     let mut domains = Vec::new();
     for (light, desc) in scene.lights().iter().enumerate() {
@@ -193,7 +194,7 @@ fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
         match guiding {
             EmissionGuiding::Unguided => domains.push(domain(None, &[])),
             EmissionGuiding::Bounds | EmissionGuiding::Learned => {
-                domains.extend((0..targets.len()).map(|i| domain(Some(targets[i]), &targets[..i])));
+                domains.extend((0..casters.len()).map(|i| domain(Some(casters[i]), &casters[..i])));
             }
         }
     }

@@ -28,12 +28,12 @@ impl Default for CameraDesc {
 }
 
 impl CameraDesc {
-    /// Refuses a camera that looks nowhere or has no upright.
+    /// Refuses a camera without a direction or upright.
     pub fn check(&self, place: &str) -> Result<()> {
         self.resolve(place).map(|_| ())
     }
 
-    /// The camera, ready for rays.
+    /// The resolved camera.
     ///
     /// # Errors
     /// `Value` names the first value under `place` that cannot be used.
@@ -76,14 +76,14 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The ray through a place of the picture: `x` from -1 (left) to 1, `y` from -1 (bottom) to 1, `aspect` is
-    /// width over height.
+    /// The ray through a point of the picture: `x` from -1 (left) to 1, `y` from -1 (bottom) to 1; `aspect` is width over
+    /// height.
     pub fn ray(&self, x: f32, y: f32, aspect: f32) -> Ray {
         let across = self.right * (x * aspect * self.half_height) + self.up * (y * self.half_height);
         Ray::new(self.position, (self.forward + across).normalize())
     }
 
-    /// The place of the picture where a world point is seen, in the units of [`Self::ray`]; none behind the camera.
+    /// The projection of a world point to the picture, in the units of [`Self::ray`]; none behind the camera.
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<glam::Vec2> {
         let offset = point - self.position;
         let depth = offset.dot(self.forward);

@@ -99,7 +99,7 @@ impl Receiver {
         self.normal
     }
 
-    /// Its diffuse material; the floor around has the same.
+    /// Its diffuse material, also that of the floor.
     pub fn material(&self) -> &Material {
         &self.material
     }
@@ -109,13 +109,13 @@ impl Receiver {
         self.corner + self.x_axis * (point.x * self.unit) + self.y_axis * (point.y * self.unit)
     }
 
-    /// The plane point below or above a world point [m].
+    /// The orthogonal projection of a world point [m] to the plane.
     pub fn plane_from_world(&self, point: Vec3) -> Vec2 {
         let offset = point - self.corner;
         vec2(offset.dot(self.x_axis), offset.dot(self.y_axis)) / self.unit
     }
 
-    /// The plane point that a ray meets, also beyond the rectangle; none where it looks away from the plane.
+    /// The intersection of a ray with the plane, also beyond the rectangle; none for a ray away from it.
     pub fn plane_from_ray(&self, ray: &Ray) -> Option<Vec2> {
         let t = (self.corner - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
         (t > 0.0 && t < f32::INFINITY).then(|| self.plane_from_world(ray.origin + ray.direction * t))

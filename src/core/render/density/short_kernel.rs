@@ -188,7 +188,7 @@ mod tests {
     fn a_texture_narrower_than_the_kernel_keeps_its_light() {
         let mut texture = ReceiverTexture::new(TextureLayout::new(Vec2::new(1.0, 0.05), 40, 0.0));
         texture.texels_mut()[3] = Vec4::ONE;
-        ShortKernel::default().filter(&mut texture, &ExtendedBox::with_variance(15.0).taps());
+        ShortKernel::default().filter(&mut texture, &ExtendedBox::with_variance(15.0).weights());
         assert!((texture.total().x - 1.0).abs() < 1e-6);
     }
 }

@@ -1,8 +1,8 @@
-//! Light sources. One kind, one file: values, `check`, how photons leave it ([`Emission`]), how it lights a point.
+//! Light sources. One kind, one file: values, `check`, [`Emission`] of photons, [`Illumination`] of a point.
 //!
-//! Power is in watts and colour a factor on it, so a lamp of 10 W and colour (1, 0.5, 0) sends out 10 W of red and 5 W
-//! of green. Only the sun-like directional light, which has no total, is given by its irradiance. Lights stand in
-//! nobody's way: photons and camera rays pass them.
+//! Power is in watts and colour a factor on it, so a lamp of 10 W and colour (1, 0.5, 0) emits 10 W of red and 5 W of
+//! green. Only the directional light, which has no total power, is given by its irradiance. Photons and camera rays pass
+//! through lights.
 
 mod directional;
 mod emission;
@@ -41,19 +41,19 @@ pub enum LightDesc {
     Sphere(SphereLight),
 }
 
-/// What a light does at a point that sees it.
+/// The illumination of a point by one light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illumination {
     /// Unit vector from the point to the light.
     pub direction: Vec3,
     /// Distance to the light [m]; infinite for a directional one.
     pub distance: f32,
-    /// RGB irradiance on a surface that faces it [W/m^2]; for lights with a size, of one random place, whose mean is right.
+    /// RGB irradiance on a surface that faces it [W/m^2]; for area lights an unbiased sample.
     pub irradiance: Vec3,
 }
 
 impl LightDesc {
-    /// The artist's name for it.
+    /// Its name in the project.
     pub fn name(&self) -> &str {
         match self {
             Self::Point(light) => &light.name,
@@ -64,7 +64,7 @@ impl LightDesc {
         }
     }
 
-    /// Where it stands, world [m]; none for a directional one.
+    /// Its position, world [m]; none for a directional one.
     pub fn position(&self) -> Option<Vec3> {
         match self {
             Self::Point(light) => Some(light.position.into()),
@@ -86,7 +86,7 @@ impl LightDesc {
         }
     }
 
-    /// How its photons leave: those that may meet the sphere `target`, or all of them. `world` encloses the scene.
+    /// Its emission: of photons that may hit the sphere `target`, or of all. `world` encloses the scene.
     pub fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         match self {
             Self::Point(light) => light.emission(target),
@@ -97,7 +97,7 @@ impl LightDesc {
         }
     }
 
-    /// Whether any of its photons starts in the box between two corners, perhaps.
+    /// Whether photons may start in the box between two corners.
     pub(crate) fn overlaps_box(&self, lower: Vec3, upper: Vec3) -> bool {
         let sphere = match self {
             Self::Point(light) => Sphere { centre: light.position.into(), radius: 0.0 },
@@ -109,8 +109,8 @@ impl LightDesc {
         sphere.centre.distance_squared(sphere.centre.clamp(lower, upper)) <= sphere.radius * sphere.radius
     }
 
-    /// How it lights `point` (world), for shadow rays; `u` picks the place on lights that have a size, uniform in
-    /// [0, 1)^2. None where it sends no light.
+    /// The illumination of `point` (world), for shadow rays; `u`, uniform in [0, 1)^2, selects the point on area lights.
+    /// None where it emits nothing.
     pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
         match self {
             Self::Point(light) => light.illuminate(point),
@@ -121,7 +121,7 @@ impl LightDesc {
         }
     }
 
-    /// Distance and radiance [W/(sr m^2)] where a ray meets the light itself; none for lights without a size.
+    /// Distance and radiance [W/(sr m^2)] where a ray hits the light itself; area lights only.
     pub fn intersect(&self, ray: &super::Ray) -> Option<(f32, Vec3)> {
         match self {
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => None,
@@ -137,7 +137,7 @@ fn check_power(place: &str, watts: f32, colour: [f32; 3]) -> Result<()> {
     check::within(place, "colour", &colour, 0.0, 1e3)
 }
 
-/// Two unit vectors that form a right-handed frame with the unit vector `z` (Duff et al. 2017).
+/// Two unit vectors that complete the unit vector `z` to a right-handed frame (Duff et al. 2017).
 pub(crate) fn frame(z: Vec3) -> (Vec3, Vec3) {
     z.any_orthonormal_pair()
 }

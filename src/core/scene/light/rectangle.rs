@@ -57,7 +57,7 @@ impl RectangleLight {
         Ok(())
     }
 
-    /// Normal and the two half sides.
+    /// Normal and the two half edges.
     fn axes(&self) -> (Vec3, Vec3, Vec3) {
         let normal = (Vec3::from(self.target) - Vec3::from(self.position)).normalize_or(Vec3::NEG_Y);
         let x = normal.cross(Vec3::Y).try_normalize().unwrap_or_else(|| frame(normal).0);
@@ -65,7 +65,7 @@ impl RectangleLight {
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
     }
 
-    /// The sphere around it.
+    /// Its bounding sphere.
     pub(super) fn bounding_sphere(&self) -> Sphere {
         let radius = glam::Vec2::from(self.size).length() / 2.0;
         Sphere { centre: self.position.into(), radius }

@@ -1,4 +1,4 @@
-//! A glowing sphere: every point of it shines outward after Lambert's law.
+//! A Lambertian sphere.
 
 use std::f32::consts::PI;
 
@@ -53,11 +53,11 @@ impl SphereLight {
         Emission::of_surface(Emitter::Sphere(self.sphere()), Vec3::from(self.colour) * self.watts, target)
     }
 
-    /// By a random direction of the cone in which the sphere is seen.
+    /// By a uniform direction of the subtended cone.
     pub(super) fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
         let cone: Cone = self.sphere().subtended_cone(point);
         if cone.one_minus_cos >= 2.0 {
-            return None; // Inside the sphere: it shines outward.
+            return None; // Inside: it emits outward.
         }
         let direction = cone.direction(u);
         let (distance, radiance) = self.intersect(&Ray::new(point, direction)).unwrap_or_else(|| {

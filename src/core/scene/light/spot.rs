@@ -45,7 +45,7 @@ impl Default for SpotLight {
     }
 }
 
-/// How bright the light is by direction, between 0 and 1.
+/// Relative intensity by direction, 0..=1.
 #[derive(Clone, Debug)]
 pub(super) struct Profile {
     axis: Vec3,
@@ -55,7 +55,7 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// Smooth in the cosine of the angle; its mean over the fading rim is one half.
+    /// Smoothstep in the cosine of the angle; its mean over the soft edge is one half.
     pub(super) fn at(&self, direction: Vec3) -> f32 {
         // 1 - cosine by the chord: accurate for narrow cones too.
         let off = (direction - self.axis).length_squared() / 2.0;

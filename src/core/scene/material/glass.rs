@@ -1,8 +1,8 @@
-//! Glass: refracts and reflects after Fresnel, absorbs by distance (Beer-Lambert), bends blue more than red if dispersive.
+//! Glass: refraction and reflection by Fresnel, absorption by Beer-Lambert, optional dispersion.
 //!
 //! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
-//! the surface of the other inside it is passed unseen (Schmidt & Budge 2002). Every surface needs an inside, so the mesh
-//! should be closed; through an open sheet light passes as if the solid went on behind it.
+//! the other's surface within it has no effect (Schmidt & Budge 2002). Meshes should be closed; behind an open sheet the
+//! solid never ends.
 
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -54,7 +54,7 @@ impl Glass {
         self.ior + b * (inverse_square(nm / 1000.0) - inverse_square(LINE_D))
     }
 
-    /// What is left of the light after `distance` [m].
+    /// RGB transmittance over `distance` [m].
     pub fn transmittance(&self, distance: f32) -> Vec3 {
         if self.absorption == [0.0; 3] {
             return Vec3::ONE;
@@ -96,9 +96,8 @@ impl Glass {
     }
 }
 
-/// Reflects with the probability of Fresnel, else refracts; whether it went through. The smooth normal decides the
-/// way, unless that would lead to the wrong side of the true surface: then the true normal does. So every photon goes
-/// on, and none loses or gains energy.
+/// Reflection with the Fresnel probability, else refraction; whether it went through. The geometric normal replaces the
+/// shading normal where that would lead to the wrong side of the surface, so that no energy is lost or gained.
 fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
     let (geometric, shading) = facing_normals(hit, direction);
     for normal in [shading, geometric] {
@@ -116,5 +115,5 @@ fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Ve
             }
         }
     }
-    (direction, true) // Exactly along the surface: passes on.
+    (direction, true) // Exactly along the surface: passes straight on.
 }

@@ -1,4 +1,4 @@
-//! Polished metal: reflects everything one way, coloured by its reflectance, from both sides.
+//! Polished metal: specular reflection from both sides, coloured by its reflectance.
 
 use glam::Vec3;
 use schemars::JsonSchema;

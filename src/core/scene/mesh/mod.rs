@@ -1,4 +1,4 @@
-//! Triangle meshes from OBJ files: read, placed, cleaned up, given smooth normals.
+//! Triangle meshes from OBJ files: reading, placement, clean-up, smooth normals.
 
 mod clean;
 mod mtl;
@@ -98,7 +98,7 @@ pub(super) struct Part {
     pub triangles: Vec<Triangle>,
 }
 
-/// Reads a mesh file, splits it by material, and reports what was done in `notes`.
+/// Reads a mesh file and splits it by material; `notes` tell what was changed.
 pub(super) fn load(
     desc: &MeshDesc,
     place: &str,
@@ -155,7 +155,7 @@ fn transform(file: &mut obj::ObjFile, transform: &Transform, path: &std::path::P
     Ok(())
 }
 
-/// Name and material of each `usemtl` of the file, by its index.
+/// Name and material of each `usemtl`, by index.
 fn materials(
     file: &obj::ObjFile,
     desc: &MeshDesc,
@@ -183,9 +183,9 @@ fn materials(
         .zip(used)
         .map(|(name, used)| {
             let label = if single { desc.name.clone() } else { format!("{}/{name}", desc.name) };
-            let found = library.iter().find(|entry| entry.name == *name);
+            let found = library.iter().find(|material| material.name == *name);
             let material = match found {
-                Some(entry) => entry.material(&label, used, notes),
+                Some(found) => found.material(&label, used, notes),
                 None => {
                     if used {
                         notes.push(format!("{label}: has no material; taken as matt grey"));
@@ -198,7 +198,7 @@ fn materials(
         .collect()
 }
 
-/// The true normal of a counter-clockwise triangle, not normalized; twice its area long.
+/// The normal of a counter-clockwise triangle, not normalized; its length is twice the area.
 fn cross([a, b, c]: [Vec3; 3]) -> Vec3 {
     (b - a).cross(c - a)
 }

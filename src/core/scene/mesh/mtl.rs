@@ -1,6 +1,6 @@
-//! Wavefront MTL. The format does not know glass: exporters write only its index `Ni`, and often `d 1`, `illum 2`. A
-//! material is taken as glass if the file says so with an `absorption` line of ours, or if its index is above 1.05 and
-//! something hints at glass (transparency, a transmission filter, its name); what was guessed is always reported.
+//! Wavefront MTL. The format has no glass: exporters write only its index `Ni`, and often `d 1`, `illum 2`. A material
+//! counts as glass with our `absorption` line, or with an index above 1.05 and a hint of glass (transparency, a
+//! transmission filter, its name); guesses are always noted.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::scene::material::{Diffuse, Glass, Material, Mirror};
 
 /// Largest file read [bytes].
 const MAX_BYTES: u64 = 16 << 20;
-/// `Tf` has no length in the format; here it is what is left after this distance [m].
+/// Distance [m] to which the transmission filter `Tf` applies; the format gives none.
 const FILTER_DISTANCE: f32 = 0.01;
 
 /// One `newmtl` of a file.
@@ -27,7 +27,7 @@ pub(super) struct MtlMaterial {
     model: Option<u32>,
 }
 
-/// Reads a file; lines it does not know, or whose numbers are not plain, are skipped as the format wants.
+/// Reads a file; unknown or malformed lines are skipped, as the format requires.
 pub(super) fn read(path: &Path) -> Result<Vec<MtlMaterial>> {
     let bytes = read_regular_file(path, MAX_BYTES)?;
     let text = obj::text(&bytes, path)?;
@@ -59,7 +59,7 @@ impl MtlMaterial {
         }
     }
 
-    /// What it is taken for; guesses are noted if it is `used`.
+    /// The material it describes; guesses are noted if it is `used`.
     pub(super) fn material(&self, label: &str, used: bool, notes: &mut Vec<String>) -> Material {
         let mut note = |text: String| {
             if used {
@@ -116,7 +116,7 @@ fn number(rest: &str) -> Option<f32> {
     rest.split_ascii_whitespace().next()?.parse().ok().filter(|x: &f32| x.is_finite())
 }
 
-/// One or three numbers; one stands for all channels.
+/// One or three numbers; one applies to all channels.
 fn colour(rest: &str) -> Option<[f32; 3]> {
     let mut words = rest.split_ascii_whitespace().map_while(number);
     let red = words.next()?;
