@@ -1,4 +1,4 @@
-//! The comparison sheet: the same frames by several methods, a row for each.
+//! The comparison sheet: the same frames by several methods, a row per method.
 
 use std::path::Path;
 
@@ -9,40 +9,40 @@ use super::text;
 use crate::Result;
 use crate::render::image::Image;
 
-/// Width of the column with the words, pixels.
+/// Width of the text column, pixels.
 const TEXT_WIDTH: usize = 450;
-/// Heights of the lines of the heading, of a row's title, and of its other lines.
+/// Line heights of the heading, of a row's title, and of its other lines.
 const HEADING: f32 = 46.0;
 const TITLE: f32 = 44.0;
 const LINE: f32 = 30.0;
-/// Height of small letters.
+/// Font size of small text.
 const SMALL: f32 = 26.0;
 /// Height of the line with the frame numbers.
 const NUMBERS: usize = 34;
 /// Titles, screen values.
 const BRIGHT: glam::Vec3 = glam::Vec3::splat(0.93);
 
-/// What the sheet shows.
+/// The content of the sheet.
 #[derive(Clone, Debug)]
 pub struct ComparisonSheet {
-    /// Above all.
+    /// Heading.
     pub heading: String,
-    /// Beside it, smaller.
+    /// Smaller text beside the heading.
     pub subheading: String,
-    /// The frames' numbers, above the columns.
+    /// Frame numbers, above the columns.
     pub numbers: Vec<i32>,
-    /// One for each method.
+    /// One row per method.
     pub rows: Vec<MethodRow>,
 }
 
-/// One method.
+/// The row of one method.
 #[derive(Clone, Debug)]
 pub struct MethodRow {
-    /// Its name.
+    /// Name of the method.
     pub title: String,
-    /// What is told of it, a name and a value in each line.
+    /// Its figures, a name and a value per line.
     pub lines: Vec<(String, String)>,
-    /// Screen values, one for each number, all of one size.
+    /// One picture per frame, screen values, all of one size.
     pub pictures: Vec<Image>,
 }
 
@@ -83,7 +83,7 @@ fn arrange(comparison: &ComparisonSheet, overlay: Overlay) -> Image {
     page
 }
 
-/// The title of a row and its lines below, names left and values in a column of their own.
+/// The title of a row and its lines below, in columns of names and values.
 fn draw_text(page: &mut Image, row: &MethodRow, top: f32) {
     let left = GAP as f32 * 1.5;
     text::draw(page, &row.title, [left, top - 4.0], TITLE, BRIGHT);

@@ -1,4 +1,4 @@
-//! Picture files. A new format is a file here, a variant of [`FrameFormat`] and its arms.
+//! Picture files. A new format is a file here and a variant of [`FrameFormat`].
 
 pub mod comparison;
 pub mod exr;
@@ -39,7 +39,7 @@ impl FrameFormat {
     /// All formats.
     pub const ALL: [Self; 2] = [Self::Exr, Self::Png];
 
-    /// The end of the file name, without a dot; also the name by which a user asks for the format.
+    /// The file name extension, without a dot; also the name of the format in settings.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Exr => "exr",
@@ -55,11 +55,11 @@ pub struct Frame<'a> {
     pub background: &'a Image,
     /// The caustics alone, linear, of the same size.
     pub caustic: &'a Image,
-    /// What the file says about itself.
+    /// Metadata of the file.
     pub metadata: &'a Metadata,
 }
 
-/// Values that no file can hold, and what became of them.
+/// Counts of samples that the file format cannot hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepairedSamples {
     /// Samples beyond the largest half float, clamped to it.
@@ -75,8 +75,8 @@ impl std::ops::AddAssign for RepairedSamples {
     }
 }
 
-/// Writes a frame whole or not at all: to a temporary file in the same folder, then renamed. `view` and `depth` concern
-/// PNG only. Equal input gives equal bytes. Runs on the calling thread; write several frames at once to use more.
+/// Writes a frame atomically: to a temporary file in the same folder, then renamed. `view` and `depth` apply to PNG only.
+/// Equal input gives equal bytes. Runs on the calling thread; write frames in parallel to use more.
 ///
 /// # Panics
 /// If the layers differ in size.

@@ -1,4 +1,4 @@
-//! What the artist drew, over the pictures of a sheet: polylines of the plane with soft edges, as the camera sees them.
+//! The overlay of constraints on the pictures of a sheet: antialiased polylines of the plane in the camera's perspective.
 
 use glam::{Vec2, Vec3};
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
@@ -12,11 +12,11 @@ pub const MAGENTA: Vec3 = Vec3::new(0.93, 0.16, 0.78);
 
 /// Least width of a line in the picture, pixels.
 const LEAST_WIDTH: f32 = 2.0;
-/// Length of an arrow head over the width of its line, and at least in pixels.
+/// Length of an arrow head, relative to the width of its line, and at least in pixels.
 const HEAD: (f32, f32) = (4.0, 11.0);
-/// Corners of the round end of a line.
+/// Corners of the round cap of a line.
 const CORNERS: u32 = 16;
-/// Width of the dark rim that sets a line off from bright light, pixels, and its cover.
+/// Width of the dark rim that sets a line off from bright light, pixels, and its opacity.
 const RIM: (f32, f32) = (1.6, 0.55);
 
 /// One polyline on the plane.
@@ -32,17 +32,17 @@ pub struct OverlayLine {
     pub arrow: bool,
 }
 
-/// Lines, and where plane points are seen in the picture.
+/// Lines with the projection of plane points to the picture.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {
-    /// Drawn one after the other.
+    /// The lines, in drawing order.
     pub lines: &'a [OverlayLine],
-    /// The pixel (from the upper left corner) of a plane point; none where it is not seen.
+    /// The pixel (from the upper left corner) of a plane point; none behind the camera.
     pub pixel_from_plane: &'a dyn Fn(Vec2) -> Option<Vec2>,
 }
 
 impl Overlay<'_> {
-    /// Nothing to draw.
+    /// No lines.
     pub const NONE: Overlay<'static> = Overlay { lines: &[], pixel_from_plane: &|_| None };
 
     /// Draws the lines over a picture of screen values.
@@ -64,7 +64,7 @@ impl Overlay<'_> {
         for (pixel, over) in picture.pixels.iter_mut().zip(layer.pixels()) {
             let [r, g, b, a] =
                 [over.red(), over.green(), over.blue(), over.alpha()].map(|v| f32::from(v) / 255.0);
-            // The layer's colours are times their cover already.
+            // The layer's colours are premultiplied.
             *pixel = *pixel * (1.0 - a) + Vec3::new(r, g, b);
         }
     }
@@ -101,9 +101,9 @@ impl Overlay<'_> {
         path.finish()
     }
 
-    /// From a point of the line to its edge in the direction `towards` of the plane, pixels.
+    /// The offset in pixels from a point of the line to its edge in the plane direction `towards`.
     fn reach(&self, point: Vec2, pixel: Vec2, towards: Vec2, width: f32) -> Vec2 {
-        // Looked at a small step aside where the line has no width to speak of.
+        // For a line of hardly any width, by a small step aside.
         let step = (0.5 * width).max(1e-4);
         let aside = (self.pixel_from_plane)(point + towards.normalize_or_zero() * step);
         let offset = aside.map_or(Vec2::ZERO, |aside| aside - pixel) * (0.5 * width / step);
@@ -112,7 +112,7 @@ impl Overlay<'_> {
     }
 }
 
-/// Adds a polygon, turned so that all have one orientation: where they overlap they then add up instead of cancelling.
+/// Adds a polygon, oriented like all others, so that overlaps add up instead of cancelling.
 fn polygon(path: &mut PathBuilder, corners: &[Vec2]) {
     let next = corners.iter().cycle().skip(1);
     let area: f32 = corners.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();

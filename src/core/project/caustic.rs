@@ -1,4 +1,4 @@
-//! Caustics by name: which light through which glass, and what each does at a key frame.
+//! Named caustics: which light through which glass, and their values at a key frame.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -52,7 +52,7 @@ impl Default for CausticKey {
 }
 
 impl CausticKey {
-    /// The factor on each channel of its light.
+    /// The factor per channel of its light.
     pub fn gain(&self) -> [f32; 3] {
         self.colour.map(|channel| channel * self.brightness)
     }
@@ -71,14 +71,14 @@ impl CausticKey {
 }
 
 impl KeyFrame {
-    /// What a caustic shows here; those without a name, and those that the key does not mention, show what the key shows.
+    /// What a caustic shows at this key; without a name, or not mentioned by the key, what the key shows.
     pub fn shown_by(&self, caustic: Option<&str>) -> &Shows {
         let own = caustic.and_then(|name| self.caustics.get(name)?.shows.as_ref());
         own.unwrap_or(&self.shows)
     }
 }
 
-/// Reads what a key says of single caustics; a name that stands twice is an error, not the last one's word.
+/// Reads a key's values of single caustics; a duplicate name is an error.
 pub(super) fn by_name<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, CausticKey>, D::Error> {
@@ -104,7 +104,7 @@ pub(super) fn by_name<'de, D: Deserializer<'de>>(
     deserializer.deserialize_map(ByName)
 }
 
-/// The named caustics, and what the keys say of them.
+/// Checks the named caustics and the keys' values of them.
 pub(super) fn check(project: &Project) -> Result<()> {
     let caustics = &project.caustics;
     if caustics.len() > MAX_CAUSTICS {
@@ -140,7 +140,7 @@ pub(super) fn check(project: &Project) -> Result<()> {
     Ok(())
 }
 
-/// What to say of a name that nothing bears.
+/// The message on an unknown name.
 pub(crate) fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<_> = known.map(|name| format!("'{name}'")).collect();
     if known.is_empty() {

@@ -2,13 +2,13 @@
 
 use crate::{Error, Result};
 
-/// At most this many frames in one run.
+/// Most frames of one run.
 pub const MAX_FRAMES: usize = 100_000;
 
-/// The frames of a list such as `1-100x5, 120`, in its order, each once. `x` or `:` gives the step.
+/// The frames of a list such as `1-100x5, 120`, in its order, without duplicates. `x` or `:` precedes the step.
 ///
 /// # Errors
-/// Names `place` where the list is empty, reversed, malformed or longer than [`MAX_FRAMES`].
+/// Names `place` for a list that is empty, reversed, malformed or longer than [`MAX_FRAMES`].
 pub fn parse(text: &str, place: &str) -> Result<Vec<i32>> {
     let mut frames = Vec::new();
     let mut seen = std::collections::BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Key frames: what the light shows, and when.
+//! Key frames: what the light shows, at which frame.
 
 use std::collections::BTreeMap;
 
@@ -57,7 +57,7 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// The flow's time for the share `x` of the way from one key to the next; both 0..=1.
+    /// The eased time in the segment for the linear share `x` of its frames; both 0..=1.
     pub fn apply(self, x: f64) -> f64 {
         let x = x.clamp(0.0, 1.0);
         match self {
@@ -69,16 +69,16 @@ impl Ease {
     }
 }
 
-/// Where the frame `frame` stands between the keys.
+/// The time of a frame, relative to its segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentTime {
-    /// Index of the segment, from key `segment` to key `segment + 1`; 0 where there is but one key.
+    /// Index of the segment, from key `segment` to key `segment + 1`; 0 with a single key.
     pub segment: usize,
-    /// The flow's time in the segment, 0..=1.
+    /// The eased time in the segment, 0..=1.
     pub time: f64,
 }
 
-/// Where `frame` stands: before the first key at it, after the last key at that one.
+/// The segment time of `frame`, clamped to the first and the last key.
 pub fn segment_time(keys: &[KeyFrame], frame: i32) -> SegmentTime {
     let after = keys.partition_point(|key| key.frame <= frame);
     if keys.len() < 2 || after == 0 {
@@ -92,7 +92,7 @@ pub fn segment_time(keys: &[KeyFrame], frame: i32) -> SegmentTime {
     SegmentTime { segment: after - 1, time: from.ease.apply(share) }
 }
 
-/// At least one key, in rising order, none that needs a scene where there is none.
+/// Checks for at least one key, rising order, and a scene where a key needs one.
 pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
     if keys.is_empty() {
         return Err(Error::value(

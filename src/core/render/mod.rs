@@ -1,9 +1,9 @@
-//! From photons to pictures (Sec. 4).
+//! Rendering of photons to pictures (Sec. 4).
 //!
 //! On a plane, progressive photon mapping is a histogram of each pass ([`splat`]) filtered with the kernel of the pass
-//! ([`density`]), summed per frame in a scratch file ([`frames`]). The camera sees the texture through a sparse matrix
-//! ([`gather_matrix`]); a frame is [`background`] + matrix x texture. [`view`] makes it fit for a screen. [`orbit_view`] shows
-//! a scene at once from anywhere, to find one's way in it.
+//! ([`density`]), summed per frame in a scratch file ([`frames`]). A sparse matrix ([`gather_matrix`]) maps the texture to
+//! the camera's pixels; a frame is [`mod@background`] + matrix x texture. [`view`] is the view transform for screens.
+//! [`orbit_view`] is an immediate picture of the scene from anywhere, for orientation.
 
 pub mod background;
 pub mod density;

@@ -1,7 +1,7 @@
-//! A quick look at a scene from anywhere, to find one's distance in it: no picture of its light.
+//! The orbit view: a schematic picture of a scene from anywhere, for orientation.
 //!
-//! One ray per pixel goes straight on through glass, which shows as a tinted shape with bright rims, and ends on what is
-//! matt or a mirror, lit by a lamp at the shader. The receiver shows the caustic as it is.
+//! One ray per pixel passes straight through glass, shown as a tinted shape with bright rims, to the first matt surface or
+//! mirror, lit by a lamp at the camera. The receiver shows the caustic as it is.
 
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
@@ -13,31 +13,31 @@ use crate::scene::material::{Diffuse, Material};
 use crate::scene::{Hit, Ray, Scene, SurfaceId};
 use crate::{Progress, Result};
 
-/// Surfaces of glass that a ray goes through.
+/// Most glass surfaces of a ray.
 const LAYERS: usize = 12;
-/// What a surface that faces the eye gives back of its albedo, and one that is seen along it.
+/// Reflected share of the albedo, at grazing angle and facing the camera.
 const FACING: [f32; 2] = [0.12, 0.55];
-/// What glass gives back where it faces the eye, and at its rims.
+/// Reflectance of glass, facing the camera and at its rims.
 const GLASS: [f32; 2] = [0.012, 0.4];
-/// What glass lets through where it faces the eye, and at its rims.
+/// Transmittance of glass, facing the camera and at its rims.
 const CLEAR: [f32; 2] = [0.93, 0.3];
-/// The light behind everything, below and above.
+/// Radiance of the background, below and above.
 const BEHIND: [f32; 2] = [0.015, 0.06];
-/// The receiver and the floor around it, over other matt things: dark, so that the caustic stands out.
+/// Brightness of the receiver and the floor, relative to other matt surfaces: dark, so that the caustic stands out.
 const GROUND: [f32; 2] = [0.4, 0.25];
-/// Width of the line around the receiver, pixels.
+/// Width of the outline of the receiver, pixels.
 const BORDER: f32 = 1.5;
 
-/// What a look shows beside the scene.
+/// The light in an orbit view.
 #[derive(Clone, Copy)]
 pub struct OrbitLight<'a> {
-    /// The light on the receiver, watts per texel.
+    /// The caustic on the receiver, watts per texel.
     pub caustic: Option<&'a ReceiverTexture>,
-    /// Factor on the lamp at the eye, so that it is as bright on the screen at any exposure: 2^-exposure.
+    /// Factor on the lamp at the camera, 2^-exposure: equally bright on the screen at any exposure.
     pub lamp: f32,
 }
 
-/// Looks at `scene` through `camera` in a picture of `size` pixels, linear light.
+/// The orbit view of `scene` through `camera`, `size` pixels, linear light.
 ///
 /// # Errors
 /// `Cancelled`.
@@ -65,12 +65,12 @@ pub fn orbit_image(
 struct OrbitShader<'a> {
     scene: &'a Scene,
     light: OrbitLight<'a>,
-    /// Angle of a pixel, about.
+    /// Approximate angle of a pixel.
     pixel: f32,
 }
 
 impl OrbitShader<'_> {
-    /// The light along one ray.
+    /// The radiance along one ray.
     fn colour(&self, mut ray: Ray) -> Vec3 {
         let (mut colour, mut weight, mut distance) = (Vec3::ZERO, Vec3::ONE, 0.0);
         for _ in 0..LAYERS {
@@ -102,7 +102,7 @@ impl OrbitShader<'_> {
         colour + weight * self.light.lamp * between(BEHIND, 0.5 + 0.5 * ray.direction.y)
     }
 
-    /// What a matt surface gives back that is hit after `distance` metres.
+    /// The radiance of a matt surface at `distance` metres.
     fn matt(&self, hit: &Hit, facing: f32, distance: f32, diffuse: &Diffuse) -> Vec3 {
         let albedo = Vec3::from(diffuse.albedo);
         let lit = albedo * (self.light.lamp * between(FACING, facing));
@@ -113,7 +113,7 @@ impl OrbitShader<'_> {
                 let receiver = self.scene.receiver();
                 let p = receiver.plane_from_world(hit.point);
                 let edge = p.min(receiver.extent() - p).min_element();
-                // Seen along it, a pixel covers more of the plane.
+                // At grazing angles a pixel covers more of the plane.
                 let border =
                     BORDER * self.pixel * distance / facing.max(0.05) / receiver.metres_per_plane_unit();
                 let line = if edge < border { 0.25 * self.light.lamp } else { 0.0 };
@@ -122,7 +122,7 @@ impl OrbitShader<'_> {
         }
     }
 
-    /// Radiance of the caustic on white paper at a place of the plane.
+    /// Radiance of the caustic at a hit, for albedo 1.
     fn caustic(&self, hit: &Hit) -> Vec3 {
         let Some(texture) = self.light.caustic else { return Vec3::ZERO };
         let receiver = self.scene.receiver();
@@ -138,26 +138,25 @@ fn between([from, to]: [f32; 2], x: f32) -> f32 {
     from + (to - from) * x
 }
 
-/// Something of a scene that no ray meets, in a look at it.
+/// The position of an object without a surface in an orbit view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneMarker {
-    /// What it is.
+    /// Kind of object.
     pub kind: MarkerKind,
-    /// Its place in pixels from the upper left corner; it may lie beyond the picture.
+    /// Its position in pixels from the upper left corner; may lie outside the picture.
     pub at: Vec2,
 }
 
-/// What a [`SceneMarker`] stands for.
+/// The object of a [`SceneMarker`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkerKind {
-    /// The light of this number in the scene.
+    /// The light of this index in the scene.
     Light(usize),
-    /// The camera that the pictures are taken with.
+    /// The camera of the rendered pictures.
     Camera,
 }
 
-/// Where the lights and the camera of a scene are in a look at it; those behind the eye, and directional lights, are
-/// nowhere.
+/// The markers of the lights and the camera of a scene in an orbit view; none behind the view, none for directional lights.
 pub fn scene_markers(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<SceneMarker> {
     let size = vec2(size[0] as f32, size[1] as f32);
     let lights = scene.lights().iter().enumerate();

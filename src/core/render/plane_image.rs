@@ -1,4 +1,4 @@
-//! The receiver alone, seen straight on: one pixel per texel, without the margin.
+//! The picture of the receiver alone, seen straight on: one pixel per texel, without the margin.
 
 use glam::{Vec2, Vec3, Vec4Swizzles};
 use rayon::prelude::*;
@@ -7,43 +7,43 @@ use super::image::Image;
 use super::texture::ReceiverTexture;
 use crate::scene::{Receiver, material::Material};
 
-/// How light on the plane becomes the radiance that the eye sees.
+/// The reflection of a matt plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneMaterial {
-    /// Share of the irradiance that is radiance: albedo / pi [1/sr].
-    pub reflected: Vec3,
+    /// BRDF: albedo / pi [1/sr].
+    pub brdf: Vec3,
     /// Metres per plane unit.
     pub metres: f32,
 }
 
 impl PlaneMaterial {
-    /// White paper of one metre by plane unit: the plane of a project without scene.
-    pub const WHITE: Self = Self { reflected: Vec3::splat(1.0 / std::f32::consts::PI), metres: 1.0 };
+    /// Perfectly white, one metre per plane unit: the plane of a project without scene.
+    pub const WHITE: Self = Self { brdf: Vec3::splat(1.0 / std::f32::consts::PI), metres: 1.0 };
 
-    /// The matt rectangle of a scene.
+    /// The material of a receiver.
     pub fn of(receiver: &Receiver) -> Self {
         let albedo = match receiver.material() {
             Material::Diffuse(diffuse) => Vec3::from(diffuse.albedo),
             Material::Glass(_) | Material::Mirror(_) => Vec3::ZERO,
         };
-        Self { reflected: albedo / std::f32::consts::PI, metres: receiver.metres_per_plane_unit() }
+        Self { brdf: albedo / std::f32::consts::PI, metres: receiver.metres_per_plane_unit() }
     }
 
-    /// Radiance [W/(sr m^2)] for one watt in a texel of this side, plane units.
+    /// Radiance [W/(sr m^2)] per watt in a texel of side `texel`, plane units.
     pub fn radiance_per_watt(&self, texel: f32) -> Vec3 {
-        self.reflected / (texel * self.metres).powi(2)
+        self.brdf / (texel * self.metres).powi(2)
     }
 }
 
-/// The picture of the texels whose middle lies on the plane of `extent`; its upper row is the upper edge of the plane.
-pub fn plane_image(texture: &ReceiverTexture, extent: Vec2, paper: PlaneMaterial) -> Image {
+/// The radiance of the texels whose centre lies on the plane of `extent`; the top row is the upper edge of the plane.
+pub fn plane_image(texture: &ReceiverTexture, extent: Vec2, material: PlaneMaterial) -> Image {
     let layout = texture.layout();
     let border = (-layout.origin / layout.texel).round().as_uvec2();
     let size = (extent / layout.texel).round().as_uvec2();
     let [width, height] = [size.x as usize, size.y as usize].map(|n| n.max(1));
     let [width, height] =
         [width.min(layout.columns - border.x as usize), height.min(layout.rows - border.y as usize)];
-    let gain = paper.radiance_per_watt(layout.texel);
+    let gain = material.radiance_per_watt(layout.texel);
     let mut image = Image::new(width, height);
     image.pixels.par_chunks_mut(width).enumerate().for_each(|(row, pixels)| {
         let first = (border.y as usize + height - 1 - row) * layout.columns + border.x as usize;

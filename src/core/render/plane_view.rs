@@ -1,4 +1,4 @@
-//! Where points of the plane are seen in the picture, for what is drawn over it.
+//! The projection of plane points to the picture, for overlays.
 
 use glam::{Vec2, vec2};
 
@@ -7,7 +7,7 @@ use crate::Result;
 use crate::scene::camera::Camera;
 use crate::scene::{Receiver, Scene, SceneDesc};
 
-/// Looks at the plane through a scene's camera, or straight on where there is no scene.
+/// The projection of the plane through a camera, or straight on without a scene.
 #[derive(Clone, Debug)]
 pub struct PlaneView(Projection);
 
@@ -18,7 +18,7 @@ enum Projection {
 }
 
 impl PlaneView {
-    /// The view of the rendered pictures of a scene, or of a plane of this extent without one.
+    /// The view of the rendered pictures: through the scene's camera, or straight on at a plane of `extent`.
     pub fn new(scene: Option<&Scene>, extent: Vec2) -> Self {
         Self(match scene {
             Some(scene) => Projection::Camera { camera: *scene.camera(), receiver: scene.receiver().clone() },
@@ -26,10 +26,10 @@ impl PlaneView {
         })
     }
 
-    /// The same from a scene's description, before its files are loaded.
+    /// As [`Self::new`] from a scene's description, before its files are loaded.
     ///
     /// # Errors
-    /// A camera that looks nowhere, a receiver of no size.
+    /// A camera without a direction, a receiver without size.
     pub fn of_desc(scene: Option<&SceneDesc>, extent: Vec2) -> Result<Self> {
         let Some(scene) = scene else { return Ok(Self(Projection::Flat { extent })) };
         let (camera, receiver) = scene.camera_and_receiver()?;
@@ -41,8 +41,8 @@ impl PlaneView {
         Self(Projection::Camera { camera, receiver })
     }
 
-    /// The place of a plane point in a picture of `width` x `height` pixels, from its upper left corner; none behind the
-    /// camera. Glass and mirrors in between are not seen.
+    /// The pixel of a plane point, from the upper left corner of a picture of `width` x `height`; none behind the camera.
+    /// Ignores glass and mirrors in between.
     pub fn pixel_from_plane(&self, point: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
         let size = vec2(width as f32, height as f32);
         match &self.0 {
@@ -57,8 +57,8 @@ impl PlaneView {
         }
     }
 
-    /// The plane point that is seen at `pixel` of a picture of `width` x `height` pixels, also beyond the receiver; none
-    /// where the picture shows no point of the plane.
+    /// The plane point at `pixel` of a picture of `width` x `height`, also beyond the receiver; none where the ray misses the
+    /// plane.
     pub fn plane_from_pixel(&self, pixel: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
         let size = vec2(width as f32, height as f32);
         match &self.0 {

@@ -1,7 +1,7 @@
-//! Counting photons into the texture: a bilinear histogram.
+//! Splatting of photons into the texture: a bilinear histogram.
 //!
-//! The photons are first sorted by bands of rows, in their order, and each band is then summed by one thread: every
-//! texel sees its photons in the same order whatever the number of threads, and a band stays in the cache.
+//! The photons are stably sorted by bands of rows, and each band is then summed by one thread: every texel gets its photons
+//! in the same order for any number of threads, and a band stays in the cache.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use rayon::prelude::*;
@@ -13,12 +13,12 @@ const BAND: usize = 16;
 /// Photons sorted by one thread.
 const CHUNK: usize = 1 << 16;
 
-/// What did not land on the texture.
+/// The photons outside the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OutsidePhotons {
-    /// Photons beyond the margin, or without a finite place or flux.
+    /// Photons beyond the margin, or without a finite position or flux.
     pub photons: usize,
-    /// Their flux in watts, as far as it is finite.
+    /// Their finite flux in watts.
     pub flux: DVec3,
 }
 
@@ -45,8 +45,8 @@ struct TexelPhoton {
 }
 
 impl Splatter {
-    /// Fills the texture anew with photons at plane `positions` with RGB `flux` (watts), each spread over the four texels
-    /// around it. The same photons give the same bytes for any number of threads.
+    /// Replaces the texture by photons at plane `positions` with RGB `flux` (watts), each spread over the four texels around
+    /// it. The same photons give the same bytes for any number of threads.
     ///
     /// # Panics
     /// If the columns differ in length.
@@ -67,7 +67,7 @@ impl Splatter {
             .zip(positions.par_chunks(CHUNK).zip(flux.par_chunks(CHUNK)))
             .for_each(|(chunk, (positions, flux))| chunk.sort(&layout, positions, flux));
         let sorted = &self.chunks[..chunks];
-        // The upper texels of a band's last row belong to the next band: they go to a seam of their own first.
+        // The upper texels of a band's last row belong to the next band: they go to a separate seam first.
         let columns = layout.columns;
         self.seams.clear();
         self.seams.resize(layout.rows.div_ceil(BAND) * columns, Vec4::ZERO);
@@ -77,7 +77,7 @@ impl Splatter {
             .zip(self.seams.par_chunks_mut(columns))
             .enumerate()
             .for_each(|(band, (rows, seam))| {
-                // Fetches the whole band into the cache at once; the photons touch it in no order.
+                // Brings the whole band into the cache; the photons access it in no order.
                 rows.fill(Vec4::ZERO);
                 for chunk in sorted {
                     chunk.bands[band].iter().for_each(|photon| photon.add(columns, rows, seam));
