@@ -1,46 +1,46 @@
-//! What panels and tools ask for. The application carries it out (`app.rs`); a panel never does.
+//! Actions: what panels and tools ask for. The editor carries them out; a panel never does.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::asset::AssetUse;
 use super::command::Command;
 use super::document::Edit;
-use super::pick::Pick;
 use super::selection::Selection;
 use super::session::Panel;
 
-/// Something asked for in one frame of the window.
+/// An action asked for in one frame of the window.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Change the project; one undo step with all of the same gesture.
+    /// Changes the project; all edits of one gesture are one undo step.
     Edit(Edit),
-    /// The gesture is over: the next edit is a step of its own.
+    /// Ends the gesture: the next edit is a new undo step.
     Settle,
-    /// The gesture is broken off: the project is as before it.
+    /// Cancels the gesture and restores the project.
     Abort,
-    /// What also stands in a menu or has a shortcut.
+    /// A command, as from a menu or a shortcut.
     Command(Command),
-    /// Take another tool, by its place in the list of tools.
+    /// Selects a tool by its index.
     Tool(usize),
-    /// Bring a panel to the front.
+    /// Shows a panel.
     Panel(Panel),
-    /// Put in what the clipboard holds as text.
+    /// Pastes text from the clipboard.
     Paste(String),
-    /// Select what was drawn.
+    /// Replaces the selection.
     Select(Selection),
-    /// Go to a frame.
+    /// Moves the playhead to a frame.
     Playhead(i32),
-    /// Show only these caustics, by group; empty shows all.
+    /// Shows these caustics only, by group; empty shows all.
     Solo(BTreeSet<usize>),
-    /// Follow the photon of this row; none follows none.
+    /// Follows the photon in this row, or none.
     Probe(Option<usize>),
-    /// Open a project.
+    /// Opens a project file.
     Open(PathBuf),
-    /// Start from one of the templates.
+    /// Starts a project from a template, by index.
     New(usize),
-    /// Let the artist pick a file, and put it into the project.
-    Pick(Pick),
-    /// Say something in the status bar.
+    /// Asks for a file and puts it into the project.
+    PickFile(AssetUse),
+    /// Shows a message in the status bar.
     Say(String),
 }
 

@@ -1,5 +1,5 @@
-//! Copy and paste of lines and walls: as text, the list that stands under `constraints` of a project, so that they go
-//! from one project to another.
+//! Copy and paste of lines and walls as text: the JSON list under `constraints` of a project, so that they move
+//! between projects.
 
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
@@ -12,24 +12,24 @@ use super::tools::arrange::{self, Arranged};
 
 /// Longest text that is read, bytes: more than the constraints of any project.
 const LONGEST: usize = 64 << 20;
-/// How far a copy stands off what it would hide, plane units.
+/// Offset of a copy from a constraint it would hide, plane units.
 const OFFSET: Vec2 = Vec2::new(0.02, -0.02);
 
-/// What is selected, as text; none where nothing is.
+/// The selected constraints as text; none where nothing is selected.
 pub fn copy(project: &Project, selection: &Selection) -> Option<String> {
     let selected: Vec<&Constraint> =
         selection.constraints().filter_map(|index| project.constraints.get(index)).collect();
     if selected.is_empty() { None } else { serde_json::to_string_pretty(&selected).ok() }
 }
 
-/// What is selected, as text, and the change that removes it. What is locked is copied, and stays.
+/// The selected constraints as text, and the change that removes them. Locked ones are copied but stay.
 pub fn cut(project: &Project, selection: &Selection) -> Option<(String, Arranged)> {
     let wholes = Selection::all(selection.constraints());
     Some((copy(project, selection)?, arrange::delete(project, &wholes)))
 }
 
-/// The lines and walls of a text, beside those that are there; they are selected. Where one would hide its like, all
-/// stand a little off.
+/// The edit that adds the constraints of a text, and the new selection. If one would cover an equal one, all are
+/// offset.
 ///
 /// # Errors
 /// The text is no list of constraints, or holds a value out of range.
@@ -40,7 +40,7 @@ pub fn paste(project: &Project, text: &str) -> Result<(Edit, Selection)> {
     Ok(added(project, pasted, if hides { OFFSET } else { Vec2::ZERO }))
 }
 
-/// Doubles what is selected, a little off.
+/// Duplicates the selection with an offset.
 pub fn duplicate(project: &Project, selection: &Selection) -> Arranged {
     let copies: Vec<Constraint> =
         selection.constraints().filter_map(|index| project.constraints.get(index)).cloned().collect();
@@ -49,7 +49,7 @@ pub fn duplicate(project: &Project, selection: &Selection) -> Arranged {
 
 fn added(project: &Project, mut constraints: Vec<Constraint>, by: Vec2) -> (Edit, Selection) {
     for constraint in &mut constraints {
-        // A copy is there to be worked on.
+        // A copy is meant to be edited.
         match constraint {
             Constraint::DirectedLine(line) => line.locked = false,
             Constraint::Wall(wall) => wall.locked = false,

@@ -1,4 +1,4 @@
-//! What a menu, the command palette and a key can ask for: one list, so that none of them lags behind.
+//! The commands: one list for menus, command palette and shortcuts.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -42,7 +42,7 @@ pub enum Command {
     BothViews,
     PlaneView,
     ShotView,
-    LookView,
+    OrbitView,
     ShowArrows,
     ShowStreamlines,
     ShowTrails,
@@ -64,7 +64,7 @@ pub enum Command {
     NormalSize,
 }
 
-/// Where a command stands in the menus.
+/// A menu of the menu bar.
 #[expect(missing_docs, reason = "each is what it is called")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Menu {
@@ -75,16 +75,16 @@ pub enum Menu {
     Help,
 }
 
-/// How a command is shown and called.
+/// Name, menu and shortcut of a command.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// Which.
+pub struct CommandInfo {
+    /// The command.
     pub command: Command,
     /// Its menu.
     pub menu: Menu,
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// The key that calls it.
+    /// Its shortcut.
     pub shortcut: Option<KeyboardShortcut>,
 }
 
@@ -94,16 +94,16 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 const ALT: Modifiers = Modifiers::ALT;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
-const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> Entry {
-    Entry { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
+const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> CommandInfo {
+    CommandInfo { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
 }
 
-const fn off(command: Command, menu: Menu, name: &'static str) -> Entry {
-    Entry { command, menu, name, shortcut: None }
+const fn off(command: Command, menu: Menu, name: &'static str) -> CommandInfo {
+    CommandInfo { command, menu, name, shortcut: None }
 }
 
 /// All commands, in the order of the menus.
-pub const COMMANDS: &[Entry] = &[
+pub const COMMANDS: &[CommandInfo] = &[
     on(Command::New, Menu::File, "New", CTRL, Key::N),
     on(Command::Open, Menu::File, "Open…", CTRL, Key::O),
     on(Command::Save, Menu::File, "Save", CTRL, Key::S),
@@ -119,7 +119,7 @@ pub const COMMANDS: &[Entry] = &[
     on(Command::Duplicate, Menu::Edit, "Duplicate", CTRL, Key::D),
     on(Command::Delete, Menu::Edit, "Delete", NONE, Key::Delete),
     on(Command::SelectAll, Menu::Edit, "Select all", CTRL, Key::A),
-    on(Command::SelectNone, Menu::Edit, "Select nothing", CTRL_SHIFT, Key::A),
+    on(Command::SelectNone, Menu::Edit, "Select none", CTRL_SHIFT, Key::A),
     on(Command::Reverse, Menu::Edit, "Reverse direction", NONE, Key::R),
     on(Command::Join, Menu::Edit, "Join lines", CTRL, Key::J),
     on(Command::Split, Menu::Edit, "Split at points", CTRL_SHIFT, Key::J),
@@ -131,40 +131,40 @@ pub const COMMANDS: &[Entry] = &[
     on(Command::PreviousKey, Menu::Play, "Previous key frame", SHIFT, Key::Comma),
     on(Command::FirstFrame, Menu::Play, "First frame", NONE, Key::Home),
     on(Command::LastFrame, Menu::Play, "Last frame", NONE, Key::End),
-    on(Command::MarkIn, Menu::Play, "Play from here", NONE, Key::I),
-    on(Command::MarkOut, Menu::Play, "Play until here", NONE, Key::O),
-    on(Command::ClearMarks, Menu::Play, "Play all", ALT, Key::I),
+    on(Command::MarkIn, Menu::Play, "Set in point", NONE, Key::I),
+    on(Command::MarkOut, Menu::Play, "Set out point", NONE, Key::O),
+    on(Command::ClearMarks, Menu::Play, "Clear in and out points", ALT, Key::I),
     on(Command::ToggleLoop, Menu::Play, "Loop", NONE, Key::L),
-    on(Command::AddKey, Menu::Play, "Add a key frame here", NONE, Key::K),
+    on(Command::AddKey, Menu::Play, "Add key frame", NONE, Key::K),
     on(Command::FitView, Menu::View, "Fit", CTRL, Key::Num0),
     on(Command::ActualSize, Menu::View, "Actual size", CTRL, Key::Num1),
     on(Command::ZoomIn, Menu::View, "Zoom in", NONE, Key::Plus),
     on(Command::ZoomOut, Menu::View, "Zoom out", NONE, Key::Minus),
     on(Command::BothViews, Menu::View, "Plane and shot", NONE, Key::Num1),
-    on(Command::PlaneView, Menu::View, "Plane alone", NONE, Key::Num2),
-    on(Command::ShotView, Menu::View, "Shot alone", NONE, Key::Num3),
-    on(Command::LookView, Menu::View, "Look around the scene", NONE, Key::Num4),
+    on(Command::PlaneView, Menu::View, "Plane only", NONE, Key::Num2),
+    on(Command::ShotView, Menu::View, "Shot only", NONE, Key::Num3),
+    on(Command::OrbitView, Menu::View, "Orbit view", NONE, Key::Num4),
     on(Command::ShowDrawn, Menu::View, "Lines and walls", CTRL, Key::H),
     on(Command::ShowTarget, Menu::View, "Target", NONE, Key::T),
     on(Command::ShowArrows, Menu::View, "Flow arrows", NONE, Key::F),
     on(Command::ShowStreamlines, Menu::View, "Streamlines", SHIFT, Key::F),
     on(Command::ShowTrails, Menu::View, "Photon trails", SHIFT, Key::T),
-    on(Command::ShowGrid, Menu::View, "Grid of the field", NONE, Key::G),
+    on(Command::ShowGrid, Menu::View, "Flow grid", NONE, Key::G),
     off(Command::ShowDivergence, Menu::View, "Divergence"),
     off(Command::ShowCurl, Menu::View, "Curl"),
     off(Command::ShowResidual, Menu::View, "Residual of the fit"),
     on(Command::Compare, Menu::View, "Compare", NONE, Key::C),
     on(Command::Larger, Menu::View, "Larger interface", CTRL, Key::Plus),
     on(Command::Smaller, Menu::View, "Smaller interface", CTRL, Key::Minus),
-    off(Command::NormalSize, Menu::View, "Interface at 100 %"),
+    off(Command::NormalSize, Menu::View, "Reset interface scale"),
     on(Command::Palette, Menu::Help, "Find a command", CTRL, Key::P),
     on(Command::Shortcuts, Menu::Help, "Shortcuts", NONE, Key::F1),
-    off(Command::Tour, Menu::Help, "First steps"),
+    off(Command::Tour, Menu::Help, "Tour"),
 ];
 
 impl Command {
-    /// How it is shown and called.
-    pub fn entry(self) -> Option<&'static Entry> {
+    /// Name, menu and shortcut.
+    pub fn info(self) -> Option<&'static CommandInfo> {
         COMMANDS.iter().find(|entry| entry.command == self)
     }
 }
@@ -178,7 +178,7 @@ mod tests {
         for (i, a) in COMMANDS.iter().enumerate() {
             for b in &COMMANDS[..i] {
                 assert!(a.shortcut.is_none() || a.shortcut != b.shortcut, "{} and {}", a.name, b.name);
-                assert_ne!((a.name, a.command), (b.name, b.command));
+                assert!(a.name != b.name && a.command != b.command, "{}", a.name);
             }
         }
     }

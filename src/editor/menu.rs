@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
 
 use super::action::Action;
-use super::command::{COMMANDS, Command, Entry, Menu};
+use super::command::{COMMANDS, Command, CommandInfo, Menu};
 use super::document::Document;
-use super::panels::Desk;
-use super::session::{FieldMap, Session, Views};
+use super::session::{FieldMap, Session, ViewLayout};
 use super::shortcuts;
 use super::templates::TEMPLATES;
+use crate::editor::context::EditorContext;
 
-/// The menus in their order.
+/// The menus in order.
 const MENUS: [Menu; 5] = [Menu::File, Menu::Edit, Menu::Play, Menu::View, Menu::Help];
 
-/// Before these a line parts the menu.
+/// Commands that follow a separator.
 const PARTED: [Command; 14] = [
     Command::Save,
     Command::Export,
@@ -33,17 +33,17 @@ const PARTED: [Command; 14] = [
     Command::Larger,
 ];
 
-/// A file that was open lately.
+/// A recently opened file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recent {
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// Whether it is still there; a missing one is shown grey.
+    /// Whether it still exists; missing files are disabled.
     pub is_there: bool,
 }
 
-/// Shows the menu bar and asks for what is chosen.
-pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+/// Shows the menu bar and asks for the chosen command.
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
             ui.menu_button(shortcuts::group(menu), |ui| {
@@ -52,10 +52,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
                     if PARTED.contains(&entry.command) {
                         ui.separator();
                     }
-                    item(ui, desk, entry);
+                    item(ui, editor, entry);
                     match entry.command {
-                        Command::New => templates(ui, desk),
-                        Command::Open => recents(ui, desk, recent),
+                        Command::New => templates(ui, editor),
+                        Command::Open => recents(ui, editor, recent),
                         _ => (),
                     }
                 }
@@ -64,12 +64,12 @@ pub fn show(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
     });
 }
 
-fn item(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
-    let on = is_on(entry.command, desk.session);
-    let enabled = is_enabled(entry.command, desk.document, desk.session);
+fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &CommandInfo) {
+    let on = is_on(entry.command, editor.session);
+    let enabled = is_enabled(entry.command, editor.document, editor.session);
     let place = IdSalt::new("check");
     let mut button =
-        Button::selectable(false, (Atom::custom(place, vec2(14.0, 14.0)), title(entry, desk.document)));
+        Button::selectable(false, (Atom::custom(place, vec2(14.0, 14.0)), title(entry, editor.document)));
     if let Some(shortcut) = &entry.shortcut {
         button = button.shortcut_text(shortcuts::words(shortcut));
     }
@@ -85,13 +85,13 @@ fn item(ui: &mut Ui, desk: &mut Desk, entry: &Entry) {
             .widget_info(|| egui::WidgetInfo::selected(egui::Role::MenuItemCheckBox, enabled, on, name));
     }
     if shown.response.clicked() {
-        desk.ask(entry.command);
+        editor.ask(entry.command);
         ui.close();
     }
 }
 
-/// Undo and redo say what they would take back.
-fn title(entry: &Entry, document: &Document) -> String {
+/// The name of a command; undo and redo name their step.
+fn title(entry: &CommandInfo, document: &Document) -> String {
     let what = match entry.command {
         Command::Undo => document.history().undoes(),
         Command::Redo => document.history().redoes(),
@@ -105,28 +105,27 @@ fn check_mark(ui: &Ui, square: Rect, stroke: Stroke) {
     ui.painter().line(vec![at(0.15, 0.55), at(0.4, 0.8), at(0.85, 0.25)], stroke);
 }
 
-fn templates(ui: &mut Ui, desk: &mut Desk) {
+fn templates(ui: &mut Ui, editor: &mut EditorContext) {
     ui.menu_button("      New from an example", |ui| {
         for (index, template) in TEMPLATES.iter().enumerate() {
             if ui.button(template.name).on_hover_text(template.line).clicked() {
-                desk.ask(Action::New(index));
+                editor.ask(Action::New(index));
                 ui.close();
             }
         }
     });
 }
 
-fn recents(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
+fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
     let list = |ui: &mut Ui| {
         for Recent { path, is_there } in recent {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let folder = path.parent().unwrap_or(Path::new("")).to_string_lossy();
             let shown = ui.add_enabled(*is_there, Button::new(name.as_ref()));
-            let shown = shown
-                .on_hover_text(folder.as_ref())
-                .on_disabled_hover_text(format!("{folder}: not there now"));
+            let shown =
+                shown.on_hover_text(folder.as_ref()).on_disabled_hover_text(format!("{folder}: not found"));
             if shown.clicked() {
-                desk.ask(Action::Open(path.clone()));
+                editor.ask(Action::Open(path.clone()));
                 ui.close();
             }
         }
@@ -134,16 +133,16 @@ fn recents(ui: &mut Ui, desk: &mut Desk, recent: &[Recent]) {
     ui.add_enabled_ui(!recent.is_empty(), |ui| ui.menu_button("      Open recent", list));
 }
 
-/// Whether what a command switches is on; none for commands that switch nothing.
+/// The state of a toggle command; none for other commands.
 pub fn is_on(command: Command, session: &Session) -> Option<bool> {
-    let show = &session.show;
+    let show = &session.overlays;
     Some(match command {
         Command::Snapping => session.snapping,
         Command::ToggleLoop => session.looping,
-        Command::BothViews => session.views == Views::Both,
-        Command::PlaneView => session.views == Views::Plane,
-        Command::ShotView => session.views == Views::Shot,
-        Command::LookView => session.views == Views::Look,
+        Command::BothViews => session.layout == ViewLayout::PlaneAndShot,
+        Command::PlaneView => session.layout == ViewLayout::Plane,
+        Command::ShotView => session.layout == ViewLayout::Shot,
+        Command::OrbitView => session.layout == ViewLayout::Orbit,
         Command::ShowDrawn => show.drawn,
         Command::ShowTarget => show.target,
         Command::ShowArrows => show.arrows,
@@ -158,7 +157,7 @@ pub fn is_on(command: Command, session: &Session) -> Option<bool> {
     })
 }
 
-/// Whether a command would do something now.
+/// Whether a command has an effect now.
 pub fn is_enabled(command: Command, document: &Document, session: &Session) -> bool {
     let chosen = !session.selection.is_empty();
     match command {
@@ -169,7 +168,7 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> b
         Command::Reverse | Command::Join | Command::Split => chosen,
         Command::SelectAll => !document.project().constraints.is_empty(),
         Command::ClearMarks => session.marks != [None; 2],
-        Command::LookView => document.project().scene.is_some(),
+        Command::OrbitView => document.project().scene.is_some(),
         _ => true,
     }
 }

@@ -1,4 +1,4 @@
-//! The command palette: everything that can be asked for, found by some letters of its name.
+//! The command palette: fuzzy search over commands, tools, panels, presets and examples.
 
 use egui::text::LayoutJob;
 use egui::{
@@ -8,43 +8,48 @@ use egui::{
 
 use super::action::Action;
 use super::command::COMMANDS;
-use super::panels::{Desk, PANELS};
+use super::panels::PANELS;
 use super::templates::TEMPLATES;
 use super::{menu, shortcuts};
+use crate::editor::context::EditorContext;
 
-/// Height of a line, points.
+/// Height of a row, points.
 const ROW: f32 = 26.0;
 
-/// Something that can be asked for by name.
+/// An entry of the palette.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// Of which kind it is.
+    /// Its kind, such as "Tool".
     pub kind: &'static str,
-    /// The key that asks for it, too.
+    /// Its shortcut.
     pub key: Option<String>,
-    /// What is asked for.
+    /// The action it asks for.
     pub action: Action,
-    /// Whether it would do something now.
+    /// Whether it has an effect now.
     pub enabled: bool,
 }
 
-/// The palette.
+/// The command palette.
 #[derive(Clone, Debug, Default)]
 pub struct Palette {
     open: bool,
     typed: String,
-    /// The line that Enter takes.
+    /// Index of the row that Enter chooses.
     at: usize,
 }
 
-/// All that can be asked for: commands, tools, panels, examples, and `presets` by name.
-pub fn items(desk: &Desk, tools: &[(&'static str, Key)], presets: &[(String, Action)]) -> Vec<Item> {
+/// All entries: commands, tools, panels, examples, and `presets` by name.
+pub fn items(
+    editor: &EditorContext,
+    tools: &[(&'static str, Key)],
+    presets: &[(String, Action)],
+) -> Vec<Item> {
     let item = |name: String, kind, key, action| Item { name, kind, key, action, enabled: true };
     let commands = COMMANDS.iter().map(|entry| Item {
         key: entry.shortcut.as_ref().map(shortcuts::words),
-        enabled: menu::is_enabled(entry.command, desk.document, desk.session),
+        enabled: menu::is_enabled(entry.command, editor.document, editor.session),
         ..item(entry.name.into(), shortcuts::group(entry.menu), None, entry.command.into())
     });
     let tools = tools.iter().enumerate().map(|(index, (name, key))| {
@@ -70,7 +75,7 @@ impl Palette {
         self.open
     }
 
-    /// Shows the palette where it is open; returns what was chosen.
+    /// Shows the palette if it is open; returns the chosen action.
     pub fn show(&mut self, ctx: &Context, items: impl FnOnce() -> Vec<Item>) -> Option<Action> {
         if !self.open {
             return None;
@@ -122,11 +127,11 @@ impl Palette {
     }
 }
 
-/// The lines; returns the one that was clicked.
+/// Shows the rows; returns the index of the clicked one.
 fn list(ui: &mut Ui, found: &[(Item, Vec<usize>)], at: usize, moved: bool) -> Option<usize> {
     let mut clicked = None;
     if found.is_empty() {
-        ui.weak("Nothing is called like that.");
+        ui.weak("No matches.");
     }
     ScrollArea::vertical().max_height(12.0 * ROW).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -183,7 +188,7 @@ fn line(ui: &Ui, rect: egui::Rect, item: &Item, letters: &[usize]) {
     }
 }
 
-/// The items that hold the typed letters in their order, the best first, with the places of the letters.
+/// The items that contain the typed letters in order, best first, with the indices of the letters.
 fn matching(items: Vec<Item>, typed: &str) -> Vec<(Item, Vec<usize>)> {
     let mut found: Vec<(i32, Item, Vec<usize>)> = items
         .into_iter()
@@ -192,13 +197,13 @@ fn matching(items: Vec<Item>, typed: &str) -> Vec<(Item, Vec<usize>)> {
             Some((score, item, letters))
         })
         .collect();
-    // Those that fit equally well keep their order.
+    // The sort is stable: equal scores keep their order.
     found.sort_by_key(|(score, ..)| -score);
     found.into_iter().map(|(_, item, letters)| (item, letters)).collect()
 }
 
-/// How well a name fits typed letters, and which of its letters they are; none where it does not hold them in their order.
-/// Begins of words, and letters side by side, count more.
+/// Score of a name for typed letters, and the matching indices; none where it does not contain them in order.
+/// Starts of words and consecutive letters score higher.
 fn fit(name: &str, typed: &str) -> Option<(i32, Vec<usize>)> {
     let lower = |text: &str| text.chars().flat_map(char::to_lowercase).collect::<Vec<_>>();
     let (name, typed) = (lower(name), lower(typed.trim()));

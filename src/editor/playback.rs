@@ -1,4 +1,4 @@
-//! Playing: time that passes moves the playhead.
+//! Playback: moves the playhead with time.
 
 use std::ops::RangeInclusive;
 
@@ -6,19 +6,19 @@ use lightloom_core::project::Project;
 
 use super::session::Session;
 
-/// Most time that one step may make up for, seconds: after a pause of the whole window the animation goes on where it was.
+/// Longest time step, seconds: after a pause of the window the animation continues where it was.
 const LONGEST_STEP: f64 = 0.25;
 
-/// The clock of the animation: what has passed of the frame that is shown.
+/// The playback clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Playback {
-    /// Share of a frame that has passed already, 0 to 1.
+    /// Elapsed fraction of the current frame, 0 to 1.
     passed: f64,
 }
 
 impl Playback {
-    /// Moves the playhead of a session that plays by `seconds` at `fps` frames per second through `frames`; at their end
-    /// it begins anew or stops. Returns the seconds until the next frame is due, none where nothing plays.
+    /// Advances the playhead of a playing session by `seconds` at `fps` frames per second within `frames`; at the end
+    /// it loops or stops. Returns the seconds until the next frame; none while paused.
     pub fn advance(
         &mut self,
         session: &mut Session,
@@ -36,7 +36,7 @@ impl Playback {
         self.passed -= steps;
         let (first, last) = (*frames.start(), *frames.end());
         let count = i64::from(last) - i64::from(first) + 1;
-        // Beside the frames it begins at the first.
+        // Outside of the frames playback starts at the first.
         let at = if frames.contains(&session.playhead) { session.playhead } else { first };
         let next = i64::from(at) - i64::from(first) + steps as i64;
         if next >= count && !session.looping {
@@ -49,7 +49,7 @@ impl Playback {
     }
 }
 
-/// The frames that are played: from mark to mark, or from the first key frame to the last.
+/// The played frames: between the marks, or from the first key frame to the last.
 pub fn played(project: &Project, session: &Session) -> RangeInclusive<i32> {
     let all = whole(project);
     let from = session.marks[0].unwrap_or(*all.start());

@@ -1,28 +1,24 @@
-//! The window of preferences.
+//! The preferences window.
 
 use egui::{Context, DragValue, Grid, Response, RichText, ThemePreference, Ui};
 
 use super::store::preferences::{PhotonRenderer, Preferences, Theme, UI_SCALES};
 
-/// What each theme is called.
+/// The themes and their names.
 const THEMES: [(Theme, &str); 3] =
-    [(Theme::Dark, "Dark"), (Theme::Light, "Light"), (Theme::System, "As the system")];
+    [(Theme::Dark, "Dark"), (Theme::Light, "Light"), (Theme::System, "System")];
 
-/// What draws the photons, what it is called, and what it means.
+/// The photon renderers with name and tooltip.
 const RENDERERS: [(PhotonRenderer, &str, &str); 3] = [
-    (PhotonRenderer::Auto, "Automatic", "The graphics card where there is one that can."),
-    (
-        PhotonRenderer::Gpu,
-        "Graphics card",
-        "Fast with many photons. Where there is none, the processor does it.",
-    ),
+    (PhotonRenderer::Auto, "Automatic", "The graphics card if a suitable one is present."),
+    (PhotonRenderer::Gpu, "Graphics card", "Fast with many photons. Falls back to the processor."),
     (PhotonRenderer::Cpu, "Processor", "The same picture without a graphics card."),
 ];
 
-/// Steps of the size of the interface, by the commands.
+/// Step of the interface scale.
 const STEP: f32 = 0.1;
 
-/// Shows the window where it is open; tells whether something changed. What is changed holds at once.
+/// Shows the window if it is open; returns whether something changed. Changes apply at once.
 pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bool {
     let before = preferences.clone();
     let window = egui::Window::new("Preferences").open(open).collapsible(false).resizable(false);
@@ -32,8 +28,8 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             let default = Preferences::default();
             name(
                 ui,
-                "Colours",
-                "Light is judged best in dark surroundings; the pictures always have them.",
+                "Theme",
+                "Caustics are judged best in dark surroundings; the pictures always have them.",
                 &mut preferences.theme,
                 &default.theme,
             );
@@ -45,7 +41,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             ui.end_row();
             name(
                 ui,
-                "Size of the interface",
+                "Interface scale",
                 "Texts and controls, 50 to 300 %. The pictures keep their pixels.",
                 &mut preferences.ui_scale,
                 &default.ui_scale,
@@ -54,8 +50,8 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             ui.end_row();
             name(
                 ui,
-                "Photons drawn by",
-                "What draws the preview. Exports never depend on it.",
+                "Photon renderer",
+                "Renderer of the preview. Exports do not depend on it.",
                 &mut preferences.photon_renderer,
                 &default.photon_renderer,
             );
@@ -68,7 +64,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             name(
                 ui,
                 "Drawing",
-                "Ctrl held while drawing turns it off for that moment.",
+                "Hold Ctrl while drawing to disable it.",
                 &mut preferences.snapping,
                 &default.snapping,
             );
@@ -77,11 +73,11 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
         });
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            let tip = "All of these as they were at first. The list of recent files stays.";
+            let tip = "Resets all of these. Recent files are kept.";
             if ui.button("Reset all").on_hover_text(tip).clicked() {
                 reset(preferences);
             }
-            if ui.button("Forget recent files").clicked() {
+            if ui.button("Clear recent files").clicked() {
                 preferences.recent.clear();
             }
         });
@@ -89,7 +85,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
     *preferences != before
 }
 
-/// Gives a context the colours and size of the preferences.
+/// Applies theme and interface scale to a context.
 pub fn apply(ctx: &Context, preferences: &Preferences) {
     ctx.set_theme(match preferences.theme {
         Theme::Dark => ThemePreference::Dark,
@@ -102,7 +98,7 @@ pub fn apply(ctx: &Context, preferences: &Preferences) {
     }
 }
 
-/// The next larger (`by` 1) or smaller (`by` -1) size of the interface.
+/// The interface scale, `by` steps larger.
 pub fn stepped(scale: f32, by: i32) -> f32 {
     let steps = (scale / STEP).round() + by as f32;
     (steps * STEP).clamp(*UI_SCALES.start(), *UI_SCALES.end())
@@ -116,14 +112,14 @@ fn reset(preferences: &mut Preferences) {
     preferences.snapping = default.snapping;
 }
 
-/// In per cent, taken over when the drag ends: the field itself would move under the pointer.
+/// The interface scale in per cent, applied when the drag ends: the field would move under the pointer.
 fn scale(ui: &mut Ui, scale: &mut f32) {
-    let held = egui::Id::unique("size of the interface");
+    let held = egui::Id::unique("interface scale");
     let dragged: Option<f32> = ui.data(|data| data.get_temp(held));
     let mut percent = dragged.unwrap_or(100.0 * *scale);
     let (least, most) = (100.0 * UI_SCALES.start(), 100.0 * UI_SCALES.end());
     let field = DragValue::new(&mut percent).range(least..=most).speed(1.0).fixed_decimals(0).suffix(" %");
-    let response = ui.add(field.update_while_editing(false)).accessible_name("Size of the interface");
+    let response = ui.add(field.update_while_editing(false)).accessible_name("Interface scale");
     if response.dragged() {
         ui.data_mut(|data| data.insert_temp(held, percent));
     } else if dragged.is_some() || response.changed() {

@@ -1,20 +1,20 @@
-//! What is selected of what was drawn.
+//! The selection of constraints and their points.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Constraints by index, each with the points of it that are selected; no point means the whole.
+/// Selected constraints by index, each with its selected points; no points means the whole constraint.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
     items: BTreeMap<usize, BTreeSet<usize>>,
 }
 
 impl Selection {
-    /// One constraint as a whole.
+    /// One whole constraint.
     pub fn one(constraint: usize) -> Self {
         Self::all([constraint])
     }
 
-    /// Several constraints as wholes.
+    /// Several whole constraints.
     pub fn all(constraints: impl IntoIterator<Item = usize>) -> Self {
         Self { items: constraints.into_iter().map(|index| (index, BTreeSet::new())).collect() }
     }
@@ -39,24 +39,24 @@ impl Selection {
         self.items.get(&constraint).into_iter().flatten().copied()
     }
 
-    /// Whether this point moves with the selection: itself, or the whole constraint, is selected.
+    /// Whether the point, or its whole constraint, is selected.
     pub fn moves(&self, constraint: usize, point: usize) -> bool {
         self.items.get(&constraint).is_some_and(|points| points.is_empty() || points.contains(&point))
     }
 
-    /// The constraints, rising.
+    /// The selected constraints, ascending.
     pub fn constraints(&self) -> impl Iterator<Item = usize> {
         self.items.keys().copied()
     }
 
-    /// Adds a constraint as a whole, or takes it out.
+    /// Adds a whole constraint, or removes it.
     pub fn toggle(&mut self, constraint: usize) {
         if self.items.remove(&constraint).is_none() {
             self.items.insert(constraint, BTreeSet::new());
         }
     }
 
-    /// Adds a point, or takes it out.
+    /// Adds a point, or removes it.
     pub fn toggle_point(&mut self, constraint: usize, point: usize) {
         let points = self.items.entry(constraint).or_default();
         if !points.remove(&point) {
@@ -66,7 +66,7 @@ impl Selection {
         }
     }
 
-    /// Several points of a constraint; none of them selects nothing.
+    /// Several points of a constraint; no points is an empty selection.
     pub fn some(constraint: usize, points: impl IntoIterator<Item = usize>) -> Self {
         let points: BTreeSet<usize> = points.into_iter().collect();
         let items = if points.is_empty() { BTreeMap::new() } else { [(constraint, points)].into() };
@@ -78,7 +78,7 @@ impl Selection {
         self.items.get(&constraint).is_some_and(BTreeSet::is_empty)
     }
 
-    /// Adds all of another; a whole stays, or becomes, a whole.
+    /// Adds another selection; whole constraints win over points.
     pub fn extend(&mut self, other: &Self) {
         for (&constraint, points) in &other.items {
             match self.items.get_mut(&constraint) {
@@ -91,7 +91,7 @@ impl Selection {
         }
     }
 
-    /// Takes all of another out; `count` tells the number of points of a constraint.
+    /// Removes another selection; `count` is the number of points of a constraint.
     pub fn subtract(&mut self, other: &Self, count: impl Fn(usize) -> usize) {
         for (&constraint, points) in &other.items {
             let Some(own) = self.items.get_mut(&constraint) else { continue };
@@ -105,7 +105,7 @@ impl Selection {
         }
     }
 
-    /// Forgets constraints and points that are no more: `points` is the number of points of each constraint.
+    /// Drops constraints and points that no longer exist; `points` is the number of points of each constraint.
     pub fn keep_within(&mut self, points: &[usize]) {
         self.items.retain(|&constraint, chosen| {
             let Some(&count) = points.get(constraint) else { return false };

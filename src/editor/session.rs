@@ -1,4 +1,4 @@
-//! What is not saved: the tool in hand, what is selected, the moment, what is shown.
+//! The session: unsaved state of the window, such as tool, selection, playhead and views.
 
 use std::collections::BTreeSet;
 
@@ -7,118 +7,121 @@ use lightloom_core::flow::Movement;
 
 use super::selection::Selection;
 
-/// The state of the window beside the document.
+/// Smallest and largest zoom of the plane view and the shot view.
+pub const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=200.0;
+
+/// The unsaved state of the window.
 #[derive(Clone, Debug)]
 pub struct Session {
-    /// The tool in hand, by its place in the list of tools.
+    /// Index of the active tool.
     pub tool: usize,
-    /// What is selected of what was drawn.
+    /// The selected constraints.
     pub selection: Selection,
-    /// The frame that is shown.
+    /// The current frame.
     pub playhead: i32,
-    /// Whether the animation runs.
+    /// Whether the animation plays.
     pub playing: bool,
-    /// Whether it begins anew at its end.
+    /// Whether it loops.
     pub looping: bool,
-    /// Frames from and to which it runs; none runs all.
+    /// First and last played frame; none for the ends of the animation.
     pub marks: [Option<i32>; 2],
-    /// Which views stand in the window.
-    pub views: Views,
-    /// Where the plane view looks.
-    pub plane: PlaneEye,
-    /// Where the shot view looks.
-    pub shot: ShotEye,
-    /// From where the free look sees the scene; none until it was turned.
+    /// The visible views.
+    pub layout: ViewLayout,
+    /// Pan and zoom of the plane view.
+    pub plane: PlaneViewport,
+    /// Pan and zoom of the shot view.
+    pub shot: ShotViewport,
+    /// Camera of the orbit view; none until it was moved.
     pub orbit: Option<Orbit>,
-    /// What is drawn over the light.
-    pub show: Shown,
-    /// Caustics that are hidden, by group.
+    /// The visible overlays.
+    pub overlays: Overlays,
+    /// Hidden caustics, by group.
     pub hidden: BTreeSet<usize>,
-    /// Caustics that alone are shown, by group; empty shows all that are not hidden.
+    /// Solo caustics, by group; empty shows all that are not hidden.
     pub solo: BTreeSet<usize>,
-    /// What the wipe compares with.
+    /// The wipe comparison.
     pub compare: Option<Wipe>,
-    /// The photon that is followed, by row.
+    /// Row of the followed photon.
     pub probe: Option<usize>,
     /// Whether drawing snaps to points, lines and the grid.
     pub snapping: bool,
-    /// Where dialogs open, and drawn-on panels stand.
+    /// The open panel.
     pub panel: Panel,
-    /// Caustic, mesh, light or key that the panels show.
+    /// The elements that the panels show in detail.
     pub focus: Focus,
 }
 
-/// Which views stand in the window.
+/// The visible views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Views {
+pub enum ViewLayout {
     /// Plane and shot, side by side.
     #[default]
-    Both,
-    /// The receiver seen flat.
+    PlaneAndShot,
+    /// The plane view.
     Plane,
-    /// Through the camera.
+    /// The shot view, through the camera.
     Shot,
-    /// From anywhere.
-    Look,
+    /// The orbit view.
+    Orbit,
 }
 
-/// Where the plane view looks.
+/// Pan and zoom of the plane view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlaneEye {
-    /// The plane point in the middle; none for the middle of the plane.
+pub struct PlaneViewport {
+    /// The plane point at the centre; none for the centre of the plane.
     pub centre: Option<Vec2>,
-    /// Times the size at which the plane fits the view, 0.05 to 200; 0 counts as 1.
+    /// Zoom relative to the fitted size, 0.05 to 200; 0 counts as 1.
     pub zoom: f32,
 }
 
-/// Where the shot view looks.
+/// Pan and zoom of the shot view.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShotEye {
-    /// Times the size at which the picture fits the view, 0.05 to 200.
+pub struct ShotViewport {
+    /// Zoom relative to the fitted size, 0.05 to 200.
     pub zoom: f32,
-    /// How far the middle of the picture lies from the middle of the view, points.
+    /// Offset of the picture's centre from the view's centre, points.
     pub offset: [f32; 2],
 }
 
-impl Default for ShotEye {
+impl Default for ShotViewport {
     fn default() -> Self {
         Self { zoom: 1.0, offset: [0.0; 2] }
     }
 }
 
-/// A camera that looks at a point from a distance.
+/// A camera that orbits a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    /// The point in the middle, world [m].
+    /// The point that it looks at, world [m].
     pub target: glam::Vec3,
-    /// Turn about the upright axis, radians.
+    /// Rotation about the vertical axis, radians.
     pub azimuth: f32,
-    /// Height above the horizon, radians.
+    /// Angle above the horizon, radians.
     pub elevation: f32,
     /// Distance from the target [m].
     pub distance: f32,
 }
 
-/// What is drawn over the light.
+/// The overlays over the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct Overlays {
     /// Lines and walls.
     pub drawn: bool,
-    /// The picture of the next key frame.
+    /// The target picture of the next key frame.
     pub target: bool,
     /// Arrows of the field.
     pub arrows: bool,
     /// Moving streamlines of the field.
     pub streamlines: bool,
-    /// Ways of some photons.
+    /// Paths of some photons.
     pub trails: bool,
     /// The grid of the field.
     pub grid: bool,
-    /// A map over the light.
+    /// A map in false colours.
     pub map: Option<FieldMap>,
 }
 
-impl Default for Shown {
+impl Default for Overlays {
     fn default() -> Self {
         Self {
             drawn: true,
@@ -132,56 +135,56 @@ impl Default for Shown {
     }
 }
 
-/// A quantity of the field, shown in false colours.
+/// A quantity of the flow field shown as a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldMap {
     /// Sources and sinks: zero at gamma 0.
     Divergence,
     /// Swirls: zero at gamma 1.
     Curl,
-    /// How far the field leaves the directions in which the photons should go.
+    /// Residual of the fit: field minus the directions of the photons.
     Residual,
 }
 
-/// The wipe between this flow and another way to move the light.
+/// A wipe between this flow and a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wipe {
-    /// What stands on the right.
-    pub with: Other,
-    /// Where the handle stands, 0 to 1 of the width.
+    /// What the right side shows.
+    pub with: Comparison,
+    /// Position of the handle, 0 to 1 of the width.
     pub split: f32,
 }
 
-/// What this flow is compared with.
+/// What the flow is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Other {
-    /// Another method.
+pub enum Comparison {
+    /// Another method of movement.
     Method(Movement),
-    /// The same without anything drawn.
+    /// The same project without constraints.
     NothingDrawn,
 }
 
-/// The panel on the right.
+/// A panel on the right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Panel {
-    /// gamma, alpha, beta and the rest.
+    /// Flow settings.
     #[default]
     Flow,
-    /// What was drawn.
+    /// Constraints.
     Drawn,
-    /// The caustics.
+    /// Caustics.
     Caustics,
-    /// The key frames.
+    /// Key frames.
     Keys,
     /// Meshes, lights, camera, receiver.
     Scene,
-    /// Photons, passes, picture, files.
+    /// Photons, passes, picture size, output files.
     Render,
     /// Energy, walls, solver, time.
     Numbers,
 }
 
-/// What the panels show in detail, by index.
+/// The elements shown in detail, by index.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
     /// A key frame.
@@ -203,11 +206,11 @@ impl Default for Session {
             playing: false,
             looping: true,
             marks: [None; 2],
-            views: Views::default(),
-            plane: PlaneEye::default(),
-            shot: ShotEye::default(),
+            layout: ViewLayout::default(),
+            plane: PlaneViewport::default(),
+            shot: ShotViewport::default(),
             orbit: None,
-            show: Shown::default(),
+            overlays: Overlays::default(),
             hidden: BTreeSet::new(),
             solo: BTreeSet::new(),
             compare: None,

@@ -1,24 +1,24 @@
-//! Keys in words, and the sheet of all of them.
+//! Shortcuts in words, and the window that lists them.
 
 use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
 
-use super::command::{COMMANDS, Entry, Menu};
+use super::command::{COMMANDS, CommandInfo, Menu};
 
-/// A key and what it does.
+/// A key and its effect.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+pub struct ShortcutLine {
     /// The group it is listed in.
     pub group: &'static str,
-    /// What it does.
+    /// Its effect.
     pub name: String,
-    /// The key in words.
+    /// The key, such as "Ctrl+S".
     pub key: String,
 }
 
-/// The sheet.
+/// The shortcuts window.
 #[derive(Clone, Debug, Default)]
-pub struct Sheet {
-    /// Whether it is seen.
+pub struct ShortcutSheet {
+    /// Whether it is open.
     pub open: bool,
     filter: String,
 }
@@ -28,40 +28,40 @@ pub fn words(shortcut: &KeyboardShortcut) -> String {
     shortcut.format(&ModifierNames::NAMES, cfg!(target_os = "macos"))
 }
 
-/// The name of a command with its key, for tooltips.
-pub fn with_key(entry: &Entry) -> String {
+/// The name of a command with its shortcut, for tooltips.
+pub fn with_key(entry: &CommandInfo) -> String {
     entry
         .shortcut
         .as_ref()
         .map_or_else(|| entry.name.to_owned(), |s| format!("{} ({})", entry.name, words(s)))
 }
 
-/// What the mouse and held keys do everywhere, which no list of commands knows.
+/// Mouse gestures and modifier keys, which are not commands.
 const GESTURES: [(&str, &str); 10] = [
     ("Zoom at the pointer", "Wheel"),
-    ("Move the view", "Middle button, drag"),
+    ("Pan", "Middle button, drag"),
     ("Add to the selection", "Shift+Click"),
     ("Straight lines, steps of 15°", "Hold Shift"),
     ("Draw without snapping", "Hold Ctrl"),
-    ("End what is being drawn", "Enter"),
-    ("Break off what is being drawn or dragged", "Escape"),
-    ("Take the last point back", "Backspace"),
+    ("Finish the line", "Enter"),
+    ("Cancel the line or drag", "Escape"),
+    ("Remove the last point", "Backspace"),
     ("Nudge the selection", "Arrow keys"),
     ("Reset a setting to its default", "Double click"),
 ];
 
 /// All shortcuts: of the tools, of the commands, and the gestures.
-pub fn lines(tools: &[(&'static str, Key)]) -> Vec<Line> {
-    let tool = |(name, key): &(&'static str, Key)| Line {
+pub fn lines(tools: &[(&'static str, Key)]) -> Vec<ShortcutLine> {
+    let tool = |(name, key): &(&'static str, Key)| ShortcutLine {
         group: "Tools",
         name: (*name).into(),
         key: key.name().into(),
     };
-    let command = |entry: &Entry| {
+    let command = |entry: &CommandInfo| {
         let shortcut = entry.shortcut.as_ref()?;
-        Some(Line { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
+        Some(ShortcutLine { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
     };
-    let gesture = |(name, key): &(&str, &str)| Line {
+    let gesture = |(name, key): &(&str, &str)| ShortcutLine {
         group: "Mouse and keys",
         name: (*name).into(),
         key: (*key).into(),
@@ -74,7 +74,7 @@ pub fn lines(tools: &[(&'static str, Key)]) -> Vec<Line> {
         .collect()
 }
 
-/// What a menu is called.
+/// The name of a menu.
 pub fn group(menu: Menu) -> &'static str {
     match menu {
         Menu::File => "File",
@@ -85,17 +85,17 @@ pub fn group(menu: Menu) -> &'static str {
     }
 }
 
-impl Sheet {
-    /// Shows the sheet where it is open.
+impl ShortcutSheet {
+    /// Shows the window if it is open.
     pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
         if !self.open {
             return;
         }
         let filter = self.filter.to_lowercase();
-        let found = |line: &Line| {
+        let found = |line: &ShortcutLine| {
             format!("{} {} {}", line.group, line.name, line.key).to_lowercase().contains(&filter)
         };
-        let lines: Vec<Line> = lines(tools).into_iter().filter(found).collect();
+        let lines: Vec<ShortcutLine> = lines(tools).into_iter().filter(found).collect();
         let window =
             egui::Window::new("Shortcuts").open(&mut self.open).collapsible(false).resizable([false, true]);
         let placed = window
@@ -108,7 +108,7 @@ impl Sheet {
             ui.add_space(6.0);
             ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
                 if lines.is_empty() {
-                    ui.weak("No key does that.");
+                    ui.weak("No matches.");
                 }
                 ui.columns(2, |columns| {
                     let half = halves(&lines);
@@ -120,14 +120,14 @@ impl Sheet {
     }
 }
 
-/// Where the second column begins: at the group's begin that leaves both about as long.
-fn halves(lines: &[Line]) -> usize {
+/// Index of the second column: the start of the group that balances the columns.
+fn halves(lines: &[ShortcutLine]) -> usize {
     let begins =
         (0..=lines.len()).filter(|&i| i == lines.len() || i == 0 || lines[i].group != lines[i - 1].group);
     begins.min_by_key(|i| i.abs_diff(lines.len().div_ceil(2))).unwrap_or(0)
 }
 
-fn list(ui: &mut egui::Ui, lines: &[Line]) {
+fn list(ui: &mut egui::Ui, lines: &[ShortcutLine]) {
     for group in lines.chunk_by(|a, b| a.group == b.group) {
         ui.add_space(4.0);
         ui.strong(group[0].group);

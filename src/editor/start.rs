@@ -1,4 +1,4 @@
-//! Opens the window on whatever can draw.
+//! Opens the window.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,20 +7,20 @@ use eframe::egui;
 use lightloom_core::project::ProjectFile;
 use lightloom_core::{Result, files};
 
-use super::app::{App, Card, Setup};
+use super::app::{App, Gpu, Setup};
 use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
 use super::store::{Fingerprint, Folders, Preferences};
 use super::templates::{self, TEMPLATES};
 
-/// Largest project file.
+/// Maximum size of a project file.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Opens the window, on a project or on the example. Returns when it is closed.
+/// Opens the window with a project or the first example. Returns when it is closed.
 ///
 /// # Errors
-/// There is no screen, or nothing that draws on it; the system's words.
+/// There is no display, or no graphics device; the system's message.
 pub fn run(project: Option<&Path>) -> Result<(), String> {
     let folders = Folders::of_user();
     let (preferences, note) =
@@ -38,15 +38,15 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         ..Default::default()
     };
     let create = move |context: &eframe::CreationContext| {
-        let card = context.wgpu_render_state.as_ref().map_or(Card::None, prepare_card);
+        let gpu = context.wgpu_render_state.as_ref().map_or(Gpu::None, prepare_gpu);
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, card };
+        let setup = Setup { document, message, folders, preferences, dialogs, gpu };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| error.to_string())
 }
 
-/// The project that was asked for; where it cannot be read, the example and what to say.
+/// The requested project; where it cannot be read, the first example and a message.
 fn first_document(project: Option<&Path>) -> Result<(Document, Option<(String, String)>), String> {
     let problem = match project.map(opened) {
         Some(Ok(document)) => return Ok((document, None)),
@@ -74,7 +74,7 @@ fn icon() -> egui::IconData {
     egui::IconData { width: picture.width(), height: picture.height(), rgba: picture.into_raw() }
 }
 
-/// The usual device, which shall blend 32-bit floats where it can.
+/// The default device, with blending of 32-bit floats where supported.
 fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
     let usual = setup.device_descriptor.clone();
@@ -86,12 +86,12 @@ fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
-/// Gives the card what it needs to draw photons, and tells what it is.
-fn prepare_card(state: &egui_wgpu::RenderState) -> Card {
-    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Card::None };
+/// Installs the photon renderer, and returns the kind of device.
+fn prepare_gpu(state: &egui_wgpu::RenderState) -> Gpu {
+    let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Gpu::None };
     state.renderer.write().callback_resources.insert(renderer);
     match state.adapter.get_info().device_type {
-        wgpu::DeviceType::Cpu => Card::Software,
-        _ => Card::Hardware,
+        wgpu::DeviceType::Cpu => Gpu::Software,
+        _ => Gpu::Hardware,
     }
 }

@@ -1,4 +1,4 @@
-//! The examples from which a new project can begin.
+//! The example projects that serve as templates.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -8,16 +8,16 @@ use lightloom_core::project::Project;
 
 use super::document::Document;
 
-/// An example.
+/// A template.
 #[derive(Clone, Copy, Debug)]
 pub struct Template {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
-    /// What it is about.
+    /// Its description.
     pub line: &'static str,
-    /// Its file in the folder of the examples.
+    /// Its file in the folder of templates.
     pub file: &'static str,
-    /// A small picture of it, PNG, 240 x 150 pixels.
+    /// Its thumbnail, PNG, 240 x 150 pixels.
     pub picture: &'static [u8],
 }
 
@@ -27,17 +27,17 @@ macro_rules! picture {
     };
 }
 
-/// All examples; the first is what a first start shows.
+/// All templates; a first start shows the first one.
 pub const TEMPLATES: [Template; 6] = [
     Template {
         name: "Letters, free",
-        line: "A letter becomes another on a bare plane: the quickest to try things on.",
+        line: "One letter becomes another on a bare plane: the fastest example.",
         file: "letters_free.json",
         picture: picture!("letters_free"),
     },
     Template {
         name: "Letters",
-        line: "The same with lines and walls that were drawn.",
+        line: "The same with drawn lines and walls.",
         file: "letters.json",
         picture: picture!("letters"),
     },
@@ -61,14 +61,14 @@ pub const TEMPLATES: [Template; 6] = [
     },
     Template {
         name: "Loop",
-        line: "Begins and ends with the same light, and runs round for ever.",
+        line: "Ends with the light it starts with, and loops.",
         file: "loop.json",
         picture: picture!("loop"),
     },
 ];
 
-/// Where the examples stand: beside the program, in the current folder, or where the program was built. Their meshes and
-/// pictures are in its neighbour `assets`.
+/// The folder of the templates: beside the program, in the current folder, or where the program was built. Their meshes and
+/// pictures are in the sibling folder `assets`.
 pub fn folder() -> Option<&'static Path> {
     static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
     let find = || {
@@ -85,10 +85,10 @@ pub fn folder() -> Option<&'static Path> {
     FOLDER.get_or_init(find).as_deref()
 }
 
-/// Reads an example. Reads a file: not on the thread of the window.
+/// Loads a template. Reads a file: not for the window's thread.
 ///
 /// # Errors
-/// The examples are not installed, or the file is wrong.
+/// The templates are not installed, or the file is invalid.
 pub fn load(template: &Template) -> Result<Project> {
     let Some(folder) = folder() else {
         let what =
@@ -98,7 +98,7 @@ pub fn load(template: &Template) -> Result<Project> {
     Project::load(&folder.join(template.file))
 }
 
-/// The file that a document's paths are relative to: its own, or that of a new project among the examples.
+/// The file that a document's paths are relative to: its own, or an untitled one among the templates.
 pub fn file_of(document: &Document) -> PathBuf {
     let new = || folder().unwrap_or(Path::new(".")).join("untitled.json");
     document.path().map_or_else(new, Path::to_owned)

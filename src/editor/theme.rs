@@ -2,24 +2,24 @@
 
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Visuals, vec2};
 
-/// Directed lines, as in the exported sheets.
+/// Colour of directed lines, as in the exported sheets.
 pub const LINE: Color32 = Color32::from_rgb(255, 148, 20);
-/// Walls, as in the exported sheets.
+/// Colour of walls, as in the exported sheets.
 pub const WALL: Color32 = Color32::from_rgb(237, 41, 199);
-/// Targets.
+/// Colour of targets.
 pub const TARGET: Color32 = Color32::from_rgb(92, 200, 255);
-/// What is selected, and what is active.
+/// Colour of selected and active elements.
 pub const ACCENT: Color32 = Color32::from_rgb(64, 156, 255);
-/// Good.
+/// Colour of success.
 pub const GOOD: Color32 = Color32::from_rgb(84, 190, 120);
-/// To be looked at.
+/// Colour of warnings.
 pub const WARN: Color32 = Color32::from_rgb(236, 172, 58);
-/// Wrong.
+/// Colour of errors.
 pub const BAD: Color32 = Color32::from_rgb(232, 92, 84);
-/// Around the pictures, in both themes: judged light wants a dark, neutral surround.
+/// Surround of the pictures in both themes: judging light needs a dark, neutral surround.
 pub const SURROUND: Color32 = Color32::from_gray(22);
 
-/// Gives both themes of a context our look.
+/// Applies colours, spacing and fonts to both themes of a context.
 pub fn apply(ctx: &egui::Context) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| {

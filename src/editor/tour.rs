@@ -1,5 +1,5 @@
-//! The first steps: three notes over the window, each at the place it speaks of. They go when the step was done or passed
-//! over, and never come back by themselves.
+//! The tour of the first start: three notes that point at controls. Each closes when its step is done or skipped;
+//! they do not come back by themselves.
 
 use egui::{
     Area, Color32, Context, Frame, Id, LayerId, Order, Pos2, Rect, RichText, Shape, Stroke, Vec2, pos2, vec2,
@@ -12,10 +12,10 @@ use super::theme;
 
 /// Width of a note, points.
 const WIDTH: f32 = 300.0;
-/// Distance of a note from what it speaks of, points.
+/// Distance of a note from its control, points.
 const AWAY: f32 = 70.0;
 
-/// Where the things are that the notes speak of.
+/// The controls that the notes point at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchors {
     /// The tool that draws directed lines.
@@ -28,12 +28,12 @@ pub struct Anchors {
     pub plane: Rect,
 }
 
-/// The first steps.
+/// The tour.
 #[derive(Clone, Debug, Default)]
 pub struct Tour {
-    /// The step that is shown.
+    /// The current step.
     step: Option<usize>,
-    /// Directed lines and walls when the step began.
+    /// Number of directed lines and walls when the step began.
     drawn: [usize; 2],
 }
 
@@ -45,20 +45,20 @@ struct Step {
 const STEPS: [Step; 3] = [
     Step {
         title: "Draw a line",
-        text: "Take this tool, or press D, and draw over the light: it flows along your line, in its direction.",
+        text: "Choose this tool, or press D, and draw over the light: it flows along your line, in its direction.",
     },
     Step {
         title: "Draw a wall",
-        text: "Take this one, or press W, and draw where no light may pass: it flows around.",
+        text: "Choose this tool, or press W, and draw where no light may pass: it flows around.",
     },
     Step {
         title: "Press play",
-        text: "See the light move, here or with the space bar. Undo takes anything back.",
+        text: "See the light move, here or with the space bar. Undo reverts anything.",
     },
 ];
 
 impl Tour {
-    /// Begins with the first step.
+    /// Starts with the first step.
     pub fn begin(&mut self, project: &Project) {
         *self = Self { step: Some(0), drawn: drawn(project) };
     }
@@ -68,7 +68,7 @@ impl Tour {
         self.step.is_some()
     }
 
-    /// Shows the step, and the next once it was done. Tells whether the tour ended now.
+    /// Shows the step, and the next once it is done. Returns whether the tour ended now.
     pub fn show(&mut self, ctx: &Context, anchors: &Anchors, project: &Project, session: &Session) -> bool {
         let Some(step) = self.step else { return false };
         let now = drawn(project);
@@ -126,7 +126,7 @@ fn drawn(project: &Project) -> [usize; 2] {
     [lines, project.constraints.len() - lines]
 }
 
-/// The corner of a note beside its target, on the side of the picture, within the window.
+/// Position of a note beside its control, towards the plane view, within the window.
 fn place(target: Rect, plane: Rect, window: Rect) -> Pos2 {
     let towards = plane.center() - target.center();
     let size = vec2(WIDTH + 30.0, 160.0);
@@ -145,7 +145,7 @@ fn place(target: Rect, plane: Rect, window: Rect) -> Pos2 {
     pos2(corner.x.clamp(room.left(), most.x), corner.y.clamp(room.top(), most.y))
 }
 
-/// An arrow from the note to its target, and a frame around that.
+/// Paints an arrow from the note to its control, and a frame around the control.
 fn point(ctx: &Context, note: Rect, target: Rect) {
     if !target.is_finite() || target.is_negative() {
         return;

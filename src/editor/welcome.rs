@@ -1,4 +1,4 @@
-//! What to begin with: an example, or a project that is there.
+//! The welcome window: a new project from an example, or a recent one.
 
 use egui::{
     Button, ColorImage, Context, Image, Layout, RichText, Sense, TextureHandle, TextureOptions, Ui, vec2,
@@ -11,22 +11,22 @@ use super::menu::Recent;
 use super::templates::TEMPLATES;
 use super::theme;
 
-/// Size of an example's picture, points.
+/// Size of a thumbnail, points.
 const PICTURE: egui::Vec2 = vec2(224.0, 140.0);
-/// Most recent files that are offered.
+/// Maximum number of recent files.
 const RECENT: usize = 6;
 
-/// The window of examples.
+/// The welcome window.
 #[derive(Default)]
 pub struct Welcome {
-    /// Whether it is seen.
+    /// Whether it is open.
     pub open: bool,
-    /// The pictures, once they were shown.
+    /// The thumbnails, once shown.
     pictures: Vec<Option<TextureHandle>>,
 }
 
 impl Welcome {
-    /// Shows the window where it is open, and closes it with a choice.
+    /// Shows the window if it is open; returns the choice and closes it.
     pub fn show(&mut self, ctx: &Context, recent: &[Recent]) -> Option<Action> {
         if !self.open {
             return None;
@@ -37,7 +37,7 @@ impl Welcome {
         let mut chosen = None;
         let shown = modal(ctx, "welcome").show(ctx, |ui| {
             ui.set_width(3.0 * (PICTURE.x + 16.0) + 16.0);
-            ui.label(RichText::new("Begin with an example").heading());
+            ui.label(RichText::new("Start from an example").heading());
             ui.weak("Each can be changed and saved as your own.");
             ui.add_space(8.0);
             for row in 0..TEMPLATES.len().div_ceil(3) {
@@ -102,7 +102,7 @@ fn below(ui: &mut Ui, recent: &[Recent]) -> Option<Action> {
     chosen
 }
 
-/// A picture of the program itself; a broken one is left out.
+/// A thumbnail as a texture; none where it cannot be decoded.
 fn picture(ctx: &Context, name: &str, png: &[u8]) -> Option<TextureHandle> {
     let image = image::load_from_memory(png).ok()?.into_rgb8();
     let size = [image.width() as usize, image.height() as usize];

@@ -1,4 +1,4 @@
-//! The part of a picture where its light is.
+//! The lit part of a picture.
 
 use std::ops::Range;
 
@@ -6,19 +6,19 @@ use lightloom_core::render::Image;
 
 /// Share of the light that may lie beyond each edge.
 const BEYOND: f64 = 0.005;
-/// Room on either side, as a share of the part's own size.
+/// SceneCase on either side, as a share of the part's own size.
 const ROOM: f64 = 0.05;
 
 /// A part of a picture, in pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Crop {
+pub(crate) struct Crop {
     columns: Range<usize>,
     rows: Range<usize>,
 }
 
 impl Crop {
-    /// Where nearly all light of a linear picture is, with some room around it; all of a black one.
-    pub(super) fn lit(picture: &Image) -> Self {
+    /// The part with nearly all light of a linear picture, with a margin; all of a black picture.
+    pub(crate) fn lit(picture: &Image) -> Self {
         let (mut columns, mut rows) = (vec![0.0; picture.width], vec![0.0; picture.height]);
         for (i, pixel) in picture.pixels.iter().enumerate() {
             let light = f64::from(pixel.element_sum());
@@ -28,18 +28,18 @@ impl Crop {
         Self { columns: middle(&columns), rows: middle(&rows) }
     }
 
-    /// The part of a picture of the same size.
+    /// The crop of a picture of the same size.
     ///
     /// # Panics
     /// When the picture is smaller.
-    pub(super) fn cut(&self, picture: &Image) -> Image {
+    pub(crate) fn cut(&self, picture: &Image) -> Image {
         let row = |y: usize| &picture.pixels[y * picture.width..][self.columns.clone()];
         let pixels = self.rows.clone().flat_map(row).copied().collect();
         Image { width: self.columns.len(), height: self.rows.len(), pixels }
     }
 }
 
-/// The cells between the first and the last that count, and some more.
+/// The range without the dark ends, with a margin.
 fn middle(light: &[f64]) -> Range<usize> {
     let most = BEYOND * light.iter().sum::<f64>();
     let beyond = |light: &mut dyn Iterator<Item = &f64>| {
@@ -53,7 +53,7 @@ fn middle(light: &[f64]) -> Range<usize> {
 }
 
 /// A picture no wider than `width` pixels.
-pub(super) fn shrunk(picture: &Image, width: usize) -> Image {
+pub(crate) fn shrunk(picture: &Image, width: usize) -> Image {
     if picture.width <= width {
         return picture.clone();
     }

@@ -1,71 +1,52 @@
-//! What the settings buy and what they cost, measured: a page with tables, plots and pictures.
+//! Reports: what the settings of a project buy and what they cost, measured, on a page with tables, plots and pictures;
+//! and the stability table of stiff and extreme inputs.
 //!
-//! A report is a list of sections ([`section`]), each a file that measures one thing and returns a [`Chapter`]; `page`
-//! gives chapters their form. What a section needs of a project it finds on the [`Workbench`].
+//! A report is a list of sections (`sections`); each file there measures one thing and returns a [`Section`], which `page`
+//! lays out. The stages that are timed by themselves are one list (`stages`).
 
-mod chapter;
+mod clock;
+mod content;
+mod context;
 mod crop;
+mod effort;
+mod machine;
+mod number;
 mod page;
 mod pareto;
 mod plot;
-mod section;
+mod report;
+mod sections;
 mod slope;
 mod ssim;
 mod stability;
-mod workbench;
+mod stages;
+mod write;
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
-use serde::Serialize;
-
-pub use chapter::{Cell, Chapter, Part, Picture, Pictures, Row, Table, Tone};
+pub use content::{Cell, Part, Picture, Pictures, Row, Section, Table, Tone};
+pub use effort::Effort;
 pub use plot::{Axis, Line, Panel, Plot, Style};
-pub use section::gamma::{GammaResponse, Response, gamma_response};
-pub use stability::{Bound, EnergyOf, Limits, Measured, Size, Stability, StabilityRow, stability};
-pub use workbench::Effort;
+pub use report::{Absent, Report};
+pub use sections::gamma::{GammaResponse, Response, gamma_response};
+pub use stability::{Bound, EnergyOf, Limits, Measured, Stability, StabilityRow, stability};
 
+use context::Context;
 use lightloom_core::engine::Engine;
-use lightloom_core::files::write_atomic;
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
-use section::SECTIONS;
-use workbench::Workbench;
+use report::made_by;
+use sections::SECTIONS;
 
-/// Chapters with what a reader has to know of their making.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
-    /// Headline.
-    pub title: String,
-    /// What made it and on what: program, version, cores.
-    pub made_by: String,
-    /// What was measured, in order.
-    pub chapters: Vec<Chapter>,
-    /// Sections that are not there, and why.
-    pub absent: Vec<Absent>,
-    /// Seconds that it took.
-    pub seconds: f64,
-}
-
-/// A section that is not there.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Absent {
-    /// Its name.
-    pub section: &'static str,
-    /// Why it is not there.
-    pub why: String,
-    /// Whether it failed; otherwise the project has nothing for it, or the run was stopped.
-    pub failed: bool,
-}
-
-/// Measures a project: all sections that it has something for, or those in `only` (all when empty).
+/// Measures a project: the sections named in `only`, all when it is empty, except those that do not apply to the project.
 ///
-/// A section that fails is named as absent and the others go on. A run that is cancelled after its first section returns
-/// what is there. `scratch` is a folder with room for the frames of a render, such as that of the report.
+/// A section that fails is listed as absent and the others go on. A run that is cancelled after its first section returns
+/// the sections that are complete. `scratch` is a folder with room for the frames of a render, such as that of the report.
 ///
 /// # Errors
-/// A name in `only` that is no section; anything wrong with the project or its files; cancelled before anything was measured.
+/// A name in `only` that is no section; anything wrong with the project or its files; cancelled before the first section
+/// was complete.
 pub fn report(
     engine: &Engine,
     project: &Project,
@@ -75,85 +56,28 @@ pub fn report(
     progress: &Progress,
 ) -> Result<Report> {
     let start = Instant::now();
-    let chosen = section::choose(only)?;
+    let chosen = sections::choose(only)?;
     progress.set_stages(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
-    let mut bench = Workbench::new(engine, project, effort, scratch, progress)?;
-    let (mut chapters, mut absent) = (Vec::new(), Vec::new());
+    let mut context = Context::new(engine, project, effort, scratch, progress)?;
+    let (mut sections, mut absent) = (Vec::new(), Vec::new());
     for section in chosen {
         let mut leave_out = |why: String, failed| absent.push(Absent { section: section.name, why, failed });
-        if let Some(why) = (section.needless)(project) {
+        if let Some(why) = (section.skip)(project) {
             leave_out(why.to_owned(), false);
             continue;
         }
-        match progress.check().and_then(|()| (section.measure)(&mut bench, progress)) {
-            Ok(chapter) => chapters.push(chapter),
-            Err(Error::Cancelled) if chapters.is_empty() => return Err(Error::Cancelled),
+        match progress.check().and_then(|()| (section.measure)(&mut context, progress)) {
+            Ok(section) => sections.push(section),
+            Err(Error::Cancelled) if sections.is_empty() => return Err(Error::Cancelled),
             Err(Error::Cancelled) => leave_out("the run was stopped".to_owned(), false),
             Err(error) => leave_out(error.to_string(), true),
         }
     }
     let (title, seconds) = (project.name.clone(), start.elapsed().as_secs_f64());
-    Ok(Report { title, made_by: made_by(effort), chapters, absent, seconds })
+    Ok(Report { title, made_by: made_by(effort), sections, absent, seconds })
 }
 
 /// Names of all sections, in order.
 pub fn sections() -> impl Iterator<Item = &'static str> {
     SECTIONS.iter().map(|section| section.name)
-}
-
-fn made_by(effort: Effort) -> String {
-    let size = match effort {
-        Effort::Quick => "quick, at preview size",
-        Effort::Full => "full size",
-    };
-    let threads = rayon::current_num_threads();
-    format!("Lightloom {}, {threads} threads, {size}", env!("CARGO_PKG_VERSION"))
-}
-
-impl Report {
-    /// Writes `stem.html`, and into the folder `stem` beside it each table as CSV and each plot as SVG. Returns the paths.
-    ///
-    /// # Errors
-    /// `Io` when a file cannot be written, `Numeric` when a plot holds a number that is not finite.
-    pub fn write(&self, out: &Path, stem: &str) -> Result<Vec<PathBuf>> {
-        let folder = out.join(stem);
-        std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
-        let mut files = vec![(out.join(stem).with_extension("html"), page::html(self)?.into_bytes())];
-        for table in self.chapters.iter().flat_map(Chapter::tables) {
-            let csv = table
-                .to_csv()
-                .map_err(|error| Error::Numeric { stage: "report", what: error.to_string() })?;
-            files.push((folder.join(format!("{}.csv", table.name)), csv));
-        }
-        for plot in self.chapters.iter().flat_map(Chapter::plots) {
-            files.push((folder.join(format!("{}.svg", plot.name)), plot.to_svg()?.into_bytes()));
-        }
-        for (path, bytes) in &files {
-            write_atomic(path, |file| file.write_all(bytes))?;
-        }
-        Ok(files.into_iter().map(|(path, _)| path).collect())
-    }
-
-    /// All of it but the pictures, as indented JSON.
-    pub fn to_json(&self) -> String {
-        // Plain numbers and strings: serialisation has nothing to fail on.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
-    }
-
-    /// Whether a section failed.
-    pub fn has_failed(&self) -> bool {
-        self.absent.iter().any(|absent| absent.failed)
-    }
-
-    /// What there is, as lines for people.
-    pub fn to_text(&self) -> String {
-        let mut text = format!("{}: {} sections in {:.0} s\n", self.title, self.chapters.len(), self.seconds);
-        for chapter in &self.chapters {
-            text += &format!("  {:<10} {}\n", chapter.name, chapter.title);
-        }
-        for Absent { section, why, failed } in &self.absent {
-            text += &format!("  {section:<10} {}: {why}\n", if *failed { "failed" } else { "left out" });
-        }
-        text
-    }
 }

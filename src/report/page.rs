@@ -4,18 +4,18 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
-use super::chapter::{Cell, Chapter, Part, Pictures, Table, Tone};
-use super::{Absent, Report};
+use crate::content::{Cell, Part, Pictures, Section, Table, Tone};
+use crate::report::{Absent, Report};
 use lightloom_core::Result;
 
 const STYLE: &str = include_str!("page.css");
 
-/// The whole page.
+/// The page.
 ///
 /// # Errors
 /// `Numeric` when a plot holds a number that is not finite.
-pub(super) fn html(report: &Report) -> Result<String> {
-    let chapters = report.chapters.iter().map(chapter).collect::<Result<Vec<_>>>()?;
+pub(crate) fn html(report: &Report) -> Result<String> {
+    let sections = report.sections.iter().map(section).collect::<Result<Vec<_>>>()?;
     let page = markup! {
         (DOCTYPE)
         html lang="en" {
@@ -28,8 +28,8 @@ pub(super) fn html(report: &Report) -> Result<String> {
             body {
                 h1 { (report.title) }
                 p.made { (report.made_by) ", " (format!("{:.0} s", report.seconds)) }
-                nav { @for chapter in &report.chapters { a href={ "#" (chapter.name) } { (chapter.title) } } }
-                @for chapter in &chapters { (chapter) }
+                nav { @for section in &report.sections { a href={ "#" (section.name) } { (section.title) } } }
+                @for section in &sections { (section) }
                 @if !report.absent.is_empty() { (absent(&report.absent)) }
             }
         }
@@ -37,11 +37,11 @@ pub(super) fn html(report: &Report) -> Result<String> {
     Ok(page.into_string())
 }
 
-fn chapter(chapter: &Chapter) -> Result<Markup> {
-    let parts = chapter.parts.iter().map(part).collect::<Result<Vec<_>>>()?;
+fn section(section: &Section) -> Result<Markup> {
+    let parts = section.parts.iter().map(part).collect::<Result<Vec<_>>>()?;
     Ok(markup! {
-        section id=(chapter.name) {
-            h2 { (chapter.title) }
+        section id=(section.name) {
+            h2 { (section.title) }
             @for part in &parts { (part) }
         }
     })

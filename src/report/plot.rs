@@ -1,4 +1,4 @@
-//! Lines and points over an axis, some panels side by side, as SVG.
+//! Plots with panels of lines and points, as SVG.
 
 use std::ops::Range;
 
@@ -7,81 +7,81 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use serde::Serialize;
 
-use super::chapter::short;
+use crate::number::short;
 use lightloom_core::{Error, Result};
 
-/// Some panels under a title.
+/// Panels under a title.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plot {
     /// Stem of its SVG file.
     pub name: String,
-    /// Its headline.
+    /// Headline.
     pub title: String,
     /// The panels, two in a row.
     pub panels: Vec<Panel>,
 }
 
-/// One picture of a plot.
+/// A panel of a plot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Panel {
     /// What it shows.
     pub title: String,
-    /// To the right.
+    /// Horizontal axis.
     pub x: Axis,
-    /// Upwards.
+    /// Vertical axis.
     pub y: Axis,
-    /// What is drawn, the first below.
+    /// Its lines, the first at the bottom.
     pub lines: Vec<Line>,
 }
 
 /// An axis of a panel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// What is measured along it, with its unit.
+    /// Quantity and unit.
     pub label: String,
-    /// Equal ratios are equally far apart; what is not > 0 is then left out.
+    /// Whether it is logarithmic; numbers that are not positive are then left out.
     pub log: bool,
 }
 
-/// Points that belong together.
+/// A line or a group of points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// What they are, for the legend; empty to be left out of it.
+    /// Entry in the legend; none where it is empty.
     pub label: String,
-    /// How they are drawn.
+    /// Style.
     pub style: Style,
     /// x and y.
     pub points: Vec<(f64, f64)>,
 }
 
-/// How points are drawn. Lines and marks of one number have one colour.
+/// The style of a line. Styles of the same number have the same colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Style {
     /// A line with a dot at each point.
     Line(usize),
-    /// Dots alone.
+    /// Dots.
     Dots(usize),
-    /// Large rings: what the eye shall find.
+    /// Large rings around points that stand out.
     Rings(usize),
-    /// A thin grey line: a law, a limit.
+    /// A thin grey line, for a law or a limit.
     Law,
 }
 
 impl Axis {
-    /// From 0, evenly.
+    /// A linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
         Self { label: label.into(), log: false }
     }
 
-    /// By powers of ten.
+    /// A logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
         Self { label: label.into(), log: true }
     }
 }
 
 impl Line {
-    /// Points drawn in this style.
+    /// Points with a label and a style.
     pub fn new(label: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.into(), style, points }
     }
@@ -90,7 +90,7 @@ impl Line {
 /// Width and height of a panel in pixels.
 const PANEL: (u32, u32) = (440, 300);
 const TITLE: u32 = 34;
-/// Blue, red, green, violet, orange, teal: told apart on white, in print and by most eyes.
+/// Blue, red, green, violet, orange, teal: distinct on white, in print and for most eyes.
 const COLOURS: [RGBColor; 6] = [
     RGBColor(31, 90, 170),
     RGBColor(200, 60, 40),
@@ -101,7 +101,7 @@ const COLOURS: [RGBColor; 6] = [
 ];
 
 impl Plot {
-    /// Draws the panels in rows of two under the title.
+    /// The plot as SVG, its panels in rows of two.
     ///
     /// # Errors
     /// `Numeric` when a number is not finite.
@@ -133,7 +133,7 @@ impl Plot {
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Failure<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
-/// With the kinds of axes that the panel asks for.
+/// Draws a panel with linear or logarithmic axes.
 fn draw_panel<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
     let shown: Vec<Line> = panel.lines.iter().map(|line| visible(line, panel)).collect();
     let x = bounds(shown.iter().flat_map(|line| &line.points).map(|p| p.0), panel.x.log, false);
@@ -147,13 +147,13 @@ fn draw_panel<'a>(area: &Area<'a>, panel: &Panel) -> Result<(), Failure<'a>> {
     }
 }
 
-/// The points of a line that its axes can show.
+/// The line without the points that its axes cannot show.
 fn visible(line: &Line, panel: &Panel) -> Line {
     let shows = |&&(x, y): &&(f64, f64)| (!panel.x.log || x > 0.0) && (!panel.y.log || y > 0.0);
     Line { points: line.points.iter().filter(shows).copied().collect(), ..line.clone() }
 }
 
-/// What an axis spans: all values, with some air; upwards from 0 where it is linear, so that a line that looks flat is flat.
+/// The range of an axis: all values with a margin; a linear vertical axis begins at 0, so that a line that looks flat is flat.
 fn bounds(values: impl Iterator<Item = f64>, log: bool, upwards: bool) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     // Nothing at all still needs an axis.
@@ -233,7 +233,7 @@ where
         .draw()
 }
 
-/// A number at an axis: no more digits than it needs.
+/// The label of a number at an axis, without trailing zeros.
 fn tick(value: f64) -> String {
     let text = short(value);
     let (digits, power) =
@@ -243,7 +243,7 @@ fn tick(value: f64) -> String {
     power.map_or(digits.to_owned(), |power| format!("{digits}e{power}"))
 }
 
-/// The corner of the axes where the fewest points are in the way of the legend; one on the right where that is as good.
+/// The corner with the fewest points, for the legend; one on the right where corners are equal.
 fn emptier_corner(panel: &Panel, lines: &[Line], x: &Range<f64>, y: &Range<f64>) -> SeriesLabelPosition {
     let middle = |range: &Range<f64>, log: bool| {
         if log { (range.start * range.end).sqrt() } else { 0.5 * (range.start + range.end) }

@@ -1,8 +1,8 @@
 //! Exponents of power laws.
 
-/// The exponent of the power law nearest to the points: least squares of ln y over ln x. None where two different sizes are
+/// The exponent of the power law nearest to the points, by least squares of ln y over ln x. None where two different sizes are
 /// missing, or a number is not > 0.
-pub(super) fn slope(points: &[(f64, f64)]) -> Option<f64> {
+pub(crate) fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> = points.iter().map(|&(x, y)| (x.ln(), y.ln())).collect();
     if !logs.iter().all(|(x, y)| x.is_finite() && y.is_finite()) {
         return None;

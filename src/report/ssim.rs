@@ -19,17 +19,17 @@ const C2: f64 = 9e-4;
 ///
 /// # Panics
 /// When the sizes differ.
-pub(super) fn ssim(a: &Image, b: &Image) -> f64 {
+pub(crate) fn ssim(a: &Image, b: &Image) -> f64 {
     assert_eq!((a.width, a.height), (b.width, b.height), "pictures of one size");
     let (width, reach) = (a.width, REACH.min(a.width.min(a.height).saturating_sub(1) / 2));
     let window = window(reach);
-    let moments: Vec<Moments> = a.pixels.par_iter().zip(&b.pixels).map(|(a, b)| moments(*a, *b)).collect();
-    let rows: Vec<&[Moments]> = moments.chunks_exact(width.max(1)).collect();
+    let moments: Vec<Snapshots> = a.pixels.par_iter().zip(&b.pixels).map(|(a, b)| moments(*a, *b)).collect();
+    let rows: Vec<&[Snapshots]> = moments.chunks_exact(width.max(1)).collect();
     let sum: f64 = (reach..a.height.saturating_sub(reach))
         .into_par_iter()
         .map(|y| {
             let column = |x: usize| weigh(&window, |i| rows[y + i - reach][x]);
-            let columns: Vec<Moments> = (0..width).map(column).collect();
+            let columns: Vec<Snapshots> = (0..width).map(column).collect();
             columns.windows(window.len()).map(|near| similarity(weigh(&window, |i| near[i]))).sum::<f64>()
         })
         // In order, so that the number of threads does not show.
@@ -41,9 +41,9 @@ pub(super) fn ssim(a: &Image, b: &Image) -> f64 {
 }
 
 /// x, y, xx, yy, xy of a pixel in the one picture and the other, or their weighted means.
-type Moments = [f64; 5];
+type Snapshots = [f64; 5];
 
-fn moments(a: Vec3, b: Vec3) -> Moments {
+fn moments(a: Vec3, b: Vec3) -> Snapshots {
     // Rec. 709 luma.
     let [x, y] = [a, b].map(|c| c.as_dvec3().dot(glam::dvec3(0.2126, 0.7152, 0.0722)));
     [x, y, x * x, y * y, x * y]
@@ -57,8 +57,8 @@ fn window(reach: usize) -> Vec<f64> {
     weights.into_iter().map(|weight| weight / sum).collect()
 }
 
-fn weigh(window: &[f64], at: impl Fn(usize) -> Moments) -> Moments {
-    let mut mean = Moments::default();
+fn weigh(window: &[f64], at: impl Fn(usize) -> Snapshots) -> Snapshots {
+    let mut mean = Snapshots::default();
     for (i, weight) in window.iter().enumerate() {
         for (mean, value) in mean.iter_mut().zip(at(i)) {
             *mean += weight * value;
@@ -67,7 +67,7 @@ fn weigh(window: &[f64], at: impl Fn(usize) -> Moments) -> Moments {
     mean
 }
 
-fn similarity([x, y, xx, yy, xy]: Moments) -> f64 {
+fn similarity([x, y, xx, yy, xy]: Snapshots) -> f64 {
     let (vx, vy, common) = (xx - x * x, yy - y * y, xy - x * y);
     (2.0 * x * y + C1) * (2.0 * common + C2) / ((x * x + y * y + C1) * (vx + vy + C2))
 }

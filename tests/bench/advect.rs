@@ -4,7 +4,9 @@
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::{Carrier, Fade, Fields, Turbulence, TurbulenceSettings, spatial_order};
+use lightloom_core::flow::{
+    Fade, FieldTrajectories, Fields, Trajectories as _, Turbulence, TurbulenceSettings, spatial_order,
+};
 use lightloom_core::math::rng::{Purpose, Stream};
 
 const PHOTONS: usize = 1_000_000;
@@ -53,7 +55,7 @@ fn carry(bencher: divan::Bencher, fields: &Fields, sorted: bool) {
     let mut out = vec![Vec2::ZERO; PHOTONS];
     let progress = Progress::new();
     bencher.counter(divan::counter::ItemsCount::new(PHOTONS * STEPS)).bench_local(|| {
-        let mut carrier = Carrier::new(fields, &source, &target);
+        let mut carrier = FieldTrajectories::new(fields, &source, &target);
         for n in 0..STEPS {
             carrier.positions_at(n as f64 / STEPS as f64, &mut out, &progress).expect("finite");
         }
@@ -81,7 +83,7 @@ fn key_noises(bencher: divan::Bencher, cells: u32) {
 fn positions(bencher: divan::Bencher) {
     let fields = fields();
     let (source, target) = photons(true);
-    let mut carrier = Carrier::new(&fields, &source, &target);
+    let mut carrier = FieldTrajectories::new(&fields, &source, &target);
     let mut out = vec![Vec2::ZERO; PHOTONS];
     let progress = Progress::new();
     bencher

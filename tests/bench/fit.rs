@@ -1,17 +1,12 @@
-//! The fit: one step cold and warm, its assembly, and velocities; a sparse Cholesky step for comparison.
+//! The fit: one step cold and warm, its assembly, and velocities.
 //! Budget: 60 ms for a warm step of 100 k photons on 128 x 128 cells with both potentials, 0.6 of it with one.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, Triplet};
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::flow::assembly::{Assembly, Rows};
 use lightloom_core::flow::field::{Field, Grid};
-use lightloom_core::flow::fit::{Blend, FitSettings, Fitter};
-use lightloom_core::math::operator::{Operator, Weights};
+use lightloom_core::flow::fit::{Assembly, Blend, FitSettings, Fitter, Rows};
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn main() {
@@ -97,39 +92,6 @@ fn velocity(bencher: Bencher, n: usize) {
     bencher
         .counter(ItemsCount::new(positions.len()))
         .bench_local(|| positions.iter().map(|&p| black_box(&field).velocity(p)).sum::<Vec2>());
-}
-
-/// Numeric factorisation and one solve with faer, symbolic part and assembly not counted.
-#[divan::bench(args = SIZES, sample_count = 5)]
-fn reference_cholesky(bencher: Bencher, n: usize) {
-    let (positions, velocities) = photons(0.0);
-    let mut assembly = Assembly::new(grid(n), true);
-    assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1e-5 });
-    let mut operator = Operator::<f64>::zero(assembly.right.layout, 2);
-    operator.set(&assembly.parts, Weights { psi: 0.5, phi: 0.5, cross: 0.5, smooth: 1e-3, tilt: -1.0 });
-    let [nx, ny] = grid(n).nodes();
-    let mut triplets = Vec::new();
-    for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
-        for (i, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
-                let (to_x, to_y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
-                let (row, column) = (2 * (y * nx + x) + i, 2 * (to_y.min(ny) * nx + to_x) + k);
-                if to_x < nx && to_y < ny && row >= column {
-                    let ridge = if row == column { 1e-9 } else { 0.0 };
-                    triplets.push(Triplet::new(row, column, operator.entry([i, k], x, y, dx, dy) + ridge));
-                }
-            }
-        }
-    }
-    let size = 2 * nx * ny;
-    let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &triplets).expect("a matrix");
-    let symbolic = SymbolicLlt::try_new(matrix.symbolic(), faer::Side::Lower).expect("a pattern");
-    let right = faer::Mat::<f64>::from_fn(size, 1, |i, _| (i % 7) as f64);
-    bencher.bench_local(|| {
-        Llt::try_new_with_symbolic(symbolic.clone(), matrix.as_ref(), faer::Side::Lower)
-            .expect("positive definite")
-            .solve(&right)
-    });
 }
 
 /// Blending two fields in time.

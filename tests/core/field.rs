@@ -39,16 +39,20 @@ fn differences(field: &Field, p: Vec2) -> [[f64; 2]; 2] {
 fn a_field_of_psi_alone_has_no_divergence_and_of_phi_alone_no_curl() {
     let (flow, slope) = (random_field(1.0, 0.0), random_field(0.0, 1.0));
     // Second derivatives are near 1/h^2 = 400; differences of step 1e-6 in f64 leave 1e-7 of that.
+    let (mut curls, mut divergences) = (0.0, 0.0);
     for p in points() {
         let [along, across] = differences(&flow, p);
         assert!((along[0] + across[1]).abs() < 1e-4, "divergence at {p}");
-        assert!((along[1] - across[0]).abs() > 0.0);
+        curls += (along[1] - across[0]).abs() / 300.0;
         let [along, across] = differences(&slope, p);
         assert!((along[1] - across[0]).abs() < 1e-4, "curl at {p}");
+        divergences += (along[0] + across[1]).abs() / 300.0;
         let (flow, slope) = (flow.gradient(p), slope.gradient(p));
         assert_eq!(flow.x_axis.x + flow.y_axis.y, 0.0);
         assert_eq!(slope.x_axis.y - slope.y_axis.x, 0.0);
     }
+    // The other of the two is there, and large.
+    assert!(curls > 50.0 && divergences > 50.0, "{curls} {divergences}");
 }
 
 #[test]
@@ -59,7 +63,7 @@ fn the_gradient_is_that_of_the_velocity() {
         let [along, across] = differences(&field, p).map(|d| Vec2::new(d[0] as f32, d[1] as f32));
         let gradient = field.gradient(p);
         // Third derivatives, near 1/h^3 = 8000, times the f32 rounding of p (6e-8 of 1).
-        assert!((gradient - Mat2::from_cols(along, across)).abs_diff_eq(Mat2::ZERO, 1e-2), "{p}");
+        assert!((gradient - Mat2::from_cols(along, across)).abs_diff_eq(Mat2::ZERO, 2e-3), "{p}");
     }
 }
 
@@ -96,7 +100,8 @@ fn beyond_the_border_the_border_velocity_goes_on() {
         let y = end.y * i as f32 / 50.0;
         let edge = field.velocity(Vec2::new(end.x, y));
         assert_eq!(field.velocity(Vec2::new(3.0, y)), edge);
-        assert!(field.velocity(Vec2::new(end.x - 1e-5, y)).distance(edge) < 1e-1 * edge.length().max(1.0));
+        // Second derivatives near 1/h^2 = 400 over 1e-5.
+        assert!(field.velocity(Vec2::new(end.x - 1e-5, y)).distance(edge) < 1e-2);
         assert_eq!(field.gradient(Vec2::new(3.0, y)).x_axis, Vec2::ZERO);
     }
     assert_eq!(field.velocity(Vec2::splat(-1e30)), field.velocity(Vec2::ZERO));

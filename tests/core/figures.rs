@@ -7,6 +7,7 @@ use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::engine::{Engine, Quality, Summary};
+use lightloom_core::files::npy;
 use lightloom_core::project::{AssetFolder, Project};
 
 fn path(name: &str) -> PathBuf {
@@ -27,10 +28,8 @@ fn tracks(name: &str, photons: u64) -> (Project, Vec<Vec<Vec2>>, Summary) {
     let out = tempfile::tempdir().unwrap();
     let assets = AssetFolder::new(&path(name), false).unwrap();
     let summary = Engine::new(assets).fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap();
-    let file = std::fs::File::open(out.path().join("tracks.npy")).unwrap();
-    let npy = npyz::NpyFile::new(std::io::BufReader::new(file)).unwrap();
-    let [_, count, _] = npy.shape()[..] else { panic!("three axes") };
-    let numbers: Vec<f32> = npy.into_vec().unwrap();
+    let (header, numbers) = npy::parse(&std::fs::read(out.path().join("tracks.npy")).unwrap()).unwrap();
+    let [_, count, _] = header.shape[..] else { panic!("three axes") };
     let rows = numbers.chunks_exact(2 * count as usize);
     let row = |row: &[f32]| row.chunks_exact(2).map(|p| Vec2::new(p[0], p[1])).collect();
     (project, rows.map(row).collect(), summary)

@@ -4,7 +4,7 @@ use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{ActiveLine, DirectedLine, Window};
 use lightloom_core::flow::field::Field;
-use lightloom_core::flow::{Course, FitKind, FlowSettings, GridSize, fit_segment};
+use lightloom_core::flow::{FitKind, FlowSettings, GridSize, Segment, fit_segment};
 
 /// Photons all over the plane.
 fn everywhere(side: usize) -> Vec<Vec2> {
@@ -20,8 +20,8 @@ fn settings(gamma: f32, beta: f32) -> FlowSettings {
 fn field(lines: &[ActiveLine], settings: &FlowSettings) -> Field {
     let source = everywhere(150);
     let target: Vec<Vec2> = source.iter().map(|p| *p + Vec2::new(0.2, 0.0)).collect();
-    let course = Course { lines, ..Course::new(&source, &target, Vec2::ONE, settings) };
-    let (fields, report) = fit_segment(&course, &Progress::new(), None).unwrap();
+    let course = Segment { lines, ..Segment::new(&source, &target, Vec2::ONE, settings) };
+    let (fields, report) = fit_segment(&course, &Progress::new()).unwrap();
     assert_eq!(report.endpoint_error, 0.0);
     fields.nodes()[0].clone()
 }

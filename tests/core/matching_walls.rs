@@ -2,17 +2,17 @@
 
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::constraint::detour::Sight;
-use lightloom_core::constraint::{ActiveWall, Detour, Wall, Window};
-use lightloom_core::matching::{AroundMap, Matching, transport_map};
+use lightloom_core::constraint::visibility::SearchBuffers;
+use lightloom_core::constraint::{ActiveWall, VisibilityGraph, Wall, Window};
+use lightloom_core::matching::{Matching, WallMap, transport_map};
 use lightloom_core::math::rng::{Purpose, Stream};
 
-fn detour(walls: &[&[[f32; 2]]]) -> Detour {
+fn detour(walls: &[&[[f32; 2]]]) -> VisibilityGraph {
     let active = |points: &&[[f32; 2]]| {
         Wall { thickness: 0.01, ..Wall::new(points.to_vec()) }.active(Window::ALWAYS).unwrap()
     };
     let walls: Vec<ActiveWall> = walls.iter().map(active).collect();
-    Detour::new(&walls.iter().collect::<Vec<_>>(), Vec2::ONE, &Progress::new()).unwrap()
+    VisibilityGraph::new(&walls.iter().collect::<Vec<_>>(), Vec2::ONE, &Progress::new()).unwrap()
 }
 
 /// Points spread over rectangles given by two corners, as many in each.
@@ -26,15 +26,15 @@ fn spread(count: usize, pass: u64, rectangles: &[[[f32; 2]; 2]]) -> Vec<Vec2> {
         .collect()
 }
 
-fn around(source: &[Vec2], target: &[Vec2], map: &AroundMap, detour: &Detour, pass: u64) -> Vec<Vec2> {
-    let matching = Matching::around(source, target, (map, detour), 1, pass, &Progress::new()).unwrap();
+fn around(source: &[Vec2], target: &[Vec2], map: &WallMap, detour: &VisibilityGraph, pass: u64) -> Vec<Vec2> {
+    let matching = Matching::around_walls(source, target, (map, detour), 1, pass, &Progress::new()).unwrap();
     assert!(matching.is_bijection());
     matching.target_of.iter().map(|&row| target[row as usize]).collect()
 }
 
 /// Mean squared length of the ways of pairs that a way connects, and the number of the others.
-fn cost(source: &[Vec2], targets: &[Vec2], detour: &Detour) -> (f64, usize) {
-    let mut sight = Sight::default();
+fn cost(source: &[Vec2], targets: &[Vec2], detour: &VisibilityGraph) -> (f64, usize) {
+    let mut sight = SearchBuffers::default();
     let lengths: Vec<f64> =
         source.iter().zip(targets).map(|(a, b)| f64::from(detour.distance(*a, *b, &mut sight))).collect();
     let open: Vec<f64> = lengths.iter().copied().filter(|length| length.is_finite()).collect();
@@ -54,7 +54,7 @@ fn light_stays_on_its_side_where_there_is_room_for_it() {
     // Straight on, the upper light would go down: its targets lie below the wall, just as near.
     let source = spread(8000, 0, &[[[0.5, 0.4], [0.9, 0.49]], [[0.5, 0.51], [0.9, 0.6]]]);
     let target = spread(8000, 1, &[[[0.5, 0.1], [0.9, 0.49]], [[0.5, 0.51], [0.9, 0.55]]]);
-    let map = AroundMap::new(&source, &target, &detour, &Progress::new()).unwrap();
+    let map = WallMap::new(&source, &target, &detour, &Progress::new()).unwrap();
     let targets = around(&source, &target, &map, &detour, 0);
     let crossing = |targets: &[Vec2]| {
         source.iter().zip(targets).filter(|(a, b)| detour.barriers().blocks(**a, **b)).count()
@@ -78,7 +78,7 @@ fn nobody_is_shut_off_where_each_room_has_as_many_places_as_photons() {
     let inside = [[0.41, 0.41], [0.59, 0.59]];
     let source = spread(4096, 0, &[inside, [[0.0, 0.0], [0.38, 1.0]]]);
     let target = spread(4096, 1, &[[[0.62, 0.0], [1.0, 1.0]], inside]);
-    let map = AroundMap::new(&source, &target, &detour, &Progress::new()).unwrap();
+    let map = WallMap::new(&source, &target, &detour, &Progress::new()).unwrap();
     let (_, shut_off) = cost(&source, &around(&source, &target, &map, &detour, 0), &detour);
     let (_, straight) = cost(&source, &straight(&source, &target), &detour);
     println!("{shut_off} shut off, {straight} by straight ways");
@@ -92,14 +92,14 @@ fn around_a_wall_the_cost_is_near_the_optimum_of_a_sample() {
     let detour = detour(&[&[[0.5, 0.2], [0.5, 0.8]]]);
     let source = spread(20_000, 0, &[[[0.2, 0.4], [0.4, 0.6]]]);
     let target = spread(20_000, 1, &[[[0.6, 0.4], [0.8, 0.6]]]);
-    let map = AroundMap::new(&source, &target, &detour, &Progress::new()).unwrap();
+    let map = WallMap::new(&source, &target, &detour, &Progress::new()).unwrap();
     let targets = around(&source, &target, &map, &detour, 0);
     let (ours, shut_off) = cost(&source, &targets, &detour);
     assert_eq!(shut_off, 0);
     // 2048 of both, matched alone, and refined: their own map is as good as ours can be.
     let sample = |points: &[Vec2]| points.iter().copied().take(2048).collect::<Vec<_>>();
     let (few, fewer) = (sample(&source), sample(&target));
-    let own = AroundMap::new(&few, &fewer, &detour, &Progress::new()).unwrap();
+    let own = WallMap::new(&few, &fewer, &detour, &Progress::new()).unwrap();
     let (reference, _) = cost(&few, &around(&few, &fewer, &own, &detour, 0), &detour);
     println!("{ours} against {reference}");
     // Half of the light goes around either end; the sample's own noise is 1 / sqrt(2048) of the spread.
@@ -117,7 +117,7 @@ fn later_passes_go_where_the_first_one_went() {
         )
     };
     let (first, second) = (of_pass(0), of_pass(1));
-    let map = AroundMap::new(&first.0, &first.1, &walled, &Progress::new()).unwrap();
+    let map = WallMap::new(&first.0, &first.1, &walled, &Progress::new()).unwrap();
     let ours = [(&first, 0), (&second, 1)].map(|((a, b), pass)| around(a, b, &map, &walled, pass));
     let map = transport_map(&first.0, &first.1, Vec2::ONE, &Progress::new()).unwrap();
     let free = [(&first, 0), (&second, 1)].map(|((a, b), pass)| {
@@ -147,7 +147,7 @@ fn without_a_wall_in_the_way_it_is_nearly_the_optimal_map() {
     let detour = detour(&[&[[0.0, 0.9], [0.1, 0.9]]]);
     let source = spread(20_000, 0, &[[[0.2, 0.2], [0.4, 0.4]]]);
     let target = spread(20_000, 1, &[[[0.5, 0.3], [0.9, 0.5]]]);
-    let map = AroundMap::new(&source, &target, &detour, &Progress::new()).unwrap();
+    let map = WallMap::new(&source, &target, &detour, &Progress::new()).unwrap();
     let (ours, _) = cost(&source, &around(&source, &target, &map, &detour, 0), &detour);
     let (best, _) = cost(&source, &straight(&source, &target), &detour);
     println!("{ours} against {best}");
@@ -160,7 +160,7 @@ fn small_sets_are_matched_too() {
     for count in [1, 2, 3, 5, 17] {
         let source = spread(count, 0, &[[[0.2, 0.3], [0.4, 0.7]]]);
         let target = spread(count, 1, &[[[0.6, 0.3], [0.8, 0.7]]]);
-        let map = AroundMap::new(&source, &target, &detour, &Progress::new()).unwrap();
+        let map = WallMap::new(&source, &target, &detour, &Progress::new()).unwrap();
         around(&source, &target, &map, &detour, 0);
     }
 }

@@ -1,7 +1,9 @@
 //! The methods to compare with: their pairs, their ways, and that the vector field is the better one.
 
 use glam::{Vec2, vec2};
-use lightloom_core::flow::{Course, FlowReport, FlowSettings, GridSize, Paths, fit_segment, watch_paths};
+use lightloom_core::flow::{
+    FlowReport, FlowSettings, GridSize, PathTrajectories, Segment, fit_segment, path_report,
+};
 use lightloom_core::matching::{ContinuousMap, Pairing, StylizedMap, transport_map};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::{Error, Progress};
@@ -52,7 +54,8 @@ fn permuted(points: &[Vec2], pairing: &Pairing) -> Vec<Vec2> {
 }
 
 fn watched(source: &[Vec2], target: &[Vec2], bows: &[Vec2]) -> FlowReport {
-    watch_paths(&Paths::new(source, target, bows), Vec2::ONE, source.len(), 20, &Progress::new()).unwrap()
+    path_report(&PathTrajectories::new(source, target, bows), Vec2::ONE, source.len(), 20, &Progress::new())
+        .unwrap()
 }
 
 #[test]
@@ -60,12 +63,11 @@ fn the_vector_field_lets_at_most_a_fifth_of_the_light_cross() {
     let (source, target) = (caustic(40_000, 0), flower(40_000, 0));
     let progress = Progress::new();
     let before = stylized(&source, &target);
-    let before = watched(&source, &permuted(&target, &before), &before.bows);
+    let before = watched(&source, &permuted(&target, &before), &before.midpoint_offsets);
     let map = ContinuousMap::Transport(transport_map(&source, &target, Vec2::ONE, &progress).unwrap());
     let paired = permuted(&target, &map.pair(&source, &target, 1, 0, &progress).unwrap());
     let settings = FlowSettings { grid: GridSize::Longer(64), steps: 20, ..FlowSettings::default() };
-    let (_, ours) =
-        fit_segment(&Course::new(&source, &paired, Vec2::ONE, &settings), &progress, None).unwrap();
+    let (_, ours) = fit_segment(&Segment::new(&source, &paired, Vec2::ONE, &settings), &progress).unwrap();
     println!("stylized {:.4?}, field {:.4?}", before.crossing_index, ours.crossing_index);
     for (ours, before) in ours.crossing_index.iter().zip(before.crossing_index) {
         assert!(5.0 * ours <= before, "{ours} against {before}");
@@ -112,7 +114,7 @@ fn one_thread_and_two_give_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let pairing = stylized(&source, &target);
-            let report = watched(&source, &permuted(&target, &pairing), &pairing.bows);
+            let report = watched(&source, &permuted(&target, &pairing), &pairing.midpoint_offsets);
             (pairing, report)
         })
     };
@@ -150,7 +152,9 @@ fn large_degenerate_sets_are_paired() {
     ];
     for (source, target) in cases {
         let pairing = stylized(&source, &target);
-        assert!(pairing.matching.is_bijection() && pairing.bows.iter().all(|bow| bow.is_finite()));
+        assert!(
+            pairing.matching.is_bijection() && pairing.midpoint_offsets.iter().all(|bow| bow.is_finite())
+        );
     }
 }
 
@@ -169,8 +173,8 @@ proptest! {
         for (source, target) in [(&source, &target), (&target, &source), (&source, &source)] {
             let pairing = stylized(source, target);
             prop_assert!(pairing.matching.is_bijection());
-            prop_assert!(pairing.bows.len() == source.len() && pairing.bows.iter().all(|bow| bow.is_finite()));
-            let report = watched(source, &permuted(target, &pairing), &pairing.bows);
+            prop_assert!(pairing.midpoint_offsets.len() == source.len() && pairing.midpoint_offsets.iter().all(|bow| bow.is_finite()));
+            let report = watched(source, &permuted(target, &pairing), &pairing.midpoint_offsets);
             prop_assert!(report.endpoint_error == 0.0 && report.peak_speed_ratio.is_finite());
         }
     }

@@ -4,6 +4,7 @@ use crate::previews::{draft, example, example_path, flux, two_balls};
 use glam::{Vec2, Vec3, Vec4};
 use lightloom_core::Progress;
 use lightloom_core::engine::{Engine, OrbitView, PreviewExposure, Quality};
+use lightloom_core::files::npy;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::project::{AssetFolder, Ease};
 use lightloom_core::render::density::KernelFilter;
@@ -45,7 +46,7 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
     let assets = AssetFolder::new(&example_path("letters_free"), false).unwrap();
     Engine::new(assets).fit(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
     let bytes = std::fs::read(folder.path().join("tracks.npy")).unwrap();
-    let tracks: Vec<f32> = npyz::NpyFile::new(&bytes[..]).unwrap().into_vec().unwrap();
+    let (_, tracks) = npy::parse(&bytes).unwrap();
     let frame = |i: usize| -> Vec<Vec2> {
         let row = &tracks[2 * 20_000 * i..2 * 20_000 * (i + 1)];
         row.chunks_exact(2).map(Vec2::from_slice).collect()
@@ -101,7 +102,7 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
     let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
     let size = [96, 54];
-    let mut look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
+    let look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
     let (dark, lit) = (look(None), look(Some(light)));
     let at = |look: &OrbitView, p: Vec2| {
         let [x, y] = look.plane.pixel_from_plane(p, [96, 54]).unwrap().to_array().map(|v| v as usize);

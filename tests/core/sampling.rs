@@ -104,7 +104,7 @@ fn no_pixel_grid_shows() {
     let mut phases = [0.0; 16];
     points.positions.iter().for_each(|p| phases[(p.x * 64.0) as usize % 16] += 1.0);
     // 4096 each; stratified, so well within the 64 of white noise.
-    assert!(phases.iter().all(|n: &f64| (n - 4096.0).abs() < 100.0), "{phases:?}");
+    assert!(phases.iter().all(|n: &f64| (n - 4096.0).abs() < 32.0), "{phases:?}");
 }
 
 #[test]
@@ -380,12 +380,11 @@ fn point_files_are_read_with_any_usual_separator() {
 
 #[test]
 fn npy_arrays_are_read() {
-    use npyz::WriterBuilder as _;
-    let mut bytes = Vec::new();
-    let mut writer =
-        npyz::WriteOptions::new().default_dtype().shape(&[3, 2]).writer(&mut bytes).begin_nd().unwrap();
-    writer.extend([0.0, 0.5, 1.0, 0.25, 0.125, 0.75_f64]).unwrap();
-    writer.finish().unwrap();
+    // As NumPy 2.4 writes it: 118 bytes of header.
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }";
+    let mut bytes = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    bytes.extend(format!("{header:117}\n").bytes());
+    bytes.extend([0.0, 0.5, 1.0, 0.25, 0.125, 0.75_f64].map(f64::to_le_bytes).concat());
     let (_folder, path) = written(&bytes);
     assert_eq!(load_points(&path).unwrap().positions, [vec2(0.0, 0.5), vec2(1.0, 0.25), vec2(0.125, 0.75)]);
     for length in 0..bytes.len() {

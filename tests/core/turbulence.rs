@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 use glam::Vec2;
 use lightloom_core::flow::field::Field;
 use lightloom_core::flow::{
-    Carrier, Course, Fade, Fields, FlowReport, FlowSettings, GridSize, Turbulence, TurbulenceSettings,
-    fit_segment, metric,
+    Fade, FieldTrajectories, Fields, FlowReport, FlowSettings, GridSize, GuideTracks, Segment,
+    Trajectories as _, Turbulence, TurbulenceSettings, fit_segment, fit_tracks, metric,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::{Error, Progress};
@@ -40,13 +40,13 @@ fn photons(count: usize) -> (Vec<Vec2>, Vec<Vec2>) {
 
 fn fitted(settings: &FlowSettings, number: usize) -> (Fields, FlowReport) {
     let (source, target) = photons(2000);
-    let course = Course { number, ..Course::new(&source, &target, EXTENT, settings) };
-    fit_segment(&course, &Progress::new(), None).unwrap()
+    let course = Segment { number, ..Segment::new(&source, &target, EXTENT, settings) };
+    fit_segment(&course, &Progress::new()).unwrap()
 }
 
 fn carried(fields: &Fields, times: &[f64]) -> Vec<Vec<Vec2>> {
     let (source, target) = photons(2000);
-    let mut carrier = Carrier::new(fields, &source, &target);
+    let mut carrier = FieldTrajectories::new(fields, &source, &target);
     let mut at = |t: &f64| {
         let mut out = vec![Vec2::ZERO; source.len()];
         carrier.positions_at(*t, &mut out, &Progress::new()).unwrap();
@@ -237,8 +237,8 @@ fn every_photon_arrives_whatever_the_strength() {
                 let (fields, report) = fitted(&settings, 1);
                 let tracks = carried(&fields, &[0.5, 0.9, 1.0]);
                 assert!(tracks.iter().flatten().all(|p| p.is_finite()));
-                // b - 0 v is b exactly; the promise is 1e-6 of the plane.
-                assert!(metric::endpoint_error(&tracks[2], &target) < 1e-6 && report.endpoint_error < 1e-6);
+                // b - 0 v is b exactly.
+                assert_eq!((&tracks[2], report.endpoint_error), (&target, 0.0));
                 assert!((report.turbulence_rms - f64::from(strength) / 100.0).abs() < 1e-6);
             }
         }
@@ -265,9 +265,9 @@ fn the_photons_are_stirred_and_the_more_the_stronger() {
 fn photons_with_nowhere_to_go_are_stirred_too_and_come_back() {
     let (source, _) = photons(500);
     let settings = flow(noise(20.0, &[20]));
-    let course = Course::new(&source, &source, EXTENT, &settings);
-    let (fields, report) = fit_segment(&course, &Progress::new(), None).unwrap();
-    let mut carrier = Carrier::new(&fields, &source, &source);
+    let course = Segment::new(&source, &source, EXTENT, &settings);
+    let (fields, report) = fit_segment(&course, &Progress::new()).unwrap();
+    let mut carrier = FieldTrajectories::new(&fields, &source, &source);
     let mut now = source.clone();
     carrier.positions_at(0.5, &mut now, &Progress::new()).unwrap();
     let moved = metric::endpoint_error(&now, &source);
@@ -297,10 +297,8 @@ fn one_thread_and_two_give_the_same_bits() {
 fn a_guide_photon_moves_alike_in_every_later_pass() {
     let (source, target) = photons(2000);
     let settings = FlowSettings { guides: 400, ..flow(noise(20.0, &[30])) };
-    let course = Course::new(&source, &target, EXTENT, &settings);
-    let mut tracks = Vec::new();
-    let mut keep = |_: usize, c: &[Vec2]| tracks.push(c.to_vec());
-    let (fields, _) = fit_segment(&course, &Progress::new(), Some(&mut keep)).unwrap();
+    let course = Segment::new(&source, &target, EXTENT, &settings);
+    let GuideTracks { fields, positions: tracks, .. } = fit_tracks(&course, &Progress::new()).unwrap();
     let times: Vec<f64> = (0..=10).map(|n| f64::from(n) / 10.0).collect();
     for (now, guides) in carried(&fields, &times).iter().zip(&tracks) {
         for (guide, row) in guides.iter().zip((0..2000).step_by(5)) {

@@ -4,8 +4,10 @@ use crate::crossing::crosses;
 use glam::Vec2;
 use lightloom_core::Progress;
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
-use lightloom_core::flow::{Carrier, Course, Fields, FlowReport, FlowSettings, GridSize, TurbulenceSettings};
-use lightloom_core::flow::{FitKind, fit_segment};
+use lightloom_core::flow::{
+    FieldTrajectories, Fields, FitKind, FlowReport, FlowSettings, GridSize, GuideTracks, Segment,
+    Trajectories as _, TurbulenceSettings, fit_tracks,
+};
 use lightloom_core::math::rng::{Purpose, Stream};
 use proptest::prelude::*;
 
@@ -35,11 +37,9 @@ fn tracks(
     walls: &[ActiveWall],
     settings: &FlowSettings,
 ) -> (Vec<Vec<Vec2>>, Fields, FlowReport) {
-    let course = Course { walls, ..Course::new(source, target, Vec2::ONE, settings) };
-    let mut rows = Vec::new();
-    let mut keep = |_: usize, positions: &[Vec2]| rows.push(positions.to_vec());
-    let (fields, report) = fit_segment(&course, &Progress::new(), Some(&mut keep)).unwrap();
-    (rows, fields, report)
+    let course = Segment { walls, ..Segment::new(source, target, Vec2::ONE, settings) };
+    let GuideTracks { fields, report, positions, .. } = fit_tracks(&course, &Progress::new()).unwrap();
+    (positions, fields, report)
 }
 
 /// Photons that cross one of the walls in one of the steps for which `stands` holds.
@@ -53,14 +53,14 @@ fn crossers(rows: &[Vec<Vec2>], walls: &[ActiveWall], stands: impl Fn(usize) -> 
 
 /// Photons that the fit has never seen, carried along its fields.
 fn carried(fields: &Fields, source: &[Vec2], target: &[Vec2]) -> (Vec<Vec<Vec2>>, usize) {
-    let mut carrier = Carrier::new(fields, source, target);
+    let mut carrier = FieldTrajectories::new(fields, source, target);
     let mut row = vec![Vec2::ZERO; source.len()];
     let mut rows = Vec::new();
     for n in 0..=fields.steps() {
         carrier.positions_at(n as f64 / fields.steps() as f64, &mut row, &Progress::new()).unwrap();
         rows.push(row.clone());
     }
-    (rows, carrier.astray().unreachable)
+    (rows, carrier.wall_violations().unreachable)
 }
 
 /// Guides and photons of a later pass: only those cross that are counted as unreachable, and all arrive.

@@ -1,16 +1,18 @@
 //! The whole window without a screen: real keys and pointers in, documents and files out.
 
 use std::fs;
+use std::time::{Duration, SystemTime};
 
-use crate::window::{examples, project, until, window};
+use crate::window::{self, SIZE, examples, project, until, window, window_with};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::App;
 use lightloom::editor::action::Action;
 use lightloom::editor::dialogs::PickResult;
 use lightloom::editor::document::Edit;
+use lightloom::editor::store::Theme;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::{Project, Shows};
 
@@ -43,9 +45,11 @@ fn a_wall_is_drawn_seen_undone_saved_and_opened_again() {
     let before = fs::read(&path).unwrap();
     let mut harness = window(&folder, "letters_free", Vec::new());
     until(&mut harness, "the first light", |app| app.preview().preview().is_some());
-    // Saving what was not changed writes the same bytes.
+    // Saving what was not changed writes the same bytes. An old date shows when the file was written.
+    let old = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000);
+    fs::File::options().write(true).open(&path).unwrap().set_modified(old).unwrap();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    harness.run_steps(5);
+    until(&mut harness, "the first save", |_| fs::metadata(&path).unwrap().modified().unwrap() != old);
     assert_eq!(fs::read(&path).unwrap(), before);
 
     harness.key_press(Key::W);
@@ -131,18 +135,54 @@ fn closing_the_window_stops_the_workers() {
     assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
 }
 
-#[test]
-fn every_example_is_shown_in_every_view_in_both_themes_and_sizes() {
+/// The labels of all views.
+const VIEWS: [&str; 3] = ["Plane", "Shot", "Orbit view"];
+
+fn examples_are_shown_in(theme: Theme) {
     let folder = examples();
     for name in ["letters", "bottles", "dark_glass", "rabbit", "loop"] {
-        let mut harness = window(&folder, name, Vec::new());
-        for key in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::F, Key::G, Key::C] {
+        let mut preferences = window::preferences();
+        preferences.theme = theme;
+        let mut harness = window_with(&folder, name, Vec::new(), preferences);
+        harness.run_steps(2);
+        assert_eq!(harness.ctx.global_style().visuals.dark_mode, theme == Theme::Dark, "{name}");
+        for size in [[720.0, 480.0], SIZE, [3000.0, 1600.0]] {
+            harness.set_size(size.into());
+            let layouts = [(Key::Num4, &VIEWS[2..]), (Key::Num3, &VIEWS[1..2]), (Key::Num2, &VIEWS[..1])];
+            for (key, shown) in layouts.into_iter().chain([(Key::Num1, &VIEWS[..2])]) {
+                harness.key_press(key);
+                harness.run_steps(2);
+                let window = Rect::from_min_size(Pos2::ZERO, size.into());
+                for view in VIEWS {
+                    let rect = harness.query_by_label(view).map(|view| view.rect());
+                    assert_eq!(rect.is_some(), shown.contains(&view), "{name}, {size:?}, {key:?}: {view}");
+                    assert!(
+                        rect.is_none_or(|rect| rect.is_positive() && window.contains_rect(rect)),
+                        "{rect:?}"
+                    );
+                }
+                let play = harness.get_by_role_and_label(Role::Button, "Play or pause").rect();
+                assert!(window.contains_rect(play), "{name}, {size:?}: {play:?}");
+            }
+        }
+        for key in [Key::F, Key::G, Key::C] {
             harness.key_press(key);
             harness.run_steps(2);
         }
-        for size in [[720.0, 480.0], [1440.0, 900.0], [3000.0, 1600.0]] {
-            harness.set_size(size.into());
-            harness.run_steps(2);
-        }
+        let app = harness.state();
+        assert!(
+            app.session().overlays.arrows && app.session().overlays.grid && app.session().compare.is_some()
+        );
+        assert_eq!(app.preview().problem(), None, "{name}");
     }
+}
+
+#[test]
+fn every_example_is_shown_in_every_view_and_size_in_the_dark_theme() {
+    examples_are_shown_in(Theme::Dark);
+}
+
+#[test]
+fn every_example_is_shown_in_every_view_and_size_in_the_light_theme() {
+    examples_are_shown_in(Theme::Light);
 }

@@ -1,70 +1,37 @@
 //! The plane view with its tools, driven like the window drives them, without a window.
 
+use crate::window::Editor;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::action::Action;
-use lightloom::editor::canvas::{self, Under};
-use lightloom::editor::document::{Document, Edit};
-use lightloom::editor::engine::SharedEngine;
-use lightloom::editor::panels::Desk;
-use lightloom::editor::preview::LivePreview;
-use lightloom::editor::session::Session;
-use lightloom::editor::tools::{Toolbox, bar};
+use lightloom::editor::canvas::{self, Backdrop};
+use lightloom::editor::document::Edit;
+use lightloom::editor::tools::{Toolbox, toolbar};
 use lightloom_core::constraint::Constraint;
-use lightloom_core::project::Project;
 
 /// A window with nothing but the plane and its tools.
 struct Window {
-    document: Document,
-    session: Session,
-    preview: LivePreview,
+    editor: Editor,
     toolbox: Toolbox,
-    asked: Vec<Action>,
-}
-
-impl Window {
-    fn ui(&mut self, ui: &mut egui::Ui) {
-        let mut actions = Vec::new();
-        let mut desk = Desk {
-            document: &self.document,
-            session: &mut self.session,
-            preview: &self.preview,
-            actions: &mut actions,
-        };
-        egui::Panel::left("bar").exact_size(bar::WIDTH).resizable(false).show(ui, |ui| {
-            bar::show(ui, &mut desk, &self.toolbox);
-        });
-        egui::CentralPanel::no_frame().show(ui, |ui| {
-            canvas::show(ui, &mut desk, &mut self.toolbox, &Under::default());
-        });
-        for action in actions {
-            match action.clone() {
-                Action::Edit(edit) => self.document.edit(edit).unwrap(),
-                Action::Settle => self.document.settle(),
-                Action::Abort => self.document.abort(),
-                Action::Select(selection) => self.session.selection = selection,
-                Action::Tool(tool) => self.session.tool = tool,
-                _ => (),
-            }
-            self.asked.push(action);
-        }
-    }
 }
 
 fn window() -> Harness<'static, Window> {
     let text = r#"{ "lightloom": 1, "keys": [ { "frame": 1, "shows": { "image": { "file": "a.png" } } },
         { "frame": 60, "shows": { "image": { "file": "b.png" } } } ] }"#;
-    let project: Project = serde_json::from_str(text).unwrap();
-    let window = Window {
-        document: Document::new(project, None),
-        session: Session::default(),
-        preview: LivePreview::new(SharedEngine::default(), || {}),
-        toolbox: Toolbox::default(),
-        asked: Vec::new(),
+    let window = Window { editor: Editor::with_text(text), toolbox: Toolbox::default() };
+    let show = |ui: &mut egui::Ui, Window { editor, toolbox }: &mut Window| {
+        let ctx = ui.ctx().clone();
+        editor.frame(&ctx, |editor| {
+            egui::Panel::left("bar").exact_size(toolbar::WIDTH).resizable(false).show(ui, |ui| {
+                toolbar::show(ui, editor, toolbox);
+            });
+            egui::CentralPanel::no_frame().show(ui, |ui| {
+                canvas::show(ui, editor, toolbox, &Backdrop::default());
+            });
+        });
     };
-    let mut harness =
-        Harness::builder().with_size(vec2(800.0, 600.0)).build_ui_state(|ui, window| window.ui(ui), window);
+    let mut harness = Harness::builder().with_size(vec2(800.0, 600.0)).build_ui_state(show, window);
     harness.run();
     harness
 }
@@ -95,7 +62,7 @@ fn take(harness: &mut Harness<Window>, name: &str) {
 }
 
 fn constraints<'a>(harness: &'a Harness<Window>) -> &'a [Constraint] {
-    &harness.state().document.project().constraints
+    &harness.state().editor.document.project().constraints
 }
 
 #[test]
@@ -105,10 +72,10 @@ fn a_drag_over_the_plane_with_the_wall_tool_draws_a_wall() {
     let (from, to) = (at(&harness, 0.4, 0.3), at(&harness, 0.6, 0.7));
     drag(&mut harness, PointerButton::Primary, from, to);
     let added = |action: &Action| matches!(action, Action::Edit(Edit::Add(walls)) if walls.len() == 1);
-    assert!(harness.state().asked.iter().any(added), "{:?}", harness.state().asked);
+    assert!(harness.state().editor.asked.iter().any(added), "{:?}", harness.state().editor.asked);
     let [Constraint::Wall(wall)] = constraints(&harness) else { panic!("{:?}", constraints(&harness)) };
     assert_eq!(wall.points.len(), 2);
-    assert!(harness.state().session.selection.is_whole(0));
+    assert!(harness.state().editor.session.selection.is_whole(0));
 }
 
 #[test]
@@ -150,7 +117,7 @@ fn escape_and_another_tool_leave_nothing_of_a_line_begun() {
 fn middle_button_pan_tool_and_space_move_the_view_and_draw_nothing() {
     let mut harness = window();
     let (from, to) = (at(&harness, 0.5, 0.5), at(&harness, 0.6, 0.5));
-    let centre = |harness: &Harness<Window>| harness.state().session.plane.centre.unwrap_or_default();
+    let centre = |harness: &Harness<Window>| harness.state().editor.session.plane.centre.unwrap_or_default();
     take(&mut harness, "Wall");
     drag(&mut harness, PointerButton::Middle, from, to);
     let first = centre(&harness);
@@ -182,7 +149,7 @@ fn the_wheel_zooms_about_the_pointer() {
         source: egui::MouseWheelSource::Wheel,
     });
     harness.run_steps(12);
-    assert!(harness.state().session.plane.zoom > 1.1, "{:?}", harness.state().session.plane);
+    assert!(harness.state().editor.session.plane.zoom > 1.1, "{:?}", harness.state().editor.session.plane);
 }
 
 #[test]
@@ -192,6 +159,6 @@ fn every_tool_stands_in_the_bar() {
     assert_eq!(tools.len(), 8);
     for (i, name) in tools.iter().enumerate() {
         take(&mut harness, name);
-        assert_eq!(harness.state().session.tool, i, "{name}");
+        assert_eq!(harness.state().editor.session.tool, i, "{name}");
     }
 }

@@ -93,7 +93,7 @@ fn a_path_can_be_typed_and_a_wrong_one_is_said() {
     harness.run_ok();
     harness.key_press(Key::Enter);
     settle(&mut harness);
-    assert!(harness.query_by_label_contains("is not there").is_some());
+    assert!(harness.query_by_label_contains("does not exist").is_some());
     assert!(harness.state().picker.is_open() && harness.state().picked.is_empty());
     harness.key_press(Key::Escape);
     settle(&mut harness);

@@ -5,14 +5,14 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::desk::Table;
+use crate::window::Editor;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lightloom::editor::dialogs::{Picker, Scripted};
 use lightloom::editor::document::Document;
 use lightloom::editor::engine::SharedEngine;
-use lightloom::editor::export::{ExportWindow, Exports, Job, Order, Stage};
+use lightloom::editor::export::{ExportJob, ExportSettings, ExportWindow, Exports, Status};
 use lightloom_core::project::Project;
 
 /// A folder with the project `letters_free` made tiny, its pictures, and room for frames.
@@ -51,8 +51,8 @@ impl Place {
         self.path("projects/it's tiny.json")
     }
 
-    fn order(&self) -> Order {
-        Order {
+    fn settings(&self) -> ExportSettings {
+        ExportSettings {
             project: Arc::new(Project::load(&self.file()).unwrap()),
             file: self.file(),
             external: false,
@@ -92,8 +92,8 @@ fn exports() -> Exports {
 }
 
 /// Begins an export that would take for ever, and waits for its first pass.
-fn endless(place: &Place, exports: &mut Exports) -> Arc<Job> {
-    let job = exports.add(place.order());
+fn endless(place: &Place, exports: &mut Exports) -> Arc<ExportJob> {
+    let job = exports.add(place.settings());
     wait_until("a first pass", || job.passes() > 0);
     job
 }
@@ -103,7 +103,7 @@ fn endless(place: &Place, exports: &mut Exports) -> Arc<Job> {
 fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let place = Place::new(2, 2000);
     struct State {
-        table: Table,
+        editor: Editor,
         window: ExportWindow,
         exports: Exports,
         picker: Picker,
@@ -112,7 +112,7 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let mut window = ExportWindow::default();
     window.open = true;
     let state = State {
-        table: Table::new(document),
+        editor: Editor::new(document),
         window,
         exports: exports(),
         picker: Picker::new(Arc::new(Scripted::default())),
@@ -121,8 +121,8 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     let mut harness = builder.build_ui_state(
         |ui, state: &mut State| {
             let ctx = ui.ctx().clone();
-            let State { table, window, exports, picker } = state;
-            table.frame(&ctx, |desk| window.show(&ctx, desk, exports, picker));
+            let State { editor, window, exports, picker } = state;
+            editor.frame(&ctx, |editor| window.show(&ctx, editor, exports, picker));
         },
         state,
     );
@@ -132,10 +132,10 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
     harness.run_ok();
     let job = harness.state().exports.jobs()[0].clone();
     wait_until("done", || !job.is_open());
-    assert!(matches!(job.stage(), Stage::Done(_)), "{:?}", job.stage());
+    assert!(matches!(job.status(), Status::Done(_)), "{:?}", job.status());
     harness.run_ok();
     assert!(harness.query_by_label_contains("2 frames exported").is_some());
-    let folder = job.order().folder.clone();
+    let folder = job.settings().folder.clone();
     let window = files(&folder);
     std::fs::remove_dir_all(&folder).unwrap();
 
@@ -159,7 +159,7 @@ fn breaking_off_leaves_no_file_at_all() {
     let job = endless(&place, &mut exports);
     job.cancel();
     wait_until("cancelled", || !job.is_open());
-    assert_eq!(job.stage(), Stage::Cancelled);
+    assert_eq!(job.status(), Status::Cancelled);
     assert_eq!(files(&place.path("frames")), []);
 }
 
@@ -188,7 +188,7 @@ fn stopping_writes_all_frames_with_the_passes_that_are_complete() {
     let job = endless(&place, &mut exports);
     job.stop();
     wait_until("stopped", || !job.is_open());
-    let Stage::Done(outcome) = job.stage() else { panic!("{:?}", job.stage()) };
+    let Status::Done(outcome) = job.status() else { panic!("{:?}", job.status()) };
     assert!(outcome.passes >= 1 && outcome.passes < outcome.planned);
     assert_eq!(files(&place.path("frames")).len(), 6);
     assert!(job.picture().is_some());
@@ -197,21 +197,21 @@ fn stopping_writes_all_frames_with_the_passes_that_are_complete() {
 #[test]
 fn a_time_limit_ends_with_at_least_one_pass() {
     let (place, mut exports) = (Place::new(100_000, 1000), exports());
-    let job = exports.add(Order { limit: Some(Duration::ZERO), ..place.order() });
+    let job = exports.add(ExportSettings { limit: Some(Duration::ZERO), ..place.settings() });
     wait_until("over", || !job.is_open());
-    let Stage::Done(outcome) = job.stage() else { panic!("{:?}", job.stage()) };
+    let Status::Done(outcome) = job.status() else { panic!("{:?}", job.status()) };
     assert!(outcome.passes >= 1 && outcome.passes < outcome.planned);
 }
 
 #[test]
 fn exports_queue_and_one_that_fails_says_why_and_stops_no_other() {
     let (place, mut exports) = (Place::new(1, 1000), exports());
-    let bad = exports.add(Order { folder: place.file(), ..place.order() });
-    let good = exports.add(place.order());
+    let bad = exports.add(ExportSettings { folder: place.file(), ..place.settings() });
+    let good = exports.add(place.settings());
     wait_until("both", || !exports.is_busy());
-    let Stage::Failed(why) = bad.stage() else { panic!("{:?}", bad.stage()) };
+    let Status::Failed(why) = bad.status() else { panic!("{:?}", bad.status()) };
     assert!(why.contains("is a file"), "{why}");
-    assert!(matches!(good.stage(), Stage::Done(_)), "{:?}", good.stage());
+    assert!(matches!(good.status(), Status::Done(_)), "{:?}", good.status());
     exports.clear();
     assert!(exports.jobs().is_empty());
 }
@@ -221,17 +221,17 @@ fn an_export_does_not_overwrite_what_the_project_is_made_from() {
     let (place, mut exports) = (Place::new(1, 1000), exports());
     let mut project = Project::load(&place.file()).unwrap();
     project.output.name = "letter_c".into();
-    let order = Order { folder: place.path("assets/targets"), ..place.order() };
-    let before = files(&order.folder);
+    let settings = ExportSettings { folder: place.path("assets/targets"), ..place.settings() };
+    let before = files(&settings.folder);
     project.output.name = "####".into();
     std::fs::write(place.path("assets/targets/0001.png"), &before[0].1).unwrap();
     let lightloom_core::project::Shows::Image(image) = &mut project.keys[0].shows else {
         panic!("a picture")
     };
     image.file = "../assets/targets/0001.png".into();
-    let job = exports.add(Order { project: Arc::new(project), ..order });
+    let job = exports.add(ExportSettings { project: Arc::new(project), ..settings });
     wait_until("refused", || !job.is_open());
-    let Stage::Failed(why) = job.stage() else { panic!("{:?}", job.stage()) };
+    let Status::Failed(why) = job.status() else { panic!("{:?}", job.status()) };
     assert!(why.contains("0001.png"), "{why}");
 }
 
@@ -240,5 +240,5 @@ fn closing_the_program_breaks_an_export_off() {
     let (place, mut exports) = (Place::new(100_000, 20_000), exports());
     let job = endless(&place, &mut exports);
     drop(exports);
-    assert_eq!(job.stage(), Stage::Cancelled);
+    assert_eq!(job.status(), Status::Cancelled);
 }

@@ -3,7 +3,7 @@
 
 mod app;
 mod canvas;
-mod desk;
+mod crash;
 mod dialogs;
 mod document;
 mod export_window;

@@ -2,21 +2,21 @@
 
 use std::path::Path;
 
-use crate::desk::Table;
+use crate::window::Editor;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lightloom::editor::action::Action;
-use lightloom::editor::command::{COMMANDS, Command, Entry, Menu};
-use lightloom::editor::document::{Document, Edit};
+use lightloom::editor::command::{COMMANDS, Command, CommandInfo, Menu};
+use lightloom::editor::document::Edit;
 use lightloom::editor::menu::Recent;
 use lightloom::editor::palette::{Palette, items};
 use lightloom::editor::selection::Selection;
-use lightloom::editor::shortcuts::{self, Sheet};
+use lightloom::editor::shortcuts::{self, ShortcutSheet};
 use lightloom::editor::tour::{Anchors, Tour};
 use lightloom::editor::welcome::Welcome;
-use lightloom::editor::{keys, menu, tools};
+use lightloom::editor::{keyboard, menu, tools};
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
@@ -24,19 +24,19 @@ fn tool_keys() -> Vec<(&'static str, Key)> {
     tools::all().iter().map(|tool| (tool.name(), tool.key())).collect()
 }
 
-/// A table on which every command would do something.
-fn busy_table() -> Table {
+/// An editor in which every command would do something.
+fn busy_editor() -> Editor {
     let project =
         Project::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/bottles.json")).unwrap();
-    let mut table = Table::new(Document::new(project, None));
+    let mut editor = Editor::with_project(project);
     for name in ["one", "two"] {
-        table.document.edit(Edit::Name(name.into())).unwrap();
-        table.document.settle();
+        editor.document.edit(Edit::Name(name.into())).unwrap();
+        editor.document.settle();
     }
-    table.document.undo();
-    table.session.selection = Selection::one(0);
-    table.session.marks = [Some(3), None];
-    table
+    editor.document.undo();
+    editor.session.selection = Selection::one(0);
+    editor.session.marks = [Some(3), None];
+    editor
 }
 
 fn harness<S: 'static>(state: S, show: impl FnMut(&mut egui::Ui, &mut S) + 'static) -> Harness<'static, S> {
@@ -48,16 +48,16 @@ fn harness<S: 'static>(state: S, show: impl FnMut(&mut egui::Ui, &mut S) + 'stat
 
 #[test]
 fn the_palette_finds_and_runs_every_command() {
-    type State = (Table, Palette, Option<Action>);
-    let state: State = (busy_table(), Palette::default(), None);
-    let mut harness = harness(state, |ui, (table, palette, chosen): &mut State| {
+    type State = (Editor, Palette, Option<Action>);
+    let state: State = (busy_editor(), Palette::default(), None);
+    let mut harness = harness(state, |ui, (editor, palette, chosen): &mut State| {
         let ctx = ui.ctx().clone();
         let tools = tool_keys();
-        if let Some(action) = table.frame(&ctx, |desk| palette.show(&ctx, || items(desk, &tools, &[]))) {
+        if let Some(action) = editor.frame(&ctx, |editor| palette.show(&ctx, || items(editor, &tools, &[]))) {
             *chosen = Some(action);
         }
     });
-    for Entry { command, name, .. } in COMMANDS {
+    for CommandInfo { command, name, .. } in COMMANDS {
         harness.state_mut().1.open();
         harness.run_ok();
         harness.get_by_label("Find a command").type_text(name);
@@ -92,11 +92,11 @@ fn the_palette_finds_and_runs_every_command() {
 #[test]
 fn every_command_is_in_its_menu_and_can_be_called_there() {
     let recent = [Recent { path: "/tmp/one.json".into(), is_there: false }];
-    for Entry { command, menu, name, .. } in COMMANDS {
+    for CommandInfo { command, menu, name, .. } in COMMANDS {
         let recent = recent.clone();
-        let mut harness = harness(busy_table(), move |ui, table: &mut Table| {
+        let mut harness = harness(busy_editor(), move |ui, editor: &mut Editor| {
             let ctx = ui.ctx().clone();
-            table.frame(&ctx, |desk| menu::show(ui, desk, &recent));
+            editor.frame(&ctx, |editor| menu::show(ui, editor, &recent));
         });
         harness.get_by_role_and_label(Role::Button, shortcuts::group(*menu)).click();
         harness.run_ok();
@@ -115,11 +115,11 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
 fn the_sheet_names_every_shortcut_and_can_be_searched() {
     let mut harness = harness(
         {
-            let mut s = Sheet::default();
+            let mut s = ShortcutSheet::default();
             s.open = true;
             s
         },
-        |ui, sheet: &mut Sheet| {
+        |ui, sheet: &mut ShortcutSheet| {
             sheet.show(ui.ctx(), &tool_keys());
         },
     );
@@ -142,11 +142,11 @@ fn the_sheet_names_every_shortcut_and_can_be_searched() {
 
 #[test]
 fn space_plays_and_pauses_but_not_while_text_is_typed() {
-    type State = (Table, String);
-    let mut harness = harness((busy_table(), String::new()), |ui, (table, text): &mut State| {
+    type State = (Editor, String);
+    let mut harness = harness((busy_editor(), String::new()), |ui, (editor, text): &mut State| {
         let ctx = ui.ctx().clone();
-        let pressed = keys::pressed(&ctx, &tool_keys(), false);
-        table.frame(&ctx, |desk| desk.actions.extend(pressed));
+        let pressed = keyboard::pressed(&ctx, &tool_keys(), false);
+        editor.frame(&ctx, |editor| editor.actions.extend(pressed));
         ui.text_edit_singleline(text).accessible_name("Text");
     });
     for playing in [true, false] {
@@ -178,11 +178,11 @@ fn no_tool_takes_the_key_of_a_command() {
 
 #[test]
 fn the_first_steps_end_for_good_when_they_were_done() {
-    type State = (Table, Tour, bool);
-    let mut table = busy_table();
+    type State = (Editor, Tour, bool);
+    let mut editor = busy_editor();
     let mut tour = Tour::default();
-    tour.begin(table.document.project());
-    table.session.playing = false;
+    tour.begin(editor.document.project());
+    editor.session.playing = false;
     let square = |x: f32, y: f32| egui::Rect::from_center_size(egui::pos2(x, y), egui::vec2(28.0, 28.0));
     let anchors = Anchors {
         line: square(20.0, 100.0),
@@ -190,8 +190,8 @@ fn the_first_steps_end_for_good_when_they_were_done() {
         play: square(200.0, 700.0),
         plane: egui::Rect::from_min_max(egui::pos2(50.0, 30.0), egui::pos2(900.0, 600.0)),
     };
-    let mut harness = harness((table, tour, false), move |ui, (table, tour, ended): &mut State| {
-        *ended |= tour.show(ui.ctx(), &anchors, &table.document.project().clone(), &table.session);
+    let mut harness = harness((editor, tour, false), move |ui, (editor, tour, ended): &mut State| {
+        *ended |= tour.show(ui.ctx(), &anchors, &editor.document.project().clone(), &editor.session);
     });
     let draw = |harness: &mut Harness<State>, wanted: fn(&Constraint) -> bool| {
         let document = &mut harness.state_mut().0.document;

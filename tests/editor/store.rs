@@ -6,7 +6,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use lightloom::editor::store::{
-    Answer, Fingerprint, Folders, Journal, Note, Opened, Preferences, Request, Save, Saver, recoverable,
+    Fingerprint, Folders, Journal, Note, Opened, Preferences, SaveRequest, Saver, StoreReply, StoreRequest,
+    recoverable,
 };
 use lightloom_core::project::{Project, ProjectFile};
 
@@ -14,11 +15,11 @@ use lightloom_core::project::{Project, ProjectFile};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A folder of its own for each test, with a project in it.
-struct Desk {
+struct Fixture {
     folder: tempfile::TempDir,
 }
 
-impl Desk {
+impl Fixture {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
@@ -65,24 +66,24 @@ struct Waiting {
 }
 
 impl Waiting {
-    fn new(desk: &Desk) -> Self {
+    fn new(fixture: &Fixture) -> Self {
         let (wake, woken) = channel();
-        let saver = Saver::start(desk.folders(), move || {
+        let saver = Saver::start(fixture.folders(), move || {
             let _ = wake.send(());
         })
         .unwrap();
         Self { saver, woken }
     }
 
-    fn ask(&self, request: Request) -> Answer {
+    fn ask(&self, request: StoreRequest) -> StoreReply {
         self.saver.ask(request);
         self.woken.recv_timeout(PATIENCE).unwrap();
         self.saver.answer().unwrap()
     }
 
-    fn open(&self, desk: &Desk) -> Opened {
-        match self.ask(Request::Open(desk.path())) {
-            Answer::Opened(path, Ok(opened)) if path == desk.path() => opened,
+    fn open(&self, fixture: &Fixture) -> Opened {
+        match self.ask(StoreRequest::Open(fixture.path())) {
+            StoreReply::Opened(path, Ok(opened)) if path == fixture.path() => opened,
             other => panic!("{other:?}"),
         }
     }
@@ -90,25 +91,25 @@ impl Waiting {
 
 #[test]
 fn what_a_lost_editor_noted_is_offered_as_it_was_last() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    (2..=9).for_each(|seed| journal.note(desk.note(seed)));
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    (2..=9).for_each(|seed| journal.note(fixture.note(seed)));
     drop(journal);
-    let found = recoverable(&desk.recovery());
+    let found = recoverable(&fixture.recovery());
     let [recovery] = &found[..] else { panic!("{found:?}") };
-    assert_eq!((recovery.title.as_str(), recovery.path.as_ref()), ("Letters", Some(&desk.path())));
+    assert_eq!((recovery.title.as_str(), recovery.path.as_ref()), ("Letters", Some(&fixture.path())));
     assert_eq!(recovery.work.as_ref().unwrap().project().seed, 9);
     assert!(!recovery.file_changed);
-    assert_eq!(desk.file().project().seed, 1, "the user's file was not touched");
+    assert_eq!(fixture.file().project().seed, 1, "the user's file was not touched");
 }
 
 #[test]
 fn a_change_is_written_while_the_editor_runs_and_not_offered_to_another() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    journal.note(desk.note(5));
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    journal.note(fixture.note(5));
     let written = || {
-        let entries = std::fs::read_dir(desk.recovery()).into_iter().flatten().flatten();
+        let entries = std::fs::read_dir(fixture.recovery()).into_iter().flatten().flatten();
         entries.map(|entry| entry.path()).any(|path| path.extension().is_some_and(|end| end == "json"))
     };
     let begun = std::time::Instant::now();
@@ -116,45 +117,45 @@ fn a_change_is_written_while_the_editor_runs_and_not_offered_to_another() {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(written());
-    assert!(recoverable(&desk.recovery()).is_empty());
+    assert!(recoverable(&fixture.recovery()).is_empty());
     assert_eq!(journal.problem(), None);
 }
 
 #[test]
 fn a_clean_end_leaves_nothing() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    journal.note(desk.note(5));
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    journal.note(fixture.note(5));
     journal.clean();
     drop(journal);
-    assert_eq!(desk.files_in_recovery(), 0);
+    assert_eq!(fixture.files_in_recovery(), 0);
 
     drop({
-        let journal = Journal::start(desk.recovery());
-        journal.note(desk.note(5));
+        let journal = Journal::start(fixture.recovery());
+        journal.note(fixture.note(5));
         journal
     });
-    let found = recoverable(&desk.recovery()).pop().unwrap();
+    let found = recoverable(&fixture.recovery()).pop().unwrap();
     let journal = Journal::resume(found);
-    assert!(recoverable(&desk.recovery()).is_empty(), "it has an editor again");
+    assert!(recoverable(&fixture.recovery()).is_empty(), "it has an editor again");
     journal.clean();
     drop(journal);
-    assert_eq!(desk.files_in_recovery(), 0);
+    assert_eq!(fixture.files_in_recovery(), 0);
 }
 
 #[test]
 fn work_that_is_recovered_is_safe_until_it_is_saved() {
-    let desk = Desk::new();
+    let fixture = Fixture::new();
     for seed in 2..5 {
-        let journal = match recoverable(&desk.recovery()).pop() {
+        let journal = match recoverable(&fixture.recovery()).pop() {
             Some(found) => Journal::resume(found),
-            None => Journal::start(desk.recovery()),
+            None => Journal::start(fixture.recovery()),
         };
-        journal.note(desk.note(seed));
+        journal.note(fixture.note(seed));
         drop(journal);
         // Taken up and lost again before anything was changed.
-        drop(Journal::resume(recoverable(&desk.recovery()).pop().unwrap()));
-        let found = recoverable(&desk.recovery());
+        drop(Journal::resume(recoverable(&fixture.recovery()).pop().unwrap()));
+        let found = recoverable(&fixture.recovery());
         assert!(
             matches!(&found[..], [one] if one.work.as_ref().unwrap().project().seed == seed),
             "{found:?}"
@@ -164,195 +165,202 @@ fn work_that_is_recovered_is_safe_until_it_is_saved() {
 
 #[test]
 fn work_that_stands_in_its_file_is_not_offered() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    let note = desk.note(5);
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    let note = fixture.note(5);
     journal.note(note.clone());
-    note.file.save(&desk.path(), &note.project).unwrap();
+    note.file.save(&fixture.path(), &note.project).unwrap();
     drop(journal);
-    assert!(recoverable(&desk.recovery()).is_empty());
-    assert_eq!(desk.files_in_recovery(), 0);
+    assert!(recoverable(&fixture.recovery()).is_empty());
+    assert_eq!(fixture.files_in_recovery(), 0);
 }
 
 #[test]
 fn it_is_told_when_the_file_was_changed_after_the_work() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    let note = desk.note(5);
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    let note = fixture.note(5);
     journal.note(note.clone());
-    note.file.save(&desk.path(), &with_seed(&note.file, 6)).unwrap();
+    note.file.save(&fixture.path(), &with_seed(&note.file, 6)).unwrap();
     drop(journal);
-    assert!(recoverable(&desk.recovery())[0].file_changed);
+    assert!(recoverable(&fixture.recovery())[0].file_changed);
 }
 
 #[test]
 fn recovery_files_that_cannot_be_read_are_offered_with_the_reason_and_can_be_discarded() {
-    let desk = Desk::new();
-    std::fs::create_dir_all(desk.recovery()).unwrap();
+    let fixture = Fixture::new();
+    std::fs::create_dir_all(fixture.recovery()).unwrap();
     for (name, text) in [
         ("a", ""),
         ("b", "{\"path\":null,\"title\":\"T\",\"time\":18446744073709551615,\"seen\":null,\"text\":\"{\"}"),
     ] {
-        std::fs::write(desk.recovery().join(name).with_extension("json"), text).unwrap();
+        std::fs::write(fixture.recovery().join(name).with_extension("json"), text).unwrap();
     }
-    let found = recoverable(&desk.recovery());
+    let found = recoverable(&fixture.recovery());
     assert_eq!(found.len(), 2);
     for recovery in found {
         let message = recovery.work.as_ref().unwrap_err().to_string();
         assert!(message.contains(".json"), "{message}");
         recovery.discard().unwrap();
     }
-    assert_eq!(desk.files_in_recovery(), 0);
+    assert_eq!(fixture.files_in_recovery(), 0);
 }
 
 #[test]
 fn a_journal_that_cannot_write_says_so() {
-    let desk = Desk::new();
+    let fixture = Fixture::new();
     // A file stands where the folder should be.
-    std::fs::write(desk.folder.path().join("state"), b"").unwrap();
-    let journal = Journal::start(desk.recovery());
-    journal.note(desk.note(5));
+    std::fs::write(fixture.folder.path().join("state"), b"").unwrap();
+    let journal = Journal::start(fixture.recovery());
+    journal.note(fixture.note(5));
     let begun = std::time::Instant::now();
     while journal.problem().is_none() && begun.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(5));
     }
     let problem = journal.problem().unwrap();
     assert!(problem.contains("recovery") && problem.contains("state"), "{problem}");
-    std::fs::remove_file(desk.folder.path().join("state")).unwrap();
+    std::fs::remove_file(fixture.folder.path().join("state")).unwrap();
     drop(journal);
-    assert_eq!(recoverable(&desk.recovery()).len(), 1, "tried again at the end");
+    assert_eq!(recoverable(&fixture.recovery()).len(), 1, "tried again at the end");
 }
 
 #[test]
 fn opening_and_saving_gives_the_same_bytes_and_no_backup() {
-    let desk = Desk::new();
-    let before = std::fs::read(desk.path()).unwrap();
-    let waiting = Waiting::new(&desk);
-    let opened = waiting.open(&desk);
+    let fixture = Fixture::new();
+    let before = std::fs::read(fixture.path()).unwrap();
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
     let project = Arc::new(opened.file.project().clone());
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
     assert!(
-        matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(saved)) if saved.seen == opened.seen)
+        matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(saved)) if saved.seen == opened.seen)
     );
-    assert_eq!(std::fs::read(desk.path()).unwrap(), before);
-    assert!(!desk.folders().backups().exists());
+    assert_eq!(std::fs::read(fixture.path()).unwrap(), before);
+    assert!(!fixture.folders().backups().exists());
 }
 
 #[test]
 fn the_last_version_is_kept_aside() {
-    let desk = Desk::new();
-    let first = std::fs::read(desk.path()).unwrap();
-    let waiting = Waiting::new(&desk);
-    let opened = waiting.open(&desk);
+    let fixture = Fixture::new();
+    let first = std::fs::read(fixture.path()).unwrap();
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
     let mut seen = Some(opened.seen);
     let mut versions = vec![first];
     for seed in [2, 3] {
         let project = with_seed(&opened.file, seed);
-        let save = Save { path: desk.path(), file: opened.file.clone(), project, seen };
-        let Answer::Saved(_, Ok(saved)) = waiting.ask(Request::Save(save)) else { panic!("not saved") };
+        let save = SaveRequest { path: fixture.path(), file: opened.file.clone(), project, seen };
+        let StoreReply::Saved(_, Ok(saved)) = waiting.ask(StoreRequest::Save(save)) else {
+            panic!("not saved")
+        };
         assert_eq!(saved.note, None);
         seen = Some(saved.seen);
-        let backups: Vec<_> = std::fs::read_dir(desk.folders().backups()).unwrap().collect();
+        let backups: Vec<_> = std::fs::read_dir(fixture.folders().backups()).unwrap().collect();
         let [Ok(backup)] = &backups[..] else { panic!("{backups:?}") };
         assert!(backup.file_name().to_str().unwrap().starts_with("shot.json."));
         assert_eq!(std::fs::read(backup.path()).unwrap(), *versions.last().unwrap());
-        versions.push(std::fs::read(desk.path()).unwrap());
+        versions.push(std::fs::read(fixture.path()).unwrap());
     }
 }
 
 #[test]
 fn a_file_that_another_program_changed_is_replaced_only_when_asked() {
-    let desk = Desk::new();
-    let waiting = Waiting::new(&desk);
-    let opened = waiting.open(&desk);
-    std::fs::write(desk.path(), b"somebody else's work").unwrap();
+    let fixture = Fixture::new();
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
+    std::fs::write(fixture.path(), b"somebody else's work").unwrap();
     let project = with_seed(&opened.file, 2);
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
-    let Answer::ChangedOnDisk(save) = waiting.ask(Request::Save(save)) else { panic!("not noticed") };
-    assert_eq!(std::fs::read(desk.path()).unwrap(), b"somebody else's work");
-    assert!(matches!(waiting.ask(Request::Save(Save { seen: None, ..save })), Answer::Saved(_, Ok(_))));
-    assert_eq!(desk.file().project().seed, 2);
+    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let StoreReply::ChangedOnDisk(save) = waiting.ask(StoreRequest::Save(save)) else {
+        panic!("not noticed")
+    };
+    assert_eq!(std::fs::read(fixture.path()).unwrap(), b"somebody else's work");
+    assert!(matches!(
+        waiting.ask(StoreRequest::Save(SaveRequest { seen: None, ..save })),
+        StoreReply::Saved(_, Ok(_))
+    ));
+    assert_eq!(fixture.file().project().seed, 2);
 }
 
 #[test]
 fn a_file_that_was_deleted_is_no_changed_one() {
-    let desk = Desk::new();
-    let waiting = Waiting::new(&desk);
-    let opened = waiting.open(&desk);
-    std::fs::remove_file(desk.path()).unwrap();
+    let fixture = Fixture::new();
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
+    std::fs::remove_file(fixture.path()).unwrap();
     let project = with_seed(&opened.file, 3);
-    let save = Save { path: desk.path(), file: opened.file, project, seen: Some(opened.seen) };
-    assert!(matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(_))));
-    assert_eq!(desk.file().project().seed, 3);
+    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
+    assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
+    assert_eq!(fixture.file().project().seed, 3);
 }
 
 #[test]
 fn what_cannot_be_opened_or_saved_is_an_answer_and_changes_nothing() {
-    let desk = Desk::new();
-    let waiting = Waiting::new(&desk);
-    let none = desk.folder.path().join("none.json");
-    assert!(matches!(waiting.ask(Request::Open(none)), Answer::Opened(_, Err(_))));
-    let opened = waiting.open(&desk);
-    let before = std::fs::read(desk.path()).unwrap();
+    let fixture = Fixture::new();
+    let waiting = Waiting::new(&fixture);
+    let none = fixture.folder.path().join("none.json");
+    assert!(matches!(waiting.ask(StoreRequest::Open(none)), StoreReply::Opened(_, Err(_))));
+    let opened = waiting.open(&fixture);
+    let before = std::fs::read(fixture.path()).unwrap();
     let mut bad = opened.file.project().clone();
     bad.flow.gamma = 7.0;
     let save = |path: PathBuf, project: Project| {
         let (file, project) = (opened.file.clone(), Arc::new(project));
-        match waiting.ask(Request::Save(Save { path, file, project, seen: None })) {
-            Answer::Saved(_, Err(error)) => error.to_string(),
+        match waiting.ask(StoreRequest::Save(SaveRequest { path, file, project, seen: None })) {
+            StoreReply::Saved(_, Err(error)) => error.to_string(),
             other => panic!("{other:?}"),
         }
     };
-    assert!(save(desk.path(), bad).contains("flow.gamma"));
+    assert!(save(fixture.path(), bad).contains("flow.gamma"));
     let good = opened.file.project().clone();
-    assert!(save(desk.folder.path().join("no/such/folder.json"), good.clone()).contains("no/such"));
-    assert!(save(desk.folder.path().to_owned(), good.clone()).contains("folder"));
-    let mut protected = std::fs::metadata(desk.path()).unwrap().permissions();
+    assert!(save(fixture.folder.path().join("no/such/folder.json"), good.clone()).contains("no/such"));
+    assert!(save(fixture.folder.path().to_owned(), good.clone()).contains("folder"));
+    let mut protected = std::fs::metadata(fixture.path()).unwrap().permissions();
     protected.set_readonly(true);
-    std::fs::set_permissions(desk.path(), protected).unwrap();
-    assert!(save(desk.path(), good).contains("write-protected"));
-    assert_eq!(std::fs::read(desk.path()).unwrap(), before);
+    std::fs::set_permissions(fixture.path(), protected).unwrap();
+    assert!(save(fixture.path(), good).contains("write-protected"));
+    assert_eq!(std::fs::read(fixture.path()).unwrap(), before);
 }
 
 #[cfg(unix)]
 #[test]
 fn saving_through_a_link_writes_the_file_behind_it() {
-    let desk = Desk::new();
-    let link = desk.folder.path().join("link.json");
+    let fixture = Fixture::new();
+    let link = fixture.folder.path().join("link.json");
     std::os::unix::fs::symlink("shot.json", &link).unwrap();
-    let waiting = Waiting::new(&desk);
-    let opened = waiting.open(&desk);
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
     let project = with_seed(&opened.file, 2);
-    let save = Save { path: link.clone(), file: opened.file, project, seen: Some(opened.seen) };
-    assert!(matches!(waiting.ask(Request::Save(save)), Answer::Saved(_, Ok(_))));
+    let save = SaveRequest { path: link.clone(), file: opened.file, project, seen: Some(opened.seen) };
+    assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert!(link.is_symlink());
-    assert_eq!(desk.file().project().seed, 2);
+    assert_eq!(fixture.file().project().seed, 2);
 }
 
 #[test]
 fn what_was_asked_for_is_done_before_the_saver_goes() {
-    let desk = Desk::new();
-    let waiting = Waiting::new(&desk);
-    let file = desk.file();
+    let fixture = Fixture::new();
+    let waiting = Waiting::new(&fixture);
+    let file = fixture.file();
     let project = with_seed(&file, 2);
-    waiting.saver.ask(Request::Save(Save { path: desk.path(), file, project, seen: None }));
+    waiting.saver.ask(StoreRequest::Save(SaveRequest { path: fixture.path(), file, project, seen: None }));
     let mut preferences = Preferences::default();
-    preferences.remember(&desk.path());
-    waiting.saver.ask(Request::Remember(Box::new(preferences.clone())));
+    preferences.add_recent(&fixture.path());
+    waiting.saver.ask(StoreRequest::Remember(Box::new(preferences.clone())));
     drop(waiting);
-    assert_eq!(desk.file().project().seed, 2);
-    assert_eq!(Preferences::load(&desk.folders().config), (preferences, None));
+    assert_eq!(fixture.file().project().seed, 2);
+    assert_eq!(Preferences::load(&fixture.folders().config), (preferences, None));
 }
 
 #[test]
 fn lost_work_is_looked_for_and_discarded_by_the_saver() {
-    let desk = Desk::new();
-    let journal = Journal::start(desk.recovery());
-    journal.note(desk.note(5));
+    let fixture = Fixture::new();
+    let journal = Journal::start(fixture.recovery());
+    journal.note(fixture.note(5));
     drop(journal);
-    let waiting = Waiting::new(&desk);
-    let Answer::Lost(mut found) = waiting.ask(Request::LookForLost) else { panic!("no answer") };
-    waiting.saver.ask(Request::Discard(Box::new(found.pop().unwrap())));
-    assert!(matches!(waiting.ask(Request::LookForLost), Answer::Lost(none) if none.is_empty()));
-    assert_eq!(desk.files_in_recovery(), 0);
+    let waiting = Waiting::new(&fixture);
+    let StoreReply::Lost(mut found) = waiting.ask(StoreRequest::LookForLost) else { panic!("no answer") };
+    waiting.saver.ask(StoreRequest::Discard(Box::new(found.pop().unwrap())));
+    assert!(matches!(waiting.ask(StoreRequest::LookForLost), StoreReply::Lost(none) if none.is_empty()));
+    assert_eq!(fixture.files_in_recovery(), 0);
 }

@@ -1,6 +1,6 @@
 //! The time line in a window without a screen: retiming, adding, scrubbing, spans.
 
-use crate::desk::Table;
+use crate::window::Editor;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;
@@ -21,19 +21,19 @@ const PROJECT: &str = r#"{ "lightloom": 1, "name": "Time",
         { "type": "wall", "points": [[0.6, 0.1], [0.6, 0.4]], "span": { "from": 25, "to": 55 } } ] }"#;
 
 struct Window {
-    table: Table,
+    editor: Editor,
     timeline: Timeline,
 }
 
 fn window() -> Harness<'static, Window> {
-    let state = Window { table: Table::of(PROJECT), timeline: Timeline::default() };
+    let state = Window { editor: Editor::with_text(PROJECT), timeline: Timeline::default() };
     let mut harness =
         Harness::builder().with_size([1000.0, 280.0]).with_step_dt(0.02).with_max_steps(16).build_ui_state(
             |ui, window: &mut Window| {
                 let ctx = ui.ctx().clone();
-                let Window { table, timeline } = window;
+                let Window { editor, timeline } = window;
                 egui::CentralPanel::default()
-                    .show(ui, |ui| table.frame(&ctx, |desk| timeline.show(ui, desk)));
+                    .show(ui, |ui| editor.frame(&ctx, |editor| timeline.show(ui, editor)));
             },
             state,
         );
@@ -71,11 +71,11 @@ fn dragging_a_key_retimes_it_in_one_undo_step() {
     let mut harness = window();
     let (at, step) = (centre(&harness, "Key frame at 21"), per_frame(&harness));
     drag(&mut harness, at, Vec2::new(10.0 * step, 0.0), false);
-    let table = &mut harness.state_mut().table;
-    assert_eq!(table.keys(), [1, 31, 61]);
-    table.document.undo();
-    assert_eq!(table.keys(), [1, 21, 61]);
-    assert_eq!(table.document.history().undoes(), None, "one step alone");
+    let editor = &mut harness.state_mut().editor;
+    assert_eq!(editor.key_frames(), [1, 31, 61]);
+    editor.document.undo();
+    assert_eq!(editor.key_frames(), [1, 21, 61]);
+    assert_eq!(editor.document.history().undoes(), None, "one step alone");
 }
 
 #[test]
@@ -83,10 +83,10 @@ fn a_key_cannot_pass_its_neighbours() {
     let mut harness = window();
     let at = centre(&harness, "Key frame at 21");
     drag(&mut harness, at, Vec2::new(900.0, 0.0), false);
-    assert_eq!(harness.state().table.keys(), [1, 60, 61]);
+    assert_eq!(harness.state().editor.key_frames(), [1, 60, 61]);
     let at = centre(&harness, "Key frame at 60");
     drag(&mut harness, at, Vec2::new(-900.0, 0.0), false);
-    assert_eq!(harness.state().table.keys(), [1, 2, 61]);
+    assert_eq!(harness.state().editor.key_frames(), [1, 2, 61]);
 }
 
 #[test]
@@ -94,16 +94,16 @@ fn escape_breaks_a_drag_off_and_leaves_nothing() {
     let mut harness = window();
     let at = centre(&harness, "Key frame at 21");
     drag(&mut harness, at, Vec2::new(90.0, 0.0), true);
-    assert_ne!(harness.state().table.keys(), [1, 21, 61]);
+    assert_ne!(harness.state().editor.key_frames(), [1, 21, 61]);
     harness.key_press(Key::Escape);
     harness.step();
     harness.hover_at(at + Vec2::new(200.0, 0.0));
     harness.step();
     harness.drop_at(at + Vec2::new(200.0, 0.0));
     harness.step();
-    let table = &harness.state().table;
-    assert_eq!(table.keys(), [1, 21, 61]);
-    assert_eq!(table.document.history().undoes(), None);
+    let editor = &harness.state().editor;
+    assert_eq!(editor.key_frames(), [1, 21, 61]);
+    assert_eq!(editor.document.history().undoes(), None);
 }
 
 #[test]
@@ -112,8 +112,8 @@ fn scrubbing_the_ruler_moves_the_playhead_and_changes_nothing() {
     let (from, step) = (centre(&harness, "Key frame at 1,"), per_frame(&harness));
     let ruler = harness.get_by_label("Time ruler").rect();
     drag(&mut harness, Pos2::new(from.x, ruler.center().y), Vec2::new(39.0 * step, 0.0), false);
-    assert_eq!(harness.state().table.session.playhead, 40);
-    assert!(!harness.state().table.document.is_unsaved());
+    assert_eq!(harness.state().editor.session.playhead, 40);
+    assert!(!harness.state().editor.document.is_unsaved());
 }
 
 #[test]
@@ -133,14 +133,14 @@ fn a_double_click_adds_a_key_and_the_menu_deletes_it() {
         }
     }
     harness.run_ok();
-    assert_eq!(harness.state().table.keys(), [1, 21, 41, 61]);
+    assert_eq!(harness.state().editor.key_frames(), [1, 21, 41, 61]);
     harness.get_by_label_contains("Key frame at 41").click_secondary();
     harness.run_ok();
     harness.get_by_role_and_label(Role::Button, "Delete").click();
     harness.run_ok();
-    assert_eq!(harness.state().table.keys(), [1, 21, 61]);
-    harness.state_mut().table.document.undo();
-    assert_eq!(harness.state().table.keys(), [1, 21, 41, 61]);
+    assert_eq!(harness.state().editor.key_frames(), [1, 21, 61]);
+    harness.state_mut().editor.document.undo();
+    assert_eq!(harness.state().editor.key_frames(), [1, 21, 41, 61]);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn the_menu_sets_the_easing() {
     harness.run_ok();
     harness.get_by_label("Linear").click();
     harness.run_ok();
-    let project = harness.state().table.document.project().clone();
+    let project = harness.state().editor.document.project().clone();
     assert_eq!(project.keys[0].ease, lightloom_core::project::Ease::Linear);
 }
 
@@ -161,24 +161,24 @@ fn the_ends_of_a_bar_retime_its_constraint_and_undo_takes_it_back() {
     let step = per_frame(&harness);
     drag(&mut harness, at, Vec2::new(10.0 * step, 0.0), false);
     let span = |harness: &Harness<Window>, i: usize| {
-        harness.state().table.document.project().constraints[i].span().copied()
+        harness.state().editor.document.project().constraints[i].span().copied()
     };
     let after = span(&harness, 0).unwrap();
     assert_eq!((after.from, after.to, after.fade), (10, 40, 4));
-    harness.state_mut().table.document.undo();
+    harness.state_mut().editor.document.undo();
     assert_eq!(span(&harness, 0).unwrap().to, 30);
 }
 
 #[test]
 fn a_selected_constraint_without_span_has_a_bar_that_gives_it_one() {
     let mut harness = window();
-    assert!(harness.query_by_label_contains("Wall 2, acts always").is_none());
-    harness.state_mut().table.session.selection = Selection::one(1);
+    assert!(harness.query_by_label_contains("Wall 2, always active").is_none());
+    harness.state_mut().editor.session.selection = Selection::one(1);
     harness.run_ok();
     let at = centre(&harness, "Wall 2, first frame");
     let by = Vec2::new(9.0 * per_frame(&harness), 0.0);
     drag(&mut harness, at, by, false);
-    let project = harness.state().table.document.project().clone();
+    let project = harness.state().editor.document.project().clone();
     let Constraint::Wall(wall) = &project.constraints[1] else { panic!("a wall") };
     let span = wall.span.unwrap();
     assert_eq!((span.from, span.to), (10, 61));
@@ -198,14 +198,14 @@ fn every_transport_button_does_its_command() {
     ] {
         harness.get_by_role_and_label(Role::Button, name).click();
         harness.run_ok();
-        assert_eq!(harness.state().table.session.playhead, frame, "{name}");
+        assert_eq!(harness.state().editor.session.playhead, frame, "{name}");
     }
     harness.get_by_role_and_label(Role::Button, "Loop").click();
     harness.run_ok();
-    assert!(!harness.state().table.session.looping);
+    assert!(!harness.state().editor.session.looping);
     harness.get_by_role_and_label(Role::Button, "Play or pause").click();
     harness.run_ok();
-    assert!(harness.state().table.session.playing);
+    assert!(harness.state().editor.session.playing);
 }
 
 #[test]
@@ -213,17 +213,17 @@ fn marks_bound_what_is_played_and_never_cross() {
     let mut harness = window();
     let run = |harness: &mut Harness<Window>, frame: i32, command: Command| {
         let ctx = harness.ctx.clone();
-        let table = &mut harness.state_mut().table;
-        table.session.playhead = frame;
-        table.frame(&ctx, |desk| desk.ask(Action::Command(command)));
+        let editor = &mut harness.state_mut().editor;
+        editor.session.playhead = frame;
+        editor.frame(&ctx, |editor| editor.ask(Action::Command(command)));
     };
     run(&mut harness, 10, Command::MarkIn);
     run(&mut harness, 30, Command::MarkOut);
-    assert_eq!(harness.state().table.session.marks, [Some(10), Some(30)]);
+    assert_eq!(harness.state().editor.session.marks, [Some(10), Some(30)]);
     run(&mut harness, 40, Command::MarkIn);
-    assert_eq!(harness.state().table.session.marks, [Some(40), None]);
+    assert_eq!(harness.state().editor.session.marks, [Some(40), None]);
     run(&mut harness, 20, Command::ClearMarks);
-    assert_eq!(harness.state().table.session.marks, [None, None]);
+    assert_eq!(harness.state().editor.session.marks, [None, None]);
 }
 
 #[test]

@@ -4,6 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use glam::Vec2;
+use lightloom_core::Progress;
+use lightloom_core::export::load_fields;
+use lightloom_core::files::npy;
+use lightloom_core::files::npz::NpzReader;
+use lightloom_core::flow::{FieldTrajectories, Trajectories as _};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -128,17 +134,60 @@ fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
     let out = folder.path().join("fit");
     run(&["fit", text(&project), "--out", text(&out)]);
     assert_eq!(frames_of(&out), ["fields.npz", "flux.npy", "summary.json", "tracks.npy"]);
-    let npy = |name: &str| npyz::NpyFile::new(fs::File::open(out.join(name)).unwrap()).unwrap();
+    let read = |name: &str| npy::parse(&fs::read(out.join(name)).unwrap()).unwrap();
     let photons = 4000;
-    assert_eq!(npy("tracks.npy").shape(), [9, photons, 2]);
-    assert_eq!(npy("flux.npy").shape(), [9, photons, 3]);
-    let tracks = npy("tracks.npy").into_vec::<f32>().unwrap();
+    let ((of_tracks, tracks), (of_flux, flux)) = (read("tracks.npy"), read("flux.npy"));
+    assert_eq!(of_tracks.shape, [9, photons, 2]);
+    assert_eq!(of_flux.shape, [9, photons, 3]);
     assert!(tracks.iter().all(|c| c.is_finite()));
-    let flux = npy("flux.npy").into_vec::<f32>().unwrap();
     let totals: Vec<f64> =
         flux.chunks(3 * photons as usize).map(|step| step.iter().map(|f| f64::from(*f)).sum()).collect();
     // 12 000 f32 values around 1e-5 each: their rounding is far below 1e-6 of the sum.
     assert!(totals.iter().all(|total| (total / totals[0] - 1.0).abs() < 1e-6), "{totals:?}");
+}
+
+#[test]
+fn fields_that_are_read_back_carry_the_photons_of_the_tracks() {
+    let (folder, project) = letters();
+    let plain = fs::read_to_string(&project).unwrap();
+    let swirls = r#""turbulence":{"strength":20,"grids":[20,30],"rate":2.5},"grid":32"#;
+    for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
+        fs::write(&project, text_of).unwrap();
+        let out = folder.path().join("fit");
+        run(&["fit", text(&project), "--out", text(&out)]);
+        let (_, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
+        let rows: Vec<Vec<Vec2>> =
+            tracks.chunks(8000).map(|row| row.chunks(2).map(Vec2::from_slice).collect()).collect();
+        let segments = load_fields(&out.join("fields.npz")).unwrap();
+        assert!(matches!(segments[..], [ref only] if (only.segment, only.caustic) == (0, None)));
+        let mut carrier = FieldTrajectories::new(&segments[0].fields, &rows[0], &rows[8]);
+        let mut positions = vec![Vec2::ZERO; 4000];
+        for (step, wanted) in rows.iter().enumerate() {
+            carrier.positions_at(step as f64 / 8.0, &mut positions, &Progress::new()).unwrap();
+            assert_eq!(&positions, wanted, "step {step}");
+        }
+    }
+}
+
+#[test]
+fn fields_fitted_between_walls_are_read_back_without_the_walls() {
+    let (folder, project) = letters();
+    let mut drawn: Value = serde_json::from_str(&fs::read_to_string(&project).unwrap()).unwrap();
+    drawn["constraints"] = json!([{ "type": "wall", "points": [[0.45, 0.4], [0.55, 0.6]] }]);
+    fs::write(&project, drawn.to_string()).unwrap();
+    run(&["fit", text(&project), "--out", text(folder.path())]);
+    let (header, tracks) = npy::parse(&fs::read(folder.path().join("tracks.npy")).unwrap()).unwrap();
+    assert_eq!(header.shape, [33, 4000, 2]);
+    let [first, last] = [0, 32].map(|step| -> Vec<Vec2> {
+        tracks[8000 * step..8000 * (step + 1)].chunks(2).map(Vec2::from_slice).collect()
+    });
+    let segments = load_fields(&folder.path().join("fields.npz")).unwrap();
+    let fields = &segments[0].fields;
+    assert_eq!((fields.steps(), fields.substeps()), (32, 4));
+    let mut carrier = FieldTrajectories::new(fields, &first, &last);
+    let mut positions = vec![Vec2::ZERO; 4000];
+    carrier.positions_at(1.0, &mut positions, &Progress::new()).unwrap();
+    assert_eq!(positions, last);
 }
 
 #[test]
@@ -175,10 +224,10 @@ fn turbulence_is_left_out_or_told_of_and_exported() {
 
     let out = folder.path().join("out");
     run(&["fit", text(&project), "--out", text(&out)]);
-    let mut fields = npyz::npz::NpzArchive::open(out.join("fields.npz")).unwrap();
-    let noise = fields.by_name("noise_0_30").unwrap().unwrap();
+    let fields = fs::read(out.join("fields.npz")).unwrap();
+    let (noise, _) = NpzReader::new(&fields).unwrap().array("noise_0_30").unwrap().unwrap();
     // Of 8 steps the fade needs 8 fits; 30 cells have 33 coefficients.
-    assert_eq!(noise.shape(), [8, 33, 33]);
+    assert_eq!(noise.shape, [8, 33, 33]);
     let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
     assert!((summary["turbulence_rms"].as_f64().unwrap() - 0.2).abs() < 1e-6);
 }
@@ -290,9 +339,8 @@ fn rows_of_two_point_files_are_paired_as_given() {
     let ends = |matching: &str| {
         let out = folder.path().join(matching);
         run(&["fit", text(&project(matching)), "--out", text(&out), "--photons", "3"]);
-        let tracks = npyz::NpyFile::new(fs::File::open(out.join("tracks.npy")).unwrap()).unwrap();
-        assert_eq!(tracks.shape(), [5, 3, 2]);
-        let tracks = tracks.into_vec::<f32>().unwrap();
+        let (header, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
+        assert_eq!(header.shape, [5, 3, 2]);
         tracks[24..].to_vec()
     };
     assert_eq!(ends("given"), [0.8, 0.3, 0.2, 0.3, 0.5, 0.1]);

@@ -1,11 +1,20 @@
 //! The program itself, started as a script or a hand starts it.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+use std::path::Path;
+
 mod cli;
 mod compare;
-mod crash;
+#[path = "../letters/mod.rs"]
+mod letters;
 mod real_window;
+mod report;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 #[path = "../window/mod.rs"]
 mod window;
+
+/// The top of the repository.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}

@@ -15,7 +15,7 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::action::Action;
 use lightloom::editor::command::Command as EditorCommand;
-use lightloom::editor::export::Wish;
+use lightloom::editor::export::ExportOptions;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
@@ -197,7 +197,7 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     screen.tool(&["type", "1-5"]);
     screen.key("Tab");
     screen.click(middle(export));
-    let folder = Wish::of(&saved(), Some(&path)).folder;
+    let folder = ExportOptions::of(&saved(), Some(&path)).folder;
     screen.until("the export", || folder.join("summary.json").is_file());
     let pictures =
         fs::read_dir(&folder).unwrap().filter_map(|entry| entry.unwrap().file_name().into_string().ok());

@@ -1,12 +1,13 @@
 //! The report: what exactness of the flow and of the matching costs, read from its tables.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress};
-use lightloom_report::{Cell, Chapter, Effort, Part, Report, Table, Tone, report};
+use lightloom_report::{Cell, Effort, Part, Report, Section, Table, Tone, report};
 use serde_json::{Value, json};
 
 fn measured(path: &Path, section: &str, progress: &Progress) -> Result<Report, Error> {
@@ -26,13 +27,19 @@ fn changed(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Report {
     report
 }
 
-fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Chapter {
-    changed(section, change).chapters.into_iter().next().unwrap()
+fn chapter(section: &str, change: impl FnOnce(&mut Value, &Path)) -> Section {
+    changed(section, change).sections.into_iter().next().unwrap()
 }
 
 /// A flow that a fine grid resolves well: smooth, and without swirls.
 fn smooth(project: &mut Value) {
     project["flow"] = json!({ "grid": 24, "steps": 16, "guides": 1500, "alpha": 1e-2 });
+}
+
+/// What the section of the flow says of it, measured once for all tests.
+fn smooth_flow() -> &'static Section {
+    static SECTION: OnceLock<Section> = OnceLock::new();
+    SECTION.get_or_init(|| chapter("flow", |project, _| smooth(project)))
 }
 
 /// Across the way of both letters.
@@ -41,7 +48,7 @@ fn wall(project: &mut Value) {
         json!([{ "type": "wall", "points": [[0.3, 0.5], [0.7, 0.5]], "thickness": 0.04 }]);
 }
 
-fn table<'a>(chapter: &'a Chapter, name: &str) -> &'a Table {
+fn table<'a>(chapter: &'a Section, name: &str) -> &'a Table {
     chapter.tables().find(|table| table.name == name).unwrap()
 }
 
@@ -71,7 +78,7 @@ fn column(table: &Table, name: &str, column: &str) -> Vec<f64> {
         .collect()
 }
 
-fn words(chapter: &Chapter) -> String {
+fn words(chapter: &Section) -> String {
     let texts = chapter.parts.iter().filter_map(|part| match part {
         Part::Text(text) => Some(text.as_str()),
         _ => None,
@@ -81,8 +88,8 @@ fn words(chapter: &Chapter) -> String {
 
 #[test]
 fn errors_of_a_flow_fall_as_it_is_worked_out_more_exactly() {
-    let chapter = chapter("flow", |project, _| smooth(project));
-    let (alone, all) = (table(&chapter, "flow_alone"), table(&chapter, "flow"));
+    let chapter = smooth_flow();
+    let (alone, all) = (table(chapter, "flow_alone"), table(chapter, "flow"));
     assert_eq!(column(alone, "steps", "value"), [2.0, 4.0, 8.0, 16.0, 32.0, 48.0]);
     let steps = column(alone, "steps", "rms (plane)");
     let doubt = column(all, "reference", "rms (plane)")[0];
@@ -102,8 +109,8 @@ fn errors_of_a_flow_fall_as_it_is_worked_out_more_exactly() {
 
 #[test]
 fn a_table_of_the_flow_keeps_its_word() {
-    let chapter = chapter("flow", |project, _| smooth(project));
-    let all = table(&chapter, "flow");
+    let chapter = smooth_flow();
+    let all = table(chapter, "flow");
     let at = |name: &str| all.columns.iter().position(|column| *column == name).unwrap();
     let (seconds, rms, front) = (at("seconds"), at("rms (plane)"), at("on the front"));
     let rows = &all.rows[..all.rows.len() - 1];
@@ -120,7 +127,7 @@ fn a_table_of_the_flow_keeps_its_word() {
         let beaten = offers.iter().any(|other| other.0 <= offer.0 && other.1 <= offer.1 && other != offer);
         assert_eq!(text(&row.cells[front]) == "no", beaten, "{row:?}");
     }
-    for row in &table(&chapter, "flow_cheapest").rows[..3] {
+    for row in &table(chapter, "flow_cheapest").rows[..3] {
         let (wanted, found) = (number(&row.cells[0]), number(&row.cells[2]));
         let best = offers.iter().filter(|offer| offer.1 <= wanted).map(|offer| offer.0).reduce(f64::min);
         match best {
@@ -203,8 +210,8 @@ fn rows_as_given_are_measured_as_they_are() {
 fn a_method_without_fields_has_no_flow_to_measure() {
     let linear = |project: &mut Value, _: &Path| project["method"] = json!("linear");
     let report = changed("flow", linear);
-    assert!(report.chapters.is_empty() && report.absent[0].why.contains("fits no fields"));
-    assert_eq!(changed("matching", linear).chapters.len(), 1);
+    assert!(report.sections.is_empty() && report.absent[0].why.contains("fits no fields"));
+    assert_eq!(changed("matching", linear).sections.len(), 1);
 }
 
 #[test]

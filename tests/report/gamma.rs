@@ -1,14 +1,13 @@
 //! The report: what gamma does, measured through the whole road.
 
 use std::path::Path;
-use std::process::Command;
+use std::sync::OnceLock;
 
 use lightloom_core::engine::Engine;
 use lightloom_core::flow::FitKind;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress};
 use lightloom_report::{GammaResponse, Response, gamma_response};
-use serde_json::Value;
 
 use crate::letters::project;
 
@@ -17,15 +16,23 @@ fn report(path: &Path, progress: &Progress) -> Result<GammaResponse, Error> {
     gamma_response(&engine, &Project::load(path).unwrap(), progress)
 }
 
+/// The letters as measured, once for all tests.
+fn measured() -> &'static GammaResponse {
+    static MEASURED: OnceLock<GammaResponse> = OnceLock::new();
+    MEASURED.get_or_init(|| {
+        let (_folder, path) = project(&["c", "s"]);
+        report(&path, &Progress::new()).unwrap()
+    })
+}
+
 fn rows(response: &GammaResponse, fit: FitKind) -> Vec<&Response> {
     response.rows.iter().filter(|row| row.fit == fit).collect()
 }
 
 #[test]
 fn gamma_acts_evenly_in_the_separate_blend_and_early_in_the_joint_fit() {
-    let (_folder, path) = project(&["c", "s"]);
-    let response = report(&path, &Progress::new()).unwrap();
-    let (joint, separate) = (rows(&response, FitKind::Joint), rows(&response, FitKind::Separate));
+    let response = measured();
+    let (joint, separate) = (rows(response, FitKind::Joint), rows(response, FitKind::Separate));
     let (liquid, gradient) = (separate[0], separate[separate.len() - 1]);
     // A liquid has no divergence and a gradient no curl; the turbulence of the project is left out of both.
     assert!(
@@ -55,9 +62,9 @@ fn gamma_acts_evenly_in_the_separate_blend_and_early_in_the_joint_fit() {
 #[test]
 fn the_plot_and_the_table_hold_every_row() {
     let (_folder, path) = project(&["c", "s"]);
-    let response = report(&path, &Progress::new()).unwrap();
-    assert!(report(&path, &Progress::new()).unwrap() == response, "the same seed, the same numbers");
-    let chapter = response.chapter();
+    let response = measured();
+    assert!(report(&path, &Progress::new()).unwrap() == *response, "the same seed, the same numbers");
+    let chapter = response.section();
     let csv = String::from_utf8(chapter.tables().next().unwrap().to_csv().unwrap()).unwrap();
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines.len(), 1 + response.rows.len());
@@ -83,30 +90,4 @@ fn a_cancelled_report_says_so() {
     let progress = Progress::new();
     progress.cancel();
     assert!(matches!(report(&path, &progress), Err(Error::Cancelled)));
-}
-
-#[test]
-fn the_command_writes_a_page_that_needs_no_other_file_and_its_tables() {
-    let (folder, path) = project(&["c", "s"]);
-    let out = folder.path().join("out");
-    let run = |extra: &[&str]| {
-        let args = ["report", path.to_str().unwrap(), "--out", out.to_str().unwrap(), "--quick"];
-        Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).args(extra).output().unwrap()
-    };
-    let done = run(&["--only", "gamma"]);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("<svg") && page.contains("What gamma does"));
-    let needs_others = ["src=\"http", "href=\"http", "<script", "<link"];
-    assert!(needs_others.iter().all(|part| !page.contains(part)), "the page stands alone");
-    assert!(!page.contains("Small <letters>") && page.contains("Small &lt;letters&gt;"), "text is no markup");
-    assert!(out.join("report/gamma.svg").is_file() && out.join("report/gamma.csv").is_file());
-    let json: Value = serde_json::from_slice(&run(&["--only", "gamma", "--json"]).stdout).unwrap();
-    assert_eq!(json["chapters"][0]["parts"][2]["table"]["rows"].as_array().unwrap().len(), 26);
-    let refused = run(&["--only", "gama"]);
-    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(
-        refused.status.code() == Some(2) && message.contains("gama") && message.contains("gamma"),
-        "{message}"
-    );
 }

@@ -5,11 +5,13 @@ use std::path::Path;
 
 mod costs;
 mod gamma;
+#[path = "../letters/mod.rs"]
 mod letters;
 mod light;
 mod stability;
+mod text;
 
 /// The top of the repository.
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }

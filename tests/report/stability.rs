@@ -1,10 +1,9 @@
 //! The stiff and the extreme, at reduced size: every row holds the bound that it states beforehand.
 
-use std::process::Command;
 use std::sync::OnceLock;
 
 use lightloom_core::{Error, Progress};
-use lightloom_report::{Bound, Size, Stability, StabilityRow, stability};
+use lightloom_report::{Bound, Effort, Stability, StabilityRow, stability};
 
 /// psi and phi that are each other's harmonic conjugates have no velocity together, and only the bending tells them apart: where
 /// it counts for a trillionth, multigrid with a pointwise smoother sees next to nothing of them.
@@ -29,7 +28,7 @@ const KNOWN: [(&str, &str, &str); 7] = [
 
 fn table() -> &'static Stability {
     static TABLE: OnceLock<Stability> = OnceLock::new();
-    TABLE.get_or_init(|| stability(Size::Reduced, &Progress::new()).unwrap())
+    TABLE.get_or_init(|| stability(Effort::Quick, &Progress::new()).unwrap())
 }
 
 #[test]
@@ -66,7 +65,7 @@ fn nothing_is_not_a_number_not_even_where_a_bound_is_missed() {
 fn the_files_hold_every_row_and_mark_those_that_miss() {
     let folder = tempfile::tempdir().unwrap();
     let table = table();
-    let files = table.report(Size::Reduced).write(folder.path(), "stability").unwrap();
+    let files = table.report(Effort::Quick).write(folder.path(), "stability").unwrap();
     let read = |end: &str| {
         let path = files.iter().find(|path| path.to_string_lossy().ends_with(end)).unwrap();
         std::fs::read_to_string(path).unwrap()
@@ -82,19 +81,5 @@ fn the_files_hold_every_row_and_mark_those_that_miss() {
 fn a_cancelled_table_says_so() {
     let progress = Progress::new();
     progress.cancel();
-    assert!(matches!(stability(Size::Reduced, &progress), Err(Error::Cancelled)));
-}
-
-#[test]
-fn the_command_takes_a_project_or_the_table_and_one_of_them() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    for args in
-        [&["report"][..], &["report", "a.json", "--stability"], &["report", "--stability", "--only", "time"]]
-    {
-        let run =
-            Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).arg("--out").arg(&out).output().unwrap();
-        assert_eq!(run.status.code(), Some(2), "{args:?}: {}", String::from_utf8_lossy(&run.stderr));
-    }
-    assert!(!out.exists());
+    assert!(matches!(stability(Effort::Quick, &progress), Err(Error::Cancelled)));
 }

@@ -1,19 +1,23 @@
-//! A directed line: flow here, this way. Term (6).
+//! Directed lines that the flow follows, Term (6).
 //!
-//! The line asks the field for its own direction, along itself and, ever less, up to `width` beside it; how strongly is
-//! beta times its weight; beyond three widths it changes nothing. Its speed is that of the photons around it, times a factor, so that it steers and does not
-//! hurry. Artists know the idea from Houdini's POP Curve Incompressible Flow, which is gamma 0.
+//! A line asks the field for its own direction, along itself and, with falling weight, up to `width` beside it; its
+//! strength is beta times its weight; beyond three widths it changes nothing. The speed asked for is that of the photons
+//! around it times a factor. Houdini's POP Curve Incompressible Flow is the same idea at gamma 0.
 
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, is_false, stroke};
-use crate::{Error, Result};
+use super::common::{Common, enabled, is_false};
+use super::span::{Span, Window};
+use super::stroke;
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// Distance of the samples along a line, plane units: half a cell of the default grid.
 const SPACING: f32 = 1.0 / 256.0;
-/// Most samples along one line.
+/// Limit of samples along one line.
 const MOST_SAMPLES: usize = 2000;
 /// Samples across a line.
 const ACROSS: usize = 9;
@@ -21,6 +25,7 @@ const ACROSS: usize = 9;
 /// A line that the light shall follow, from its first point to its last.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct DirectedLine {
     /// The artist's name for it.
     #[serde(default)]
@@ -28,50 +33,63 @@ pub struct DirectedLine {
     /// Points in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
     /// 10000 points.
     pub points: Vec<[f32; 2]>,
-    /// How strongly it pulls, 0 to 1000: a factor on `flow.beta`. Default 1.
-    #[serde(default = "one")]
+    /// Factor on `flow.beta` ([`Self::WEIGHT`]).
+    #[serde(default = "default_weight")]
     pub weight: f32,
-    /// Its speed over that of the light around it, 0 to 100. Default 1.
-    #[serde(default = "one")]
+    /// Its speed over that of the light around it ([`Self::SPEED`]).
+    #[serde(default = "default_speed")]
     pub speed: f32,
-    /// How far beside the line it pulls, ever less, in plane units, 0.001 to 1. Default 0.05.
+    /// Reach to each side, plane units ([`Self::WIDTH`]).
     #[serde(default = "default_width")]
     pub width: f32,
     /// The frames during which it pulls (default: all).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<Span>,
-    /// Whether it pulls at all (default true).
+    /// Whether it pulls at all.
     #[serde(default = "enabled")]
     pub enabled: bool,
-    /// Whether the editor keeps it from being changed (default false).
+    /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
 }
 
-fn one() -> f32 {
-    1.0
+settings! { DirectedLine {
+    /// Strength of the line: a factor on beta. Raise it where light ignores this line alone.
+    WEIGHT = Setting::real("constraints[directed_line].weight", [0.0, 1000.0], &[1.0]);
+    /// Speed along the line over that of the light around it. 1 steers without hurrying.
+    SPEED = Setting::real("constraints[directed_line].speed", [0.0, 100.0], &[1.0]);
+    /// How far beside the line it pulls, ever less; the plane's longer side is 1.
+    WIDTH = Setting::real("constraints[directed_line].width", [0.001, 1.0], &[0.05]).unit("plane units");
+} }
+
+fn default_weight() -> f32 {
+    DirectedLine::WEIGHT.value()
+}
+
+fn default_speed() -> f32 {
+    DirectedLine::SPEED.value()
 }
 
 fn default_width() -> f32 {
-    0.05
+    DirectedLine::WIDTH.value()
 }
 
-/// A line in one segment of the animation: the places where it pulls, and which way.
+/// A directed line in one segment of the animation, sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveLine {
-    /// Places along and beside the line, d_p of Term (6), plane units. One that pulls less stands for fewer places.
+    /// Sample points along and beside the line, d_p of Term (6), plane units; their density falls with the weight.
     pub positions: Vec<Vec2>,
     /// The line itself, at least two points.
     pub points: Vec<Vec2>,
-    /// Directions, of length 1.
+    /// Unit directions at the samples.
     pub directions: Vec<Vec2>,
     /// Factor on beta.
     pub weight: f32,
     /// Factor on the speed of the photons around it.
     pub speed: f32,
-    /// How far it pulls, plane units.
+    /// Distance up to which it acts, plane units.
     pub width: f32,
-    /// When it pulls, in the segment's flow time.
+    /// When it acts, in the segment's flow time.
     pub window: Window,
 }
 
@@ -81,8 +99,8 @@ impl DirectedLine {
         Self {
             name: String::new(),
             points,
-            weight: 1.0,
-            speed: 1.0,
+            weight: default_weight(),
+            speed: default_speed(),
             width: default_width(),
             span: None,
             enabled: true,
@@ -92,20 +110,14 @@ impl DirectedLine {
 
     pub(super) fn check(&self, place: &str) -> Result<()> {
         stroke::check(&self.points, place)?;
-        let check = |name: &str, value: f32, low: f32, high: f32| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
-        };
-        check("weight", self.weight, 0.0, 1000.0)?;
-        check("speed", self.speed, 0.0, 100.0)?;
-        check("width", self.width, 0.001, 1.0)?;
+        Self::WEIGHT.check(self.weight, place)?;
+        Self::SPEED.check(self.speed, place)?;
+        Self::WIDTH.check(self.width, place)?;
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 
-    /// The line as the fit sees it, on the rectangle `extent`; none where it does not pull, is but a dot, or lies off
-    /// the receiver.
+    /// The line in one segment, on the rectangle `extent`; none where it is disabled, without weight, no longer than a
+    /// point, or off the receiver.
     pub fn active(&self, window: Window, extent: Vec2) -> Option<ActiveLine> {
         if !self.enabled || self.weight == 0.0 {
             return None;
@@ -134,8 +146,8 @@ impl DirectedLine {
     }
 }
 
-/// Where the share `p` of the pull lies to the left: the inverse distribution function of the pull (1 - x^2)^2 over
-/// -1..=1, whose integral is (15 x - 10 x^3 + 3 x^5) / 16 + 1/2.
+/// The inverse distribution function of the weight (1 - x^2)^2 over -1..=1, whose integral is
+/// (15 x - 10 x^3 + 3 x^5) / 16 + 1/2.
 fn quantile(p: f32) -> f32 {
     let below = |x: f32| (15.0 * x - 10.0 * x.powi(3) + 3.0 * x.powi(5)) / 16.0 + 0.5;
     let (mut low, mut high) = (-1.0, 1.0);

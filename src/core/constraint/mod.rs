@@ -1,27 +1,30 @@
-//! What the artist draws to steer the light: directed lines it follows, walls it never crosses.
+//! Drawn constraints: directed lines that the light follows, walls that it never crosses.
 //!
-//! [`Constraint`] is what is saved. [`lines`](ActiveLine) pull at the fit; [`Barriers`] and [`Detour`] are the walls as
-//! the flow and the matching see them: what blocks a straight way, and which is the shortest way around.
+//! [`Constraint`] is the saved form. [`ActiveLine`] and [`ActiveWall`] are lines and walls within one segment;
+//! [`Barriers`] tells which straight moves a wall blocks, [`VisibilityGraph`] finds the shortest paths around walls.
 
 pub mod barrier;
-pub mod detour;
 pub mod directed_line;
 pub mod span;
 pub mod stroke;
+pub mod visibility;
 pub mod wall;
+
+mod common;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use barrier::Barriers;
-pub use detour::{Detour, Way};
+pub use common::Common;
 pub use directed_line::{ActiveLine, DirectedLine};
 pub use span::{Span, Window};
+pub use visibility::{VisibilityGraph, WallPath};
 pub use wall::{ActiveWall, Wall};
 
 use crate::Result;
 
-/// Something drawn on the plane, as saved.
+/// A constraint drawn on the plane, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Constraint {
@@ -67,20 +70,11 @@ impl Constraint {
         }
     }
 
-    /// When it acts; always where there is no span.
+    /// When it acts; always without a span.
     pub fn span(&self) -> Option<&Span> {
         match self {
             Self::DirectedLine(line) => line.span.as_ref(),
             Self::Wall(wall) => wall.span.as_ref(),
         }
     }
-}
-
-pub(crate) fn enabled() -> bool {
-    true
-}
-
-/// What is not said need not be written.
-pub(crate) fn is_false(value: &bool) -> bool {
-    !value
 }

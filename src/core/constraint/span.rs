@@ -1,25 +1,36 @@
-//! When a constraint acts.
+//! The time during which a constraint acts.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 use crate::{Error, Result};
 
 /// The frames during which a constraint acts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Span {
-    /// First frame, -1000000 to 1000000.
+    /// First frame.
     pub from: i32,
     /// Last frame, not before `from`.
     pub to: i32,
-    /// Frames over which a directed line sets in and fades out within the span, 0 to 100000, default 0. A wall stands
-    /// or does not.
+    /// Frames over which a directed line sets in and fades out ([`Self::FADE`]).
     #[serde(default)]
     pub fade: u32,
 }
 
-/// A span in the flow's time of one segment: rises over the first pair of times, falls over the second.
+settings! { Span {
+    /// First frame in which the constraint acts.
+    FROM = Setting::whole("constraints[].span.from", [-1e6, 1e6], &[]);
+    /// Last frame in which the constraint acts, not before the first.
+    TO = Setting::whole("constraints[].span.to", [-1e6, 1e6], &[]);
+    /// Frames over which a directed line sets in and fades out within its span. A wall stands or does not.
+    FADE = Setting::whole("constraints[].span.fade", [0.0, 100_000.0], &[0.0]).unit("frames");
+} }
+
+/// A span in the flow time of one segment: rises over the first pair of times, falls over the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Nothing before the first, full from the second on.
@@ -30,23 +41,19 @@ pub struct Window {
 
 impl Span {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        let frames = -1_000_000..=1_000_000;
-        if !frames.contains(&self.from) || !frames.contains(&self.to) || self.to < self.from {
-            let what = format!(
-                "frames {} to {}; give frames from -1000000 to 1000000, the last not before the first",
-                self.from, self.to
-            );
-            return Err(Error::value(format!("{place}.span"), what));
-        }
-        if self.fade > 100_000 {
-            let what = format!("is {} frames, must be 0 to 100000", self.fade);
-            return Err(Error::value(format!("{place}.span.fade"), what));
+        let place = format!("{place}.span");
+        Self::FROM.check(self.from, &place)?;
+        Self::TO.check(self.to, &place)?;
+        Self::FADE.check(self.fade, &place)?;
+        if self.to < self.from {
+            let what = format!("ends at frame {}, before it begins at {}", self.to, self.from);
+            return Err(Error::value(place, what));
         }
         Ok(())
     }
 
-    /// The window of the segment between two key frames; none where the span lies beside it. `time_of` tells the
-    /// flow's time, 0..=1, for the share of the frames that is over.
+    /// The window in the segment between two key frames; none where the span lies outside it. `time_of` maps the
+    /// elapsed fraction of the frames to flow time, 0..=1.
     pub fn window(&self, keys: [i32; 2], time_of: impl Fn(f64) -> f64) -> Option<Window> {
         if self.to < keys[0] || self.from > keys[1] {
             return None;
@@ -72,12 +79,12 @@ impl Window {
     /// From begin to end.
     pub const ALWAYS: Self = Self { rise: [f64::NEG_INFINITY; 2], fall: [f64::INFINITY; 2] };
 
-    /// How much it acts at flow time `t`, 0..=1.
+    /// Strength at flow time `t`, 0..=1.
     pub fn at(&self, t: f64) -> f64 {
         ramp(self.rise, t) * (1.0 - ramp_after(self.fall, t))
     }
 
-    /// Share of the segment in which it acts at all, 0..=1.
+    /// Fraction of the segment in which it acts, 0..=1.
     pub fn duration(&self) -> f64 {
         (self.fall[1].min(1.0) - self.rise[0].max(0.0)).max(0.0)
     }

@@ -4,14 +4,14 @@ use glam::Vec2;
 
 use crate::{Error, Result};
 
-/// Most points of one stroke.
+/// Limit of points of one stroke.
 const MOST_POINTS: usize = 10_000;
-/// Farthest point from the origin, plane units.
+/// Limit of |x| and |y| of a point, plane units.
 const FARTHEST: f32 = 10.0;
-/// Points closer than this are one, plane units: far below a cell of the finest grid.
+/// Distance below which two points count as one, plane units: far below a cell of the finest grid.
 const SAME: f32 = 1e-6;
 
-/// Refuses points that are not finite or far off the plane, and more of them than anybody draws.
+/// Refuses points that are not finite or far off the plane, and too many of them.
 pub(super) fn check(points: &[[f32; 2]], place: &str) -> Result<()> {
     if points.len() > MOST_POINTS {
         let what =
@@ -28,7 +28,7 @@ pub(super) fn check(points: &[[f32; 2]], place: &str) -> Result<()> {
     }
 }
 
-/// The points without repetitions; fewer than two are no stroke and come back empty.
+/// The points without repetitions; empty where fewer than two are left.
 pub fn clean(points: &[[f32; 2]]) -> Vec<Vec2> {
     let mut clean: Vec<Vec2> = Vec::with_capacity(points.len());
     for point in points.iter().map(|&p| Vec2::from(p)) {
@@ -59,21 +59,20 @@ pub fn resample(points: &[Vec2], spacing: f32, most: usize) -> Vec<(Vec2, Vec2)>
     let (mut segment, mut walked) = (0, 0.0);
     for i in 0..=steps {
         let wanted = total * i as f32 / steps as f32;
-        let mut way = points[segment].distance(points[segment + 1]);
-        while walked + way < wanted && segment + 2 < points.len() {
-            walked += way;
+        let mut length = points[segment].distance(points[segment + 1]);
+        while walked + length < wanted && segment + 2 < points.len() {
+            walked += length;
             segment += 1;
-            way = points[segment].distance(points[segment + 1]);
+            length = points[segment].distance(points[segment + 1]);
         }
         let (from, to) = (points[segment], points[segment + 1]);
-        let share = ((wanted - walked) / way).clamp(0.0, 1.0);
+        let share = ((wanted - walked) / length).clamp(0.0, 1.0);
         samples.push((from.lerp(to, share), (to - from).normalize_or_zero()));
     }
     samples
 }
 
-/// Fewer points, none of the left out farther than `tolerance` from the line that replaces it (Ramer 1972, Douglas and
-/// Peucker 1973).
+/// The stroke simplified to within `tolerance` (Ramer 1972, Douglas and Peucker 1973).
 pub fn simplify(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
     let mut keep = vec![false; points.len()];
     if let [first, .., last] = &mut keep[..] {
@@ -95,12 +94,12 @@ pub fn simplify(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
 
 /// The point of the segment from `a` to `b` that is nearest to `p`.
 pub fn nearest_on_segment(p: Vec2, a: Vec2, b: Vec2) -> Vec2 {
-    let way = b - a;
-    let squared = way.length_squared();
+    let along = b - a;
+    let squared = along.length_squared();
     if squared <= 0.0 {
         return a;
     }
-    a + way * ((p - a).dot(way) / squared).clamp(0.0, 1.0)
+    a + along * ((p - a).dot(along) / squared).clamp(0.0, 1.0)
 }
 
 /// Distance of `p` from the segment from `a` to `b`.

@@ -1,19 +1,24 @@
-//! A wall: not through here.
+//! Walls: lines that no photon crosses.
 //!
-//! No photon ever crosses the wall's line. Ways around it keep half its thickness away from it, so the light does not
-//! scrape along. Gaps narrower than the thickness, between two walls, between a wall's two ends, or between a wall and
-//! the border of the receiver, count as closed. Light whose target no way reaches goes straight, and is counted.
+//! Paths around a wall keep half its thickness away from its line. Gaps narrower than the thickness, between two walls,
+//! between a wall's two ends, or between a wall and the border of the receiver, count as closed. Photons whose target no
+//! path reaches go straight, and are counted.
 
 use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Span, Window, enabled, is_false, stroke};
-use crate::{Error, Result};
+use super::common::{Common, enabled, is_false};
+use super::span::{Span, Window};
+use super::stroke;
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A line that no light crosses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct Wall {
     /// The artist's name for it.
     #[serde(default)]
@@ -21,22 +26,28 @@ pub struct Wall {
     /// The line in plane coordinates (x to the right, y upwards, the receiver's longer side 1), each -10 to 10; at most
     /// 10000 points. A loop ends where it begins.
     pub points: Vec<[f32; 2]>,
-    /// Thickness in plane units, 0.0001 to 0.5. Default 0.0234, three cells of the default grid.
+    /// Twice the distance that light keeps from the line, plane units ([`Self::THICKNESS`]).
     #[serde(default = "default_thickness")]
     pub thickness: f32,
     /// The frames during which it stands (default: all). Light that it holds back meanwhile goes on afterwards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<Span>,
-    /// Whether it stands at all (default true).
+    /// Whether it stands at all.
     #[serde(default = "enabled")]
     pub enabled: bool,
-    /// Whether the editor keeps it from being changed (default false).
+    /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
 }
 
+settings! { Wall {
+    /// Thickness of the wall, by default three cells of the default grid: light on its way around keeps half of it away
+    /// from the line. Narrower gaps count as closed.
+    THICKNESS = Setting::real("constraints[wall].thickness", [1e-4, 0.5], &[3.0 / 128.0]).unit("plane units");
+} }
+
 fn default_thickness() -> f32 {
-    3.0 / 128.0
+    Wall::THICKNESS.value()
 }
 
 /// A wall in one segment of the animation.
@@ -44,7 +55,7 @@ fn default_thickness() -> f32 {
 pub struct ActiveWall {
     /// Its line, at least two points, plane units.
     pub points: Vec<Vec2>,
-    /// Half its thickness: how far ways keep away from the line, plane units.
+    /// Half its thickness: the distance that paths keep from the line, plane units.
     pub clearance: f32,
     /// When it stands, in the segment's flow time.
     pub window: Window,
@@ -65,14 +76,11 @@ impl Wall {
 
     pub(super) fn check(&self, place: &str) -> Result<()> {
         stroke::check(&self.points, place)?;
-        if !(1e-4..=0.5).contains(&self.thickness) {
-            let what = format!("is {}, must be 0.0001 to 0.5 plane units", self.thickness);
-            return Err(Error::value(format!("{place}.thickness"), what));
-        }
+        Self::THICKNESS.check(self.thickness, place)?;
         self.span.as_ref().map_or(Ok(()), |span| span.check(place))
     }
 
-    /// The wall as the flow sees it; none where it does not stand, or is but a dot.
+    /// The wall in one segment; none where it is disabled or no longer than a point.
     pub fn active(&self, window: Window) -> Option<ActiveWall> {
         let points = stroke::clean(&self.points);
         (self.enabled && !points.is_empty()).then_some(ActiveWall {

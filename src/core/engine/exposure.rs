@@ -13,7 +13,7 @@ use super::job::Job;
 use super::key_photons::{all_flux, all_positions};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
-use crate::flow::{Astray, flux};
+use crate::flow::{WallViolations, flux};
 use crate::render::splat::OutsidePhotons;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Error, Progress, Result};
@@ -110,7 +110,7 @@ impl<'a> Exposures<'a> {
             progress.advance(1);
             progress.check()?;
         }
-        self.balance.keep_astray(trajectories.astray());
+        self.balance.keep_violations(trajectories.wall_violations());
         Ok(())
     }
 
@@ -141,9 +141,9 @@ impl<'a> Exposures<'a> {
 
 impl EnergyBalance {
     /// Records the wall violations of one segment.
-    pub(super) fn keep_astray(&mut self, astray: Astray) {
-        self.crossings += astray.crossings;
-        self.unreachable = self.unreachable.max(astray.unreachable);
+    pub(super) fn keep_violations(&mut self, violations: WallViolations) {
+        self.crossings += violations.crossings;
+        self.unreachable = self.unreachable.max(violations.unreachable);
     }
 
     /// Records one frame: the photons beyond the texture, and the flux of its photons, requested, and in the texture, watts.

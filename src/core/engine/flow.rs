@@ -16,7 +16,8 @@ use super::pairing::TransportCost;
 use super::summary::FlowNumbers;
 use super::walk::{Maps, MapsFrom, Matched, SegmentPhotons, Walk};
 use crate::flow::{
-    Course, Fields, FlowReport, FlowSettings, Moments, Movement, Mover, Paths, fit_moments, watch_paths,
+    Fields, FlowReport, FlowSettings, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots,
+    fit_with_snapshots, path_report,
 };
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -34,7 +35,7 @@ pub(super) struct FittedSegment {
 /// Groups that flow together.
 pub(super) struct Layer {
     pub(super) groups: Vec<usize>,
-    pub(super) flow: Mover,
+    pub(super) flow: SegmentFlow,
 }
 
 /// The fitted flow of a project; no segments where there is one key frame.
@@ -57,7 +58,7 @@ pub(super) struct FlowInput {
 
 impl FittedSegment {
     /// The flow of a group; none where it rests, or where the fit saw no photon of it.
-    pub(super) fn flow_of(&self, group: usize) -> Option<&Mover> {
+    pub(super) fn flow_of(&self, group: usize) -> Option<&SegmentFlow> {
         self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.flow)
     }
 
@@ -99,8 +100,8 @@ pub(super) fn fit_segment(
         FlowInput { matched: Same::of(matched), active: photons.active.clone(), method: *method, settings };
     job.stages.flows.get(job.slot(photons.number), input, job.progress, |_| {
         let (layers, reports) = photons.fit(job.project, job.extent, samples, job.meter, job.progress)?;
-        let segment = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
-        Ok(Arc::new(segment))
+        let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
+        Ok(Arc::new(fitted))
     })
 }
 
@@ -128,7 +129,7 @@ impl SegmentPhotons {
             let midpoint_offsets = &*column(&self.to, groups, |to| &to.midpoint_offsets);
             let ActiveConstraints { lines, walls } = &self.active;
             let number = self.number;
-            let course = Course {
+            let segment = Segment {
                 source: &source,
                 target: &target,
                 extent,
@@ -138,11 +139,11 @@ impl SegmentPhotons {
                 number,
             };
             let (flow, report) = match &mut samples {
-                None => fit_layer(project.method, &course, midpoint_offsets, None, meter, progress)?,
+                None => fit_layer(project.method, &segment, midpoint_offsets, None, meter, progress)?,
                 Some(LayerSamples { times, show }) => {
                     let show = &mut |i: usize, positions: &[Vec2]| show(groups, i, positions);
-                    let samples = Some(Moments { times, show });
-                    fit_layer(project.method, &course, midpoint_offsets, samples, meter, progress)?
+                    let samples = Some(Snapshots { times, show });
+                    fit_layer(project.method, &segment, midpoint_offsets, samples, meter, progress)?
                 }
             };
             layers.push(Layer { groups: groups.clone(), flow });
@@ -172,22 +173,22 @@ fn column<'a>(
 /// Fits the flow of one layer by a method, and reports on it. `samples` are shown the photons that the method looks at.
 fn fit_layer(
     method: Movement,
-    course: &Course,
+    segment: &Segment,
     midpoint_offsets: &[Vec2],
-    samples: Option<Moments>,
+    samples: Option<Snapshots>,
     meter: &Meter,
     progress: &Progress,
-) -> Result<(Mover, FlowReport)> {
+) -> Result<(SegmentFlow, FlowReport)> {
     match method {
         Movement::Flow => meter.measure("fit", || {
-            let (fields, report) = fit_moments(course, progress, None, samples)?;
-            Ok((Mover::Fields(fields), report))
+            let (fields, report) = fit_with_snapshots(segment, samples, progress)?;
+            Ok((SegmentFlow::Fields(fields), report))
         }),
         Movement::Stylized | Movement::Linear => meter.measure("watch", || {
-            let Course { source, target, extent, settings, .. } = *course;
+            let Segment { source, target, extent, settings, .. } = *segment;
             let (guides, steps) = (settings.guides as usize, settings.steps as usize);
-            let paths = Paths::new(source, target, midpoint_offsets);
-            if let Some(Moments { times, show }) = samples {
+            let paths = PathTrajectories::new(source, target, midpoint_offsets);
+            if let Some(Snapshots { times, show }) = samples {
                 let mut positions = vec![Vec2::ZERO; source.len()];
                 for (i, &time) in times.iter().enumerate() {
                     progress.check()?;
@@ -195,8 +196,8 @@ fn fit_layer(
                     show(i, &positions);
                 }
             }
-            let report = watch_paths(&paths, extent, guides, steps, progress)?;
-            Ok((Mover::Paths, report))
+            let report = path_report(&paths, extent, guides, steps, progress)?;
+            Ok((SegmentFlow::Paths, report))
         }),
     }
 }

@@ -5,7 +5,7 @@ use crate::project::{KeyFrame, SegmentTime, segment_time};
 /// The distinct moments of a list of frames, in the order in which photons pass them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FrameTimes {
-    /// Moments, segment by segment, times rising.
+    /// The segment times, in rising order.
     pub(super) moments: Vec<SegmentTime>,
     /// For each requested frame, in the requested order: its number and the index of its moment.
     pub(super) frames: Vec<(i32, usize)>,

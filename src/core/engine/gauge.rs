@@ -1,4 +1,4 @@
-//! How fast light is traced, against what the scene's hierarchy of triangles alone could do.
+//! Rays per second of the bare triangle hierarchy: the limit that tracing is compared with.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -13,7 +13,7 @@ use crate::project::Project;
 use crate::scene::{Ray, Scene};
 use crate::{Progress, Result};
 
-/// Rays by which the bare hierarchy is timed.
+/// Rays that time the bare hierarchy.
 const RAYS: u64 = 400_000;
 
 /// Photons traced and rays followed on all threads.
@@ -27,36 +27,15 @@ pub struct Traced {
     pub seconds: f64,
 }
 
-/// Tracing speed in a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TraceGauge {
-    /// By requested number of photons.
-    pub traced: Vec<Traced>,
-    /// Rays between random places around the glass that the hierarchy answers in a second, nothing else done.
-    pub bare_rays_per_second: f64,
-}
-
 impl Engine {
-    /// Traces each of these numbers of photons of pass 0, and times bare rays; none where the project traces none.
+    /// Rays per second between random places around the glass, answered by the bare hierarchy; none where the project has
+    /// no scene.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; cancelled.
-    pub fn gauge_tracing(
-        &self,
-        project: &Project,
-        counts: &[usize],
-        progress: &Progress,
-    ) -> Result<Option<TraceGauge>> {
-        let meter = Meter::quick();
-        let prepared = self.prepare(project, &meter, progress)?;
-        let tracer = self.job(&prepared, &meter, progress)?.tracer();
-        let Some((tracer, scene)) = tracer.as_ref().zip(prepared.scene.as_deref()) else { return Ok(None) };
-        let trace = |&photons: &usize| {
-            let (_, report) = tracer.trace(0, photons, progress)?;
-            Ok(Traced { photons, rays: report.balance.rays, seconds: report.seconds })
-        };
-        let traced = counts.iter().map(trace).collect::<Result<_>>()?;
-        Ok(Some(TraceGauge { traced, bare_rays_per_second: bare_rays_per_second(scene) }))
+    pub fn bare_rays_per_second(&self, project: &Project, progress: &Progress) -> Result<Option<f64>> {
+        let prepared = self.prepare(project, &Meter::quick(), progress)?;
+        Ok(prepared.scene.as_deref().map(bare_rays_per_second))
     }
 }
 

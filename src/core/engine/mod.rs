@@ -48,7 +48,7 @@ use std::sync::Arc;
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
 pub use fitted_project::{FittedProject, PlaneLight, PlanePasses};
-pub use gauge::{TraceGauge, Traced};
+pub use gauge::Traced;
 pub use grouping::CausticFlux;
 pub use memo::Client;
 pub use meter::StageCost;

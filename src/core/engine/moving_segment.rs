@@ -6,13 +6,16 @@ use glam::{Vec2, Vec3};
 
 use super::Engine;
 use super::flow::LayerSamples;
+use super::gauge::Traced;
+use super::job::Job;
 use super::key_photons::{all_flux, count};
-use super::meter::{Meter, StageCost};
+use super::meter::Meter;
 use super::pairing::takes_part;
 use super::walk::{MapsFrom, SegmentPhotons, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
-use crate::flow::{Course, FlowReport, FlowSettings, flux};
+use crate::flow::{FlowReport, FlowSettings, Segment, flux};
+use crate::photon::Tracer;
 use crate::project::Project;
 use crate::render::PlaneMaterial;
 use crate::{Error, Progress, Result};
@@ -33,8 +36,10 @@ pub struct MovingSegment {
     pub lines: Vec<ActiveLine>,
     /// Walls that act in the segment.
     pub walls: Vec<ActiveWall>,
-    /// Seconds of "trace" and "match", over all segments up to this one.
-    pub costs: Vec<StageCost>,
+    /// The tracing of the photons; none where none are traced.
+    pub traced: Option<Traced>,
+    /// Seconds of the matching, over all segments up to this one.
+    pub match_seconds: f64,
     /// The look of light on the plane.
     pub plane_material: PlaneMaterial,
     project: Project,
@@ -52,7 +57,8 @@ pub struct Halfway {
 }
 
 impl Engine {
-    /// Traces and matches the photons of pass 0, at most `most` of them, up to the first segment in which they move.
+    /// Traces and matches the photons of pass 0, at most `most` of them, up to the first segment in which they move. Both
+    /// are done anew, and timed; the result is not remembered.
     ///
     /// # Errors
     /// Anything wrong with the project or its files; nothing that moves; cancelled.
@@ -68,9 +74,18 @@ impl Engine {
             prepared = prepared.limited(prepared.quality, most)?;
         }
         let meter = Meter::quick();
-        let job = self.job(&prepared, &meter, progress)?;
-        let mut walk = Walk::start(&job, 0)?;
+        let job = Job { remembers: false, ..self.job(&prepared, &meter, progress)? };
+        let trace = |tracer: Tracer| tracer.trace(0, job.photons, &progress.inner());
+        let (landed, report) = job.tracer().map(trace).transpose()?.unzip();
+        let traced = report.map(|report| Traced {
+            photons: job.photons,
+            rays: report.balance.rays,
+            seconds: report.seconds,
+        });
+        let mut walk = Walk::with_light(&job, 0, job.sources.light_of(landed, job.photons));
+        let start = Instant::now();
         while let Some(photons) = walk.next(MapsFrom::Own { bounded: false })? {
+            let match_seconds = start.elapsed().as_secs_f64();
             for groups in &photons.layers {
                 let [source, target] = photons.columns(groups);
                 if mean_straight(&source, &target) > 0.0 {
@@ -81,7 +96,8 @@ impl Engine {
                         number: photons.number,
                         lines: photons.active.lines.clone(),
                         walls: photons.active.walls.clone(),
-                        costs: meter.costs(),
+                        traced,
+                        match_seconds,
                         plane_material: prepared.plane_material(),
                         project: project.clone(),
                         photons,
@@ -101,14 +117,9 @@ impl MovingSegment {
     }
 
     /// The segment with these flow settings.
-    pub fn course<'a>(&'a self, settings: &'a FlowSettings) -> Course<'a> {
+    pub fn segment<'a>(&'a self, settings: &'a FlowSettings) -> Segment<'a> {
         let Self { source, target, extent, number, lines, walls, .. } = self;
-        Course { source, target, extent: *extent, settings, lines, walls, number: *number }
-    }
-
-    /// Seconds of the matching, over all segments up to this one.
-    pub fn match_seconds(&self) -> Option<f64> {
-        self.costs.iter().find(|cost| cost.stage == "match").map(|cost| cost.seconds)
+        Segment { source, target, extent: *extent, settings, lines, walls, number: *number }
     }
 
     /// RGB flux of the photons of all groups at the middle of the segment, watts.

@@ -6,9 +6,9 @@ use glam::Vec2;
 
 use super::active::active;
 use super::key_photons::KeyPhotons;
-use crate::constraint::{ActiveWall, Detour};
+use crate::constraint::{ActiveWall, VisibilityGraph};
 use crate::flow::Movement;
-use crate::matching::{AroundMap, ContinuousMap, Method, StylizedMap, transport_map};
+use crate::matching::{ContinuousMap, Method, StylizedMap, WallMap, transport_map};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -60,9 +60,9 @@ impl PairingMethod {
             Self::Transport => Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?)),
             Self::AroundWalls(walls) => {
                 let walls: Vec<&ActiveWall> = walls.iter().collect();
-                let detour = Arc::new(Detour::new(&walls, extent, progress)?);
-                let map = AroundMap::with_anchors(anchors, from, to, &detour, progress)?;
-                Some(ContinuousMap::Around(map, detour))
+                let graph = Arc::new(VisibilityGraph::new(&walls, extent, progress)?);
+                let map = WallMap::with_anchors(anchors, from, to, &graph, progress)?;
+                Some(ContinuousMap::Walls(map, graph))
             }
             Self::Stylized => Some(ContinuousMap::Stylized(StylizedMap::new(from, to, progress)?)),
         })

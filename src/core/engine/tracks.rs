@@ -1,22 +1,20 @@
 //! The flow for other programs: photon tracks, flux and fields as NPY and NPZ files.
 
-use std::io::{self, Write as _};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
-use npyz::WriterBuilder as _;
 
 use super::exposure::{EnergyBalance, between, total};
 use super::flow::FittedFlow;
-use super::grouping::Grouping;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, count};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
+use crate::export::{SegmentFields, write_fields};
+use crate::files::npy::NpyWriter;
 use crate::files::write_atomic;
-use crate::flow::Fields;
-use crate::flow::field::Field;
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -57,9 +55,17 @@ pub(super) fn write(
     let balance = table.write_flux(&flux)?;
     saved(&flux);
     progress.advance(1);
-    if flow.segments.iter().any(|segment| segment.fields(grouping).next().is_some()) {
+    let all_fields: Vec<_> = flow
+        .segments
+        .iter()
+        .enumerate()
+        .flat_map(|(segment, own)| {
+            own.fields(grouping).map(move |(caustic, fields)| SegmentFields { segment, caustic, fields })
+        })
+        .collect();
+    if !all_fields.is_empty() {
         let path = out.join("fields.npz");
-        write_fields(&path, flow, grouping)?;
+        write_fields(&path, &all_fields)?;
         saved(&path);
     }
     progress.advance(1);
@@ -120,7 +126,7 @@ impl Table<'_> {
         let mut failure = None;
         let written = write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 2];
-            let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
+            let mut npy = NpyWriter::new(file, &shape)?;
             let mut positions = vec![Vec2::ZERO; photons];
             for i in 0..self.flow.segments.len() {
                 let mut trajectories = self.trajectories(i);
@@ -142,7 +148,7 @@ impl Table<'_> {
         let mut balance = EnergyBalance::default();
         write_atomic(path, |file| {
             let shape = [self.rows(), photons as u64, 3];
-            let mut npy = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
+            let mut npy = NpyWriter::new(file, &shape)?;
             let mut now = vec![Vec3::ZERO; photons];
             for i in 0..self.flow.segments.len() {
                 let trajectories = self.trajectories(i);
@@ -157,80 +163,4 @@ impl Table<'_> {
         })?;
         Ok(balance)
     }
-}
-
-/// Writes the coefficients of all fields: for segment i `psi_i` and `phi_i` of shape (steps, N + 3, M + 3) for M x N
-/// cells, each fitted at the time in `times_i`; and `grid` (M, N) and `extent` of the plane. u = J grad psi + grad phi.
-/// Each grid of the turbulence adds its own J grad psi at these times: `noise_i_C` for C cells along the longer side,
-/// square ones, so that the last may reach beyond the plane. The own flow of caustic number c in the project, from 0,
-/// adds `psi_i_c` and so on.
-fn write_fields(path: &Path, flow: &FittedFlow, grouping: &Grouping) -> Result<()> {
-    write_atomic(path, |file| {
-        let mut npz = npyz::npz::NpzWriter::new(file);
-        let mut described = false;
-        for (i, segment) in flow.segments.iter().enumerate() {
-            for (own, fields) in segment.fields(grouping) {
-                let Some(grid) = fields.nodes().first().map(|field| field.grid()) else { continue };
-                let name = own.map_or_else(|| i.to_string(), |caustic| format!("{i}_{caustic}"));
-                write_layer(&mut npz, &name, fields)?;
-                if !std::mem::replace(&mut described, true) {
-                    array(&mut npz, "grid", &[2], grid.cells.map(|n| n as f32).into_iter())?;
-                    array(&mut npz, "extent", &[2], grid.extent.to_array().into_iter())?;
-                }
-            }
-        }
-        npz.zip_writer().flush()
-    })
-}
-
-/// Writes psi of each grid of a layer's turbulence at the times of the fits, where there is any.
-fn write_noises<W: io::Write + io::Seek>(
-    npz: &mut npyz::npz::NpzWriter<W>,
-    layer: &str,
-    fields: &Fields,
-) -> io::Result<()> {
-    let times = 0..fields.nodes().len();
-    let noises: Vec<Vec<Field>> = times.map(|n| fields.noise(fields.node_time(n))).collect();
-    for (k, noise) in noises.first().into_iter().flatten().enumerate() {
-        let [columns, rows] = noise.grid().nodes().map(|n| n as u64);
-        let psi = noises.iter().flat_map(|at_one_time| at_one_time[k].potentials().0);
-        let cells = noise.grid().cells.into_iter().max().unwrap_or_default();
-        array(npz, &format!("noise_{layer}_{cells}"), &[noises.len() as u64, rows, columns], psi)?;
-    }
-    Ok(())
-}
-
-/// Writes one sequence of fields.
-fn write_layer<W: io::Write + io::Seek>(
-    npz: &mut npyz::npz::NpzWriter<W>,
-    layer: &str,
-    fields: &Fields,
-) -> io::Result<()> {
-    let [columns, rows] = fields.nodes()[0].grid().nodes().map(|n| n as u64);
-    let shape = [fields.nodes().len() as u64, rows, columns];
-    for (name, pick) in [("psi", 0), ("phi", 1)] {
-        let potentials = fields.nodes().iter().flat_map(|field| {
-            let (psi, phi) = field.potentials();
-            [psi, phi].into_iter().nth(pick).unwrap_or_default()
-        });
-        array(npz, &format!("{name}_{layer}"), &shape, potentials)?;
-    }
-    write_noises(npz, layer, fields)?;
-    let times = (0..fields.nodes().len()).map(|n| fields.node_time(n) as f32);
-    array(npz, &format!("times_{layer}"), &shape[..1], times)
-}
-
-/// Writes one array of float32 into an NPZ file.
-fn array<W: io::Write + io::Seek>(
-    npz: &mut npyz::npz::NpzWriter<W>,
-    name: &str,
-    shape: &[u64],
-    values: impl Iterator<Item = f32>,
-) -> io::Result<()> {
-    // The same fields are the same bytes, whenever they are written.
-    let time = npyz::zip::DateTime::default();
-    let options = npyz::zip::write::FileOptions::default().last_modified_time(time);
-    let mut npy = npz.array(name, options)?.default_dtype().shape(shape).begin_nd()?;
-    npy.extend(values)?;
-    npy.finish()
 }

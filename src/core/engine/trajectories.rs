@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::flow::FittedSegment;
 use super::key_photons::KeyPhotons;
-use crate::flow::{Astray, Carriage, flux};
+use crate::flow::{Trajectories, WallViolations, flux};
 use crate::{Progress, Result};
 
 /// The trajectories of all groups from one key frame to the next. The rows of the groups follow each other.
@@ -20,7 +20,7 @@ struct Group<'a> {
     to: &'a KeyPhotons,
     rows: Range<usize>,
     /// Absent where the group rests, or where the fit saw no photon of it: then all go straight.
-    trajectories: Option<Carriage<'a>>,
+    trajectories: Option<Box<dyn Trajectories + 'a>>,
 }
 
 impl<'a> SegmentTrajectories<'a> {
@@ -32,7 +32,7 @@ impl<'a> SegmentTrajectories<'a> {
             end = rows.end;
             let flow = segment.flow_of(group).filter(|_| !rows.is_empty());
             let trajectories =
-                flow.map(|flow| flow.carry(&from.positions, &to.positions, &to.midpoint_offsets));
+                flow.map(|flow| flow.trajectories(&from.positions, &to.positions, &to.midpoint_offsets));
             Group { from, to, rows, trajectories }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }
@@ -62,9 +62,9 @@ impl<'a> SegmentTrajectories<'a> {
     }
 
     /// The photons that crossed walls or were shut off by them, so far.
-    pub(super) fn astray(&self) -> Astray {
+    pub(super) fn wall_violations(&self) -> WallViolations {
         let all = self.groups.iter().filter_map(|group| group.trajectories.as_ref());
-        all.map(Carriage::astray).fold(Astray::default(), |a, b| a.plus(b))
+        all.map(|one| one.wall_violations()).fold(WallViolations::default(), |a, b| a.plus(b))
     }
 
     /// RGB flux of all photons at time `t`, 0..=1, watts.

@@ -97,8 +97,12 @@ struct FirstKey {
 impl<'a> Walk<'a> {
     /// The photons of `pass` at the first key frame.
     pub(super) fn start(job: &'a Job, pass: u64) -> Result<Self> {
+        Ok(Self::with_light(job, pass, job.light(pass)?))
+    }
+
+    /// As [`Walk::start`], with the light of photons that are traced.
+    pub(super) fn with_light(job: &'a Job, pass: u64, light: PassLight) -> Self {
         let sources = job.sources;
-        let light = job.light(pass)?;
         let first = |group| {
             let at = sources.key(0, group, &light, pass);
             match job.project.matching {
@@ -117,7 +121,7 @@ impl<'a> Walk<'a> {
             rows: job.project.matching,
             sources: sources.at_key(0),
         }));
-        Ok(Self { job, pass, light, key: 0, at, origin })
+        Self { job, pass, light, key: 0, at, origin }
     }
 
     /// The light that the groups share.
@@ -135,7 +139,7 @@ impl<'a> Walk<'a> {
         self.job.sources.requested(self.key, &self.light)
     }
 
-    /// Moves on to the next key frame; none after the last. The matching of pass 0 is remembered.
+    /// Moves on to the next key frame; none after the last. The matching of pass 0 is remembered if the job remembers.
     ///
     /// # Errors
     /// Points that cannot be matched; cancelled.
@@ -146,7 +150,7 @@ impl<'a> Walk<'a> {
         }
         let layers = self.layers();
         let (matched, to) = match self.pass {
-            0 => self.remembered(&maps)?,
+            0 if job.remembers => self.remembered(&maps)?,
             _ => self.pair(&maps, job.progress)?,
         };
         let to = Arc::new(to);
@@ -285,6 +289,6 @@ impl<'a> Walk<'a> {
         let Some(map) = map.or(own.as_ref()) else { return Ok(Pairing::default()) };
         let seed = self.job.sources.seed();
         let paired = map.pair(&at.positions, &points.positions, seed, self.pass, progress)?;
-        Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.bows })
+        Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.midpoint_offsets })
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod comparison;
 pub mod exr;
+pub mod fields;
 pub mod overlay;
 pub mod pattern;
 pub mod png;
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use exr::Metadata;
+pub use fields::{SegmentFields, load_fields, write_fields};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use png::PngDepth;

@@ -27,7 +27,7 @@ pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
     crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth))
 }
 
-/// As [`write`], 8 bit, into memory.
+/// As [`write()`], 8 bit, into memory.
 ///
 /// # Errors
 /// A picture without pixels, or larger than PNG allows.

@@ -8,44 +8,63 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Error, Result};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 
-/// How the photons leave the field to arrive exactly at their targets.
+/// The transition of the photons from the field to their targets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub enum Fade {
-    /// Early and even, so that no photon has to hurry at the end.
+    /// Early and even.
     Smooth {
-        /// Until then the field steers alone, 0 to 0.99 of the time between the key frames. Default 0.3.
+        /// Begin of the fade ([`Self::START`]).
         #[serde(default = "default_start")]
         start: f32,
-        /// From then on the photons go straight, above `start` to 1. Default 0.9.
+        /// End of the fade ([`Self::END`]).
         #[serde(default = "default_end")]
         end: f32,
-        /// Speed towards which a photon leaves the field early, in mean straight speeds, 1 to 1000; a photon whose own
-        /// way is longer may keep its pace. Default 3.
+        /// Speed limit in the field ([`Self::LIMIT`]).
         #[serde(default = "default_limit")]
         limit: f32,
     },
-    /// The paper's: the field alone until `tau`, then linear. The last photons snap into place.
+    /// The paper's: the field alone until `tau`, then linear.
     Paper {
-        /// When it begins, 0 to 0.99 of the time between the key frames. Default 0.85.
+        /// Begin of the fade ([`Self::TAU`]).
         #[serde(default = "default_tau")]
         tau: f32,
     },
 }
 
+settings! { Fade {
+    /// How the photons leave the field to arrive exactly at their targets.
+    KIND = Setting::choice("flow.fade", &[
+        Choice { value: "smooth", help: "early and even: no photon has to hurry at the end" },
+        Choice { value: "paper", help: "the field alone until tau, as in the paper; the last photons snap into place" },
+    ]);
+    /// Share of the time until which the field steers alone. Later keeps the flow longer and arrives faster.
+    START = Setting::real("flow.fade.start", [0.0, 0.99], &[0.3]);
+    /// Share of the time from which the photons go straight to their targets; at least 0.01 after the start.
+    END = Setting::real("flow.fade.end", [0.01, 1.0], &[0.9]);
+    /// Speed towards which a photon leaves the field early, in mean straight speeds; one with a longer path of its own
+    /// may keep its pace. Lower it where light darts.
+    LIMIT = Setting::real("flow.fade.limit", [1.0, 1000.0], &[3.0]);
+    /// Share of the time after which the photons are drawn to their targets.
+    TAU = Setting::real("flow.fade.tau", [0.0, 0.99], &[0.85]);
+} }
+
 fn default_start() -> f32 {
-    0.3
+    Fade::START.value()
 }
 fn default_end() -> f32 {
-    0.9
+    Fade::END.value()
 }
 fn default_limit() -> f32 {
-    3.0
+    Fade::LIMIT.value()
 }
 fn default_tau() -> f32 {
-    0.85
+    Fade::TAU.value()
 }
 
 /// A photon keeps the field while it is slower than this share of its speed limit.
@@ -61,24 +80,27 @@ impl Default for Fade {
 }
 
 impl Fade {
+    /// Least time from `start` to `end`.
+    pub const APART: f32 = 0.01;
+
+    /// The paper's fade, with its default.
+    pub fn paper() -> Self {
+        Self::Paper { tau: default_tau() }
+    }
+
     /// Refuses values out of range; `place` is the path of this fade, such as `flow.fade`.
     ///
     /// # Errors
     /// `Value` names what is out of range.
     pub fn check(&self, place: &str) -> Result<()> {
-        let check = |name: &str, value: f32, low: f32, high: f32, why: &str| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}{why}")))
-        };
         match *self {
             Self::Smooth { start, end, limit } => {
-                check("start", start, 0.0, 0.99, "")?;
-                check("end", end, start + 0.01, 1.0, ": it comes after `start`")?;
-                check("limit", limit, 1.0, 1000.0, "")
+                Self::START.check(start, place)?;
+                let range = [f64::from(start + Self::APART), Self::END.range[1]];
+                Setting { range, ..Self::END }.check(end, place)?;
+                Self::LIMIT.check(limit, place)
             }
-            Self::Paper { tau } => check("tau", tau, 0.0, 0.99, ": a later fade cannot arrive"),
+            Self::Paper { tau } => Self::TAU.check(tau, place),
         }
     }
 

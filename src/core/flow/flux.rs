@@ -1,11 +1,11 @@
-//! Flux of the photons on their way (end of Sec. 3): phi(t) = (1-t) phi_a + t phi_b.
+//! Flux of moving photons (end of Sec. 3): phi(t) = (1-t) phi_a + t phi_b.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::math::sum::ordered_sum;
 
-/// The flux of each photon at time `t` of its way from `source` to `target`, linear RGB watts.
+/// The flux of each photon at time `t` on the path from `source` to `target`, linear RGB watts.
 ///
 /// # Panics
 /// When the columns differ in length.

@@ -1,4 +1,4 @@
-//! Numbers that tell how good a flow is. Speeds are in mean straight speeds, |b - a| per unit of t.
+//! Measures of the quality of a flow. Speeds are in mean straight speeds, |b - a| per unit of t.
 
 use glam::{Mat2, Vec2};
 use rayon::prelude::*;
@@ -7,10 +7,10 @@ use super::field::Field;
 
 /// Cells along the longer side in which photons count as neighbours.
 const CELLS: f32 = 64.0;
-/// Share of the photons that a peak speed covers: the fastest of a thousand may be an outlier of the matching.
+/// Quantile of the peak speed: the fastest of a thousand may be an outlier of the matching.
 const PEAK_QUANTILE: f64 = 0.999;
 
-/// Velocity variance of neighbours, all sums over the photons of cells that hold two or more.
+/// Velocity variance within cells, over the photons of cells that hold two or more.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NeighbourVariance {
     within: f64,
@@ -19,7 +19,7 @@ pub struct NeighbourVariance {
 }
 
 impl NeighbourVariance {
-    /// Photons with these positions and velocities on a plane of this extent; those outside are left out.
+    /// Of photons on a plane of this extent; those outside are left out.
     pub fn new(positions: &[Vec2], velocities: &[Vec2], extent: Vec2) -> Self {
         let columns = (extent.x * CELLS).ceil().max(1.0) as usize;
         let rows = (extent.y * CELLS).ceil().max(1.0) as usize;
@@ -93,7 +93,7 @@ pub fn peak_speed_ratio(fastest: &[f32], mean_straight: f32) -> f64 {
     f64::from(*peak) / f64::from(mean_straight)
 }
 
-/// sqrt(sum |u(c) - v|^2 / sum |v|^2): what the field leaves undone.
+/// The relative misfit sqrt(sum |u(c) - v|^2 / sum |v|^2).
 pub fn fit_residual(field: &Field, positions: &[Vec2], guidance: &[Vec2]) -> f64 {
     let undone: Vec<f32> =
         positions.par_iter().zip(guidance).map(|(&c, &v)| (field.velocity(c) - v).length_squared()).collect();

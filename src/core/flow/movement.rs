@@ -3,18 +3,31 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
+
 /// How the photons get from key to key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(Self::METHOD))]
 pub enum Movement {
     /// Along a fitted vector field, paired by optimal transport.
     #[default]
     Flow,
-    /// The method before (Stylized Caustics, 2016), to compare with: landmarks, thin-plate warp, greedy pairs, cubic ways.
+    /// The method of 2016 (Stylized Caustics).
     Stylized,
-    /// Straight at constant speed, paired by optimal transport, to compare with.
+    /// Straight lines, paired by optimal transport.
     Linear,
 }
+
+settings! { Movement {
+    /// How the light gets from key frame to key frame.
+    METHOD = Setting::choice("method", &[
+        Choice { value: "flow", help: "along a fitted field; the only one that heeds lines and walls" },
+        Choice { value: "stylized", help: "the method of 2016, to compare with: landmarks, a warp, greedy pairs" },
+        Choice { value: "linear", help: "straight lines at constant speed, to compare with" },
+    ]);
+} }
 
 impl Movement {
     /// All methods, the default first.

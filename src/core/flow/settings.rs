@@ -30,48 +30,83 @@ use serde::{Deserialize, Serialize};
 
 use super::fade::Fade;
 use super::turbulence::TurbulenceSettings;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
 
-/// How the photons flow from one key frame to the next.
+/// The flow of the photons from one key frame to the next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(Fade::KIND))]
 pub struct FlowSettings {
-    /// Kind of flow, 0 to 1: 0 flows like a liquid (divergence-free), 1 like a gradient (irrotational). At 0 light
-    /// cannot pile up by the field alone, so the fade does that work. Default 0.5.
+    /// Kind of flow ([`Self::GAMMA`]).
     pub gamma: f32,
-    /// Smoothness of the field, 1e-12 to 1e6: the field is smooth over about sqrt(alpha) of the longer side of the
-    /// receiver (1e-4: 0.01, 1e-3: 0.03, 1e-2: 0.1). Default 1e-3.
+    /// Smoothness of the field ([`Self::ALPHA`]).
     pub alpha: f32,
-    /// How strongly directed lines pull, 0 to 1e6, beside all photons together, which pull by 1. Default 1.
+    /// Strength of directed lines ([`Self::BETA`]).
     pub beta: f32,
-    /// How the two kinds of flow are put together. Default separate.
+    /// Fit of the two kinds of flow ([`Self::FIT`]).
     pub fit: FitKind,
-    /// Cells of the field: one number for the longer side, or two for x and y. At least 8 each. Default 128.
+    /// Cells of the field ([`Self::GRID`]).
     pub grid: GridSize,
-    /// Time steps from one key frame to the next, 1 to 10000; the field is fitted once in each. Default 40.
+    /// Time steps of a segment ([`Self::STEPS`]).
     pub steps: u32,
-    /// How the photons leave the field to arrive at their targets. Default smooth.
+    /// Transition from the field to the targets.
     pub fade: Fade,
-    /// Swirls added to the field. Default none.
+    /// Swirls added to the field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turbulence: Option<TurbulenceSettings>,
-    /// Brightness of the target, over 0 to 1000: its total flux over that of the source. Default 1, which keeps the
-    /// energy.
+    /// Flux of the target over that of the source ([`Self::RHO`]).
     pub rho: f32,
-    /// Photons the field is fitted to, 1 to 50 million, taken evenly from all. Default 100000.
+    /// Photons the field is fitted to ([`Self::GUIDES`]).
     pub guides: u32,
-    /// Relative residual at which the fit's solver stops, 1e-12 to 0.1. Default 1e-4.
+    /// Residual of the solver ([`Self::TOLERANCE`]).
     pub tolerance: f32,
 }
 
-/// How psi and phi are fitted.
+settings! { FlowSettings {
+    /// Kind of flow. At 0 light swirls like a liquid (divergence-free) and cannot gather on its way, so the fade does
+    /// that work; at 1 it spreads and gathers like a gradient (irrotational), without swirls. Adjust it first.
+    GAMMA = Setting::real("flow.gamma", [0.0, 1.0], &[0.5]);
+    /// Smoothness of the field, over a length of about sqrt(alpha) of the plane's longer side (1e-4: 0.01, 1e-3: 0.03,
+    /// 1e-2: 0.1). Low values follow each photon and look busy, high ones carry all light along in wide folds.
+    ALPHA = Setting::real("flow.alpha", [1e-12, 1e6], &[1e-3]);
+    /// Strength of directed lines, relative to all photons together, which pull by 1. Raise it where light ignores
+    /// a line.
+    BETA = Setting::real("flow.beta", [0.0, 1e6], &[1.0]);
+    /// Flux of the target over that of the source. 1 keeps the energy; more brightens the picture on the way, less
+    /// dims it.
+    RHO = Setting::real("flow.rho", [f32::MIN_POSITIVE as f64, 1000.0], &[1.0]);
+    /// How the two kinds of flow are fitted.
+    FIT = Setting::choice("flow.fit", &[
+        Choice { value: "separate", help: "each alone, then blended: gamma acts evenly over its whole range" },
+        Choice { value: "joint", help: "both at once, as in the paper, Eq. (7): gamma acts mostly below 0.2" },
+    ]);
+    /// Cells of the field along the plane's longer side; in a file also two numbers, along x and along y. Finer grids
+    /// follow finer lines and take longer; the finest is smaller where there are more steps.
+    GRID = Setting::whole("flow.grid", [MIN_CELLS as f64, 2041.0], &[128.0]);
+    /// Time steps from key frame to key frame; the field is fitted in each. More follow tight bends more closely and
+    /// take longer.
+    STEPS = Setting::whole("flow.steps", [1.0, 10_000.0], &[40.0]);
+    /// Photons the field is fitted to, taken evenly from all. More hold the field steadier where light is thin.
+    GUIDES = Setting::whole("flow.guides", [1.0, 5e7], &[100_000.0]);
+    /// Relative residual at which the fit's solver stops. Lower it only if the flow trembles from frame to frame.
+    TOLERANCE = Setting::real("flow.tolerance", [1e-12, 0.1], &[1e-4]);
+    /// Swirls of random noise added to the field; they fade before the light arrives.
+    TURBULENCE = Setting::choice("flow.turbulence", &[
+        Choice { value: "", help: "no swirls" },
+        Choice { value: "", help: "swirls of the strength below" },
+    ]);
+} }
+
+/// The fit of psi and phi ([`FlowSettings::FIT`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(FlowSettings::FIT))]
 pub enum FitKind {
-    /// Both at once, as in the paper, Eq. (7). Between 0 and 1 gamma then acts through the smoothness only, most of it
-    /// below 0.2.
+    /// Both at once, Eq. (7).
     Joint,
-    /// Each alone, then blended by gamma: the slider acts evenly over its whole travel.
+    /// Each alone, then blended by gamma.
     #[default]
     Separate,
 }
@@ -81,7 +116,7 @@ pub enum FitKind {
 #[serde(untagged)]
 pub enum GridSize {
     /// Cells along the longer side; the other side gets square cells.
-    Longer(u32),
+    Longer(#[schemars(range(min = MIN_CELLS))] u32),
     /// Cells along x and along y.
     Both([u32; 2]),
 }
@@ -89,17 +124,17 @@ pub enum GridSize {
 impl Default for FlowSettings {
     fn default() -> Self {
         Self {
-            gamma: 0.5,
-            alpha: 1e-3,
-            beta: 1.0,
+            gamma: Self::GAMMA.value(),
+            alpha: Self::ALPHA.value(),
+            beta: Self::BETA.value(),
             fit: FitKind::default(),
-            grid: GridSize::Longer(128),
-            steps: 40,
+            grid: GridSize::Longer(Self::GRID.value()),
+            steps: Self::STEPS.value(),
             fade: Fade::default(),
             turbulence: None,
-            rho: 1.0,
-            guides: 100_000,
-            tolerance: 1e-4,
+            rho: Self::RHO.value(),
+            guides: Self::GUIDES.value(),
+            tolerance: Self::TOLERANCE.value(),
         }
     }
 }
@@ -141,30 +176,27 @@ impl FlowSettings {
     /// # Errors
     /// `Value` names the first value that is out of its range, `Limit` a grid that would not fit into memory.
     pub fn check(&self, place: &str) -> Result<()> {
-        let real = |name: &str, value: f32, low: f32, high: f32| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
-        };
-        real("gamma", self.gamma, 0.0, 1.0)?;
-        real("alpha", self.alpha, 1e-12, 1e6)?;
-        real("beta", self.beta, 0.0, 1e6)?;
-        real("rho", self.rho, f32::MIN_POSITIVE, 1000.0)?;
-        real("tolerance", self.tolerance, 1e-12, 0.1)?;
-        let count = |name: &str, value: u32, high: u32| {
-            if (1..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be 1 to {high}")))
-        };
-        count("steps", self.steps, 10_000)?;
-        count("guides", self.guides, 50_000_000)?;
+        Self::GAMMA.check(self.gamma, place)?;
+        Self::ALPHA.check(self.alpha, place)?;
+        Self::BETA.check(self.beta, place)?;
+        Self::RHO.check(self.rho, place)?;
+        Self::TOLERANCE.check(self.tolerance, place)?;
+        Self::STEPS.check(self.steps, place)?;
+        Self::GUIDES.check(self.guides, place)?;
         self.fade.check(&format!("{place}.fade"))?;
         if let Some(turbulence) = &self.turbulence {
             turbulence.check(&format!("{place}.turbulence"))?;
         }
         self.check_grid(&format!("{place}.grid"))
+    }
+
+    fn bytes_per_node(&self) -> u64 {
+        FIT_BYTES_PER_NODE + FIELD_BYTES_PER_NODE * u64::from(self.steps)
+    }
+
+    /// Cells along a side of the largest square grid that these steps leave memory for.
+    pub fn finest_grid(&self) -> u32 {
+        ((MAX_BYTES / self.bytes_per_node()) as f64).sqrt() as u32 - 3
     }
 
     /// A grid neither too coarse for a spline nor too fine for the memory.
@@ -177,14 +209,14 @@ impl FlowSettings {
             let what = format!("is {x} x {y} cells, must be at least {MIN_CELLS} x {MIN_CELLS}");
             return Err(Error::value(place, what));
         }
-        let per_node = FIT_BYTES_PER_NODE + FIELD_BYTES_PER_NODE * u64::from(self.steps);
+        let per_node = self.bytes_per_node();
         // Two sides of 32 bits and the bytes of a node go beyond 64 bits.
         let needed = (u128::from(x) + 3) * (u128::from(y) + 3) * u128::from(per_node);
         if needed <= u128::from(MAX_BYTES) {
             return Ok(());
         }
         let gib = |bytes: u128| bytes as f64 / (1u64 << 30) as f64;
-        let largest = ((MAX_BYTES / per_node) as f64).sqrt() as u64 - 3;
+        let largest = self.finest_grid();
         let what = format!(
             "{x} x {y} cells over {} steps need about {:.1} GiB, the limit is {:.0} GiB; the largest square grid is {largest} x {largest}",
             self.steps,

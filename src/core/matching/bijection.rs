@@ -3,19 +3,19 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use super::around::AroundMap;
-use super::halves::{Item, halve};
-use super::swap::{Pair, sweep};
+use super::bisection::{Item, bisect};
 use super::transport_map::{TransportMap, require_points};
-use crate::constraint::Detour;
+use super::two_opt::{Pair, sweep};
+use super::wall_map::WallMap;
+use crate::constraint::VisibilityGraph;
 use crate::math::rng::{Purpose, Stream};
 use crate::{Error, Progress, Result};
 
-/// Times at which pairs are compared with their neighbours, one sweep each, over and over.
+/// Times at which pairs are compared with their neighbours, one sweep each, cyclically.
 const TIMES: [f32; 6] = [1.0, 0.0, 0.5, 0.25, 0.75, 0.5];
-/// Sweeps in which pairs may exchange their targets, as projects are matched.
+/// Default number of 2-opt sweeps.
 pub const SWEEPS: usize = 6;
-/// Followers each pair is compared with in a sweep.
+/// Following pairs that each pair is compared with in a sweep.
 const WINDOW: usize = 16;
 
 /// Which target each source point goes to: a permutation.
@@ -43,7 +43,7 @@ impl Matching {
         Self::swept(source, target, Some(map), SWEEPS, (seed, pass), progress)
     }
 
-    /// As [`Self::new`], by so many sweeps over all pairs, and by halves alone where there is no map.
+    /// As [`Self::new`] with this number of 2-opt sweeps; without a map, points are bisected where they are.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -59,27 +59,27 @@ impl Matching {
         Self::near(source, target, apply, None, sweeps, random, progress)
     }
 
-    /// The same around walls: near `map`, and with little total squared length of the ways.
+    /// As [`Self::new`] around walls: near `map`, with little total squared path length.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn around(
+    pub fn around_walls(
         source: &[Vec2],
         target: &[Vec2],
-        (map, detour): (&AroundMap, &Detour),
+        (map, graph): (&WallMap, &VisibilityGraph),
         seed: u64,
         pass: u64,
         progress: &Progress,
     ) -> Result<Self> {
-        let apply = |point| map.apply(point, detour);
-        Self::near(source, target, apply, Some(detour), SWEEPS, (seed, pass), progress)
+        let apply = |point| map.apply(point, graph);
+        Self::near(source, target, apply, Some(graph), SWEEPS, (seed, pass), progress)
     }
 
     fn near(
         source: &[Vec2],
         target: &[Vec2],
         map: impl Fn(Vec2) -> Vec2 + Sync,
-        walls: Option<&Detour>,
+        walls: Option<&VisibilityGraph>,
         sweeps: usize,
         (seed, pass): (u64, u64),
         progress: &Progress,
@@ -88,7 +88,7 @@ impl Matching {
         require_points("target", target)?;
         require_equal_counts(source.len(), target.len())?;
         progress.begin("match", 1 + sweeps as u64);
-        let mut pairs = halved(source, target, map, walls, (seed, pass), progress);
+        let mut pairs = bisected(source, target, map, walls, (seed, pass), progress);
         progress.check()?;
         progress.advance(1);
         let mut stream = Stream::new(seed, Purpose::Match, pass, 0);
@@ -111,6 +111,14 @@ impl Matching {
         Ok(Self { target_of: (0..source_count as u32).collect() })
     }
 
+    /// The targets arranged by source row: row k of the result is where photon k goes.
+    ///
+    /// # Panics
+    /// When a target row is out of range.
+    pub fn apply<T: Copy>(&self, target: &[T]) -> Vec<T> {
+        self.target_of.iter().map(|&row| target[row as usize]).collect()
+    }
+
     /// Mean squared distance between source points and their targets, plane units squared.
     pub fn cost(&self, source: &[Vec2], target: &[Vec2]) -> f64 {
         mean_square_distance(source, self.target_of.iter().map(|&row| target[row as usize]))
@@ -131,11 +139,12 @@ pub fn mean_square_distance(source: &[Vec2], targets: impl Iterator<Item = Vec2>
     sum / source.len().max(1) as f64
 }
 
-fn halved(
+/// Pairs found by bisection of the mapped source points and the targets.
+fn bisected(
     source: &[Vec2],
     target: &[Vec2],
     map: impl Fn(Vec2) -> Vec2 + Sync,
-    walls: Option<&Detour>,
+    walls: Option<&VisibilityGraph>,
     (seed, pass): (u64, u64),
     progress: &Progress,
 ) -> Vec<Pair> {
@@ -144,14 +153,14 @@ fn halved(
         .enumerate()
         .with_min_len(4096)
         .map(|(row, point)| {
-            // Around walls a map takes its time; what is cancelled is thrown away in the end.
+            // A map around walls is slow; a cancelled result is dropped later.
             let position = if progress.is_cancelled() { *point } else { map(*point) };
             Item { position, row: row as u32 }
         })
         .collect();
     let mut b: Vec<Item> =
         target.iter().enumerate().map(|(row, &position)| Item { position, row: row as u32 }).collect();
-    halve(&mut a, &mut b, seed, pass, progress);
+    bisect(&mut a, &mut b, seed, pass, progress);
     a.par_iter()
         .zip(&b)
         .with_min_len(4096)
@@ -160,7 +169,7 @@ fn halved(
             target: b.position,
             source_row: a.row,
             target_row: b.row,
-            astray: walls.is_some_and(|detour| detour.barriers().blocks(a.position, b.position)),
+            across_wall: walls.is_some_and(|graph| graph.barriers().blocks(a.position, b.position)),
         })
         .collect()
 }
@@ -175,4 +184,15 @@ pub(super) fn require_equal_counts(source: usize, target: usize) -> Result<()> {
             "{source} source points cannot be paired one to one with {target} target points; make the counts equal"
         ),
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn applying_a_matching_puts_each_target_in_its_photons_row() {
+        let matching = Matching { target_of: vec![2, 0, 1] };
+        assert_eq!(matching.apply(&["a", "b", "c"]), ["c", "a", "b"]);
+    }
 }

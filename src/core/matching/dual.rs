@@ -1,4 +1,4 @@
-//! A lower bound of what any bijection costs.
+//! A lower bound of the cost of any bijection.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::transport_map::TransportMap;
 use crate::math::hilbert;
 use crate::{Progress, Result};
 
-/// Most points in a leaf of the tree.
+/// Limit of points in a leaf of the tree.
 const LEAF: usize = 8;
 /// Rows per parallel task; fixed, so that the sum comes out the same on any number of threads.
 const CHUNK: usize = 4096;

@@ -3,31 +3,32 @@
 //! Two steps, so that millions of photons in many passes move together:
 //!
 //! 1. [`TransportMap`]: the optimal (Brenier) map between the two *densities*, once per segment, by the back-and-forth method.
-//! 2. [`Matching`]: an exact bijection between the *points* of one pass, near that map: equal halves, then local swaps.
+//! 2. [`Matching`]: an exact bijection between the *points* of one pass, near that map: bisection, then local 2-opt swaps.
 //!
-//! Beside it stands the method before this one, [`StylizedMap`], to compare with; [`ContinuousMap`] is either.
+//! Where walls stand, [`WallMap`] takes the place of the transport map. [`StylizedMap`] is the previous method (2016), for
+//! comparison. [`ContinuousMap`] is any of the three.
 //!
 //! Cost is squared distance throughout: its optimum never lets two straight paths collide, which is what ghosting is made of.
 
-mod around;
 mod back_and_forth;
 mod bijection;
+mod bisection;
 mod continuous_map;
 mod dual;
-mod halves;
 mod lattice;
 mod legendre;
 mod poisson;
 mod push_forward;
 mod settings;
 mod stylized;
-mod swap;
 mod transport_map;
+mod two_opt;
+mod wall_map;
 
-pub use around::{ANCHORS, AroundMap};
 pub use bijection::{Matching, SWEEPS, mean_square_distance};
 pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;
 pub use settings::{MapSettings, Method};
 pub use stylized::StylizedMap;
 pub use transport_map::{TransportMap, transport_map, transport_map_with};
+pub use wall_map::{ANCHORS, WallMap};

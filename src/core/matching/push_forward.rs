@@ -1,11 +1,11 @@
-//! Where a density goes under the map of a potential: T(x) = x - grad psi(x).
+//! The push-forward of a density by the map of a potential, T(x) = x - grad psi(x).
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::lattice::Lattice;
 
-/// Parts into which the rows are cut; fixed, so that sums come out the same on any number of threads.
+/// Parts of the rows; fixed, so that sums do not depend on the number of threads.
 const PARTS: usize = 8;
 
 /// The map's values at the cells' corners, `(width + 1) x (height + 1)`, in cell units, inside the lattice.
@@ -29,7 +29,7 @@ pub(super) fn corner_map(lattice: &Lattice, potential: &[f64]) -> Vec<DVec2> {
         .collect()
 }
 
-/// The density that `density` becomes: each cell's mass is spread over the image of the cell.
+/// The push-forward of `density`: each cell's mass is spread over the image of the cell.
 pub(super) fn push_forward(lattice: &Lattice, density: &[f64], potential: &[f64]) -> Vec<f64> {
     let corners = corner_map(lattice, potential);
     let height = lattice.size[1];

@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
+
 /// How exactly the transport map is worked out. The default is what projects are matched with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSettings {
@@ -24,10 +27,19 @@ impl Default for MapSettings {
 /// A way to pair photons with target points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(Self::MATCHING))]
 pub enum Method {
-    /// The pairing of (nearly) least total squared distance: photons that are neighbours stay neighbours.
+    /// Optimal transport.
     #[default]
     Transport,
-    /// Row i of the source goes to row i of the target; both need the same number of rows.
+    /// Row i of the source to row i of the target.
     Given,
 }
+
+settings! { Method {
+    /// Which photon goes to which place of the target.
+    MATCHING = Setting::choice("matching", &[
+        Choice { value: "transport", help: "(nearly) least total squared distance: neighbours stay neighbours" },
+        Choice { value: "given", help: "row by row, where all keys are files of points with equally many rows" },
+    ]);
+} }

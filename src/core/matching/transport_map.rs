@@ -1,4 +1,4 @@
-//! The continuous map from source to target.
+//! The optimal transport map between two densities.
 
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use super::push_forward::corner_map;
 use super::settings::MapSettings;
 use crate::{Error, Progress, Result};
 
-/// Cells along the longer side at most, and at least.
+/// Limits of the cells along the longer side.
 const FINEST: usize = 256;
 const COARSEST: usize = 32;
 /// Points per cell that a lattice of fewer cells aims at.
@@ -18,7 +18,7 @@ const POINTS_PER_CELL: f64 = 4.0;
 /// 0.01 costs 0.37 % over the dual bound, 0.002 0.21 %, 0.0005 0.17 %, for the same time.
 const FLOOR: f64 = 0.001;
 
-/// The optimal (Brenier) map between two densities: where a photon of any pass goes, and its neighbours beside it.
+/// The optimal (Brenier) map between two densities.
 #[derive(Clone, Debug)]
 pub struct TransportMap {
     lattice: Lattice,
@@ -43,7 +43,7 @@ pub fn transport_map(
     transport_map_with(source, target, extent, &MapSettings::default(), progress)
 }
 
-/// As [`transport_map`], as exactly as `settings` say.
+/// As [`transport_map`], with these settings.
 ///
 /// # Errors
 /// As [`transport_map`].
@@ -72,7 +72,7 @@ pub fn transport_map_with(
 }
 
 impl TransportMap {
-    /// Where `point` goes; a point outside the lattice goes where the nearest one inside goes.
+    /// The image of `point`; a point outside the lattice has that of the nearest one inside.
     pub fn apply(&self, point: Vec2) -> Vec2 {
         let lattice = &self.lattice;
         let p = lattice.cells_from_plane(point);

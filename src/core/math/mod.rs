@@ -1,4 +1,4 @@
-//! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
+//! Numerics: random streams, splines, grids and solvers; independent of all other modules.
 
 pub mod bspline;
 pub mod cg;
@@ -11,6 +11,7 @@ pub mod kronecker;
 pub mod lanczos;
 pub mod mixed_gram;
 pub mod multigrid;
+pub mod normal_blocks;
 pub mod null_space;
 pub mod operator;
 pub mod real;

@@ -7,8 +7,9 @@
 use rayon::prelude::*;
 
 use super::cholesky::Cholesky;
+use super::normal_blocks::{NormalBlocks, Weights};
 use super::null_space::NullSpace;
-use super::operator::{Operator, Parts, Weights};
+use super::operator::Operator;
 use super::real::Real;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
@@ -17,7 +18,7 @@ use super::vector::{GridVector, Layout};
 const COARSEST: usize = 7;
 /// Degree of the smoother: products with the matrix on each side of the coarse grid.
 const DEGREE: usize = 3;
-/// The smoother works on the eigenvalues of D^-1 A from here to 1, the bound that D gives.
+/// The smoother acts on the eigenvalues of the scaled matrix from here to 1, their upper bound.
 const SMOOTHED: f64 = 0.06;
 
 /// A hierarchy of grids for one matrix.
@@ -52,6 +53,7 @@ impl Multigrid {
     /// The hierarchy below a grid of `layout` with such cells, for a matrix that is zero on `null` and nowhere else.
     pub fn new(mut layout: Layout, mut cell: [f64; 2], null: &NullSpace) -> Self {
         let mut levels = Vec::new();
+        // Each grid has fewer nodes than the one before.
         loop {
             let nodes = next_nodes(layout.nodes, cell);
             if nodes == layout.nodes {
@@ -65,14 +67,14 @@ impl Multigrid {
     }
 
     /// Sets the matrix on all grids.
-    pub fn set(&mut self, parts: &Parts, weights: Weights) {
-        let mut coarse: Option<Parts> = None;
+    pub fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
+        let mut coarse: Option<NormalBlocks> = None;
         for level in &mut self.levels {
-            let fine = coarse.as_ref().unwrap_or(parts);
+            let fine = coarse.as_ref().unwrap_or(blocks);
             level.operator.set(fine, weights);
             coarse = Some(fine.coarsened(level.coarse_right.layout.nodes));
         }
-        self.coarsest.set(coarse.as_ref().unwrap_or(parts), weights);
+        self.coarsest.set(coarse.as_ref().unwrap_or(blocks), weights);
     }
 
     /// `solution` = V-cycle for `right`, from zero.
@@ -141,7 +143,7 @@ impl Level {
         }
     }
 
-    /// residual -= A step; step = keep step + factor D^-1 residual; solution += step.
+    /// residual -= M step; step = keep step + factor diag^-1 residual; solution += step.
     fn step(&mut self, keep: f64, factor: f64) {
         let (operator, inverse) = (&self.operator, &self.operator.inverse_diagonal);
         let [old, new] = &mut self.steps;
@@ -178,10 +180,10 @@ impl Coarsest {
         Self { layout, null, scale: zeros.clone(), factor, scaled_null: Vec::new(), numbers: zeros }
     }
 
-    fn set(&mut self, parts: &Parts, weights: Weights) {
+    fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
         let ([nx, ny], components, size) = (self.layout.nodes, self.null[0].components, self.numbers.len());
         let mut operator = Operator::<f64>::zero(self.layout, components);
-        operator.set(parts, weights);
+        operator.set(blocks, weights);
         let mut matrix = vec![0.0; size * size];
         let index = |component: usize, x: usize, y: usize| (component * ny + y) * nx + x;
         for (i, k) in (0..components).flat_map(|i| (0..components).map(move |k| (i, k))) {
@@ -210,7 +212,7 @@ impl Coarsest {
         self.factor = Cholesky::new(size, matrix);
     }
 
-    /// What rounding left of the null space in `right` is taken out: it would come back much larger.
+    /// The part of `right` in the null space, which is rounding error, is removed: it would be amplified.
     fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
         for (i, value) in self.numbers.iter_mut().enumerate() {
             *value = self.scale[i] * f64::from(number(right, i));

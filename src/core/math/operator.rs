@@ -1,65 +1,11 @@
-//! The matrix of one or two coupled potentials on a grid, and its products with vectors.
+//! The matrix of Eq. (7) for one or two coupled potentials on a grid, and its products with vectors.
 
 use rayon::prelude::*;
 
-use super::kronecker::Kronecker;
+use super::normal_blocks::{NormalBlocks, Weights};
 use super::real::Real;
 use super::stencil::{OFFSETS, Stencil, offset, offset_index};
 use super::vector::{GridVector, HALO, Layout};
-
-/// What the matrix of a grid is made of:
-/// `[ psi S + smooth B, cross C; -cross C, phi S + smooth B ]`, S and B symmetric, C antisymmetric.
-#[derive(Clone, Debug)]
-pub struct Parts {
-    /// S.
-    pub direct: Stencil<f64>,
-    /// C, where two potentials are coupled.
-    pub cross: Option<Stencil<f64>>,
-    /// B.
-    pub smooth: Kronecker,
-    /// E and Y, where walls ask for one direction only.
-    pub tilt: Option<Tilt>,
-}
-
-/// What rows add that ask for the velocity along one direction n alone, (n.u - v)^2, beside half of what rows for both
-/// directions add: `[ S - E, C + Y; -C + Y, S + E ]`, E and Y symmetric.
-#[derive(Clone, Debug)]
-pub struct Tilt {
-    /// E.
-    pub direct: Stencil<f64>,
-    /// Y, where two potentials are coupled.
-    pub cross: Option<Stencil<f64>>,
-}
-
-/// The factors of the parts.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Weights {
-    /// Of S for the first potential, or for the only one.
-    pub psi: f64,
-    /// Of S for the second.
-    pub phi: f64,
-    /// Of C.
-    pub cross: f64,
-    /// Of B.
-    pub smooth: f64,
-    /// Of E in the first potential, or in the only one, besides that of S: -1 for psi, 1 for phi.
-    pub tilt: f64,
-}
-
-impl Parts {
-    /// The same on the grid with so many nodes and doubled cells where the number differs.
-    pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
-        Self {
-            direct: self.direct.coarsened(nodes, 1.0),
-            cross: self.cross.as_ref().map(|cross| cross.coarsened(nodes, -1.0)),
-            smooth: self.smooth.coarsened(nodes),
-            tilt: self.tilt.as_ref().map(|tilt| Tilt {
-                direct: tilt.direct.coarsened(nodes, 1.0),
-                cross: tilt.cross.as_ref().map(|cross| cross.coarsened(nodes, 1.0)),
-            }),
-        }
-    }
-}
 
 /// A symmetric positive semidefinite matrix over a grid.
 pub struct Operator<T> {
@@ -67,23 +13,26 @@ pub struct Operator<T> {
     pub layout: Layout,
     /// Potentials, 1 or 2.
     pub components: usize,
-    /// D^-1 for smoothing, see [`Self::set_inverse_diagonal`]; 0 where a row is zero.
+    /// The inverse diagonal for smoothing, see `set_inverse_diagonal`; 0 where a row is zero.
     pub inverse_diagonal: GridVector<T>,
     psi: Stencil<T>,
     coupled: Option<Coupled<T>>,
 }
 
+/// The blocks of the second potential.
 struct Coupled<T> {
     phi: Stencil<T>,
-    cross: Stencil<T>,
-    /// Y; absent without walls.
-    even: Option<Stencil<T>>,
+    /// The off-diagonal block of A^T A + D^T D.
+    antisymmetric: Stencil<T>,
+    /// The off-diagonal block of N^T N beside it; absent without walls.
+    symmetric: Option<Stencil<T>>,
 }
 
 impl<T: Real> Operator<T> {
     /// Room for a matrix of zeros.
     pub fn zero(layout: Layout, components: usize) -> Self {
-        let coupled = || Coupled { phi: Stencil::zero(layout), cross: Stencil::zero(layout), even: None };
+        let coupled =
+            || Coupled { phi: Stencil::zero(layout), antisymmetric: Stencil::zero(layout), symmetric: None };
         Self {
             layout,
             components,
@@ -93,39 +42,41 @@ impl<T: Real> Operator<T> {
         }
     }
 
-    /// Sets the matrix. Two potentials need `parts.cross`.
-    pub fn set(&mut self, parts: &Parts, weights: Weights) {
-        let tilt = parts.tilt.as_ref();
-        let block = |out: &mut Stencil<T>, weight: f64, tilted: f64| {
+    /// Sets the matrix. Two potentials need `blocks.ata_cross`.
+    pub fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
+        let no_penetration = blocks.no_penetration.as_ref();
+        // weight (A^T A + D^T D + sign E) + alpha B^T B
+        let diagonal = |out: &mut Stencil<T>, weight: f64, sign: f64| {
             out.fill_rows(|row, dx, dy, entries| {
-                let source = |part| row_of(part, row, dx, dy);
-                write(entries, source(&parts.direct), weight);
-                if let Some(tilt) = tilt {
-                    add(entries, source(&tilt.direct), weight * tilted);
+                let source = |block| row_of(block, row, dx, dy);
+                write(entries, source(&blocks.ata), weight);
+                if let Some(no_penetration) = no_penetration {
+                    add(entries, source(&no_penetration.diagonal), weight * sign);
                 }
-                parts.smooth.add_entries(weights.smooth, row, dx, dy as usize, entries);
+                blocks.btb.add_entries(weights.alpha, row, dx, dy as usize, entries);
             });
         };
-        block(&mut self.psi, weights.psi, weights.tilt);
-        if let (Some(coupled), Some(cross)) = (&mut self.coupled, &parts.cross) {
-            block(&mut coupled.phi, weights.phi, -weights.tilt);
-            let mixed = |out: &mut Stencil<T>, part: &Stencil<f64>| {
+        diagonal(&mut self.psi, weights.psi, weights.no_penetration);
+        if let (Some(coupled), Some(ata_cross)) = (&mut self.coupled, &blocks.ata_cross) {
+            diagonal(&mut coupled.phi, weights.phi, -weights.no_penetration);
+            let cross = |out: &mut Stencil<T>, block: &Stencil<f64>| {
                 out.fill_rows(|row, dx, dy, entries| {
-                    write(entries, row_of(part, row, dx, dy), weights.cross);
+                    write(entries, row_of(block, row, dx, dy), weights.cross);
                 });
             };
-            mixed(&mut coupled.cross, cross);
-            coupled.even = tilt.and_then(|tilt| tilt.cross.as_ref()).map(|even| {
-                let mut out = coupled.even.take().unwrap_or_else(|| Stencil::zero(even.layout));
-                mixed(&mut out, even);
+            cross(&mut coupled.antisymmetric, ata_cross);
+            coupled.symmetric = no_penetration.and_then(|walls| walls.cross.as_ref()).map(|block| {
+                let mut out = coupled.symmetric.take().unwrap_or_else(|| Stencil::zero(block.layout));
+                cross(&mut out, block);
                 out
             });
         }
         self.set_inverse_diagonal();
     }
 
-    /// D with d_i = sum over k of |a_ik| sqrt(a_ii / a_kk), by which no eigenvalue of D^-1 A exceeds 1 (Gershgorin's
-    /// circles for A scaled to a unit diagonal). The square root evens out the splines that are cut off at the border.
+    /// One over d_i = sum over k of |m_ik| sqrt(m_ii / m_kk) of this matrix M, so that no eigenvalue of diag(d)^-1 M exceeds
+    /// 1 (Gershgorin's circles for M scaled to a unit diagonal). The square root evens out the splines that are cut off at
+    /// the border.
     fn set_inverse_diagonal(&mut self) {
         let one = T::from_f64(1.0);
         let (layout, components) = (self.layout, self.components);
@@ -156,19 +107,19 @@ impl<T: Real> Operator<T> {
     /// Entry between component `i` of node (x, y) and component `k` of the node at offset (dx, dy).
     pub fn entry(&self, [i, k]: [usize; 2], x: usize, y: usize, dx: isize, dy: isize) -> f64 {
         let one = T::from_f64(1.0);
-        let even = |coupled: &Coupled<T>| {
-            coupled.even.as_ref().map_or(T::default(), |even| even.entry(x, y, dx, dy, one))
+        let symmetric = |coupled: &Coupled<T>| {
+            coupled.symmetric.as_ref().map_or(T::default(), |block| block.entry(x, y, dx, dy, one))
         };
         let entry = match (&self.coupled, i, k) {
             (Some(coupled), 1, 1) => coupled.phi.entry(x, y, dx, dy, one),
-            (Some(coupled), 0, 1) => coupled.cross.entry(x, y, dx, dy, -one) + even(coupled),
-            (Some(coupled), 1, 0) => even(coupled) - coupled.cross.entry(x, y, dx, dy, -one),
+            (Some(coupled), 0, 1) => coupled.antisymmetric.entry(x, y, dx, dy, -one) + symmetric(coupled),
+            (Some(coupled), 1, 0) => symmetric(coupled) - coupled.antisymmetric.entry(x, y, dx, dy, -one),
             _ => self.psi.entry(x, y, dx, dy, one),
         };
         entry.to_f64()
     }
 
-    /// `out` -= A `vector`.
+    /// `out` -= M `vector`, where M is this matrix.
     pub fn subtract_product(&self, vector: &GridVector<T>, out: &mut GridVector<T>) {
         let (len, rows) = (out.row_len(), self.layout.rows_per_task());
         out.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
@@ -178,7 +129,7 @@ impl<T: Real> Operator<T> {
         });
     }
 
-    /// `out` -= node row `row` of A `vector`; `out` is all components of the row with their halo.
+    /// `out` -= node row `row` of M `vector`; `out` is all components of the row with their halo.
     #[inline]
     pub fn subtract_row<const ABSOLUTE: bool>(&self, row: usize, vector: &GridVector<T>, out: &mut [T]) {
         match &self.coupled {
@@ -201,7 +152,7 @@ impl<T: Real> Operator<T> {
         let (out_psi, out_phi) = out.split_at_mut(stride);
         let (out_psi, out_phi) = (&mut out_psi[HALO..HALO + width], &mut out_phi[HALO..HALO + width]);
         let at = row + HALO;
-        // The centre of C is zero.
+        // The centre of the antisymmetric block is zero.
         let (p, q) =
             (&self.psi.padded(at, 0)[HALO..HALO + width], &coupled.phi.padded(at, 0)[HALO..HALO + width]);
         let (psi, phi) =
@@ -213,9 +164,9 @@ impl<T: Real> Operator<T> {
         for k in 1..OFFSETS {
             self.subtract_offset::<ABSOLUTE>(coupled, (at, k), vector, out_psi, out_phi);
         }
-        if let Some(even) = &coupled.even {
-            subtract_symmetric::<T, ABSOLUTE>(even, at, |row| vector.padded(row, 1), out_psi);
-            subtract_symmetric::<T, ABSOLUTE>(even, at, |row| vector.padded(row, 0), out_phi);
+        if let Some(symmetric) = &coupled.symmetric {
+            subtract_symmetric::<T, ABSOLUTE>(symmetric, at, |row| vector.padded(row, 1), out_psi);
+            subtract_symmetric::<T, ABSOLUTE>(symmetric, at, |row| vector.padded(row, 0), out_phi);
         }
     }
 
@@ -235,7 +186,7 @@ impl<T: Real> Operator<T> {
         let (above, below) = (at + dy as usize, at - dy as usize);
         let p = &self.psi.padded(at, k)[HALO..HALO + width];
         let q = &coupled.phi.padded(at, k)[HALO..HALO + width];
-        let c = &coupled.cross.padded(at, k)[HALO..HALO + width];
+        let c = &coupled.antisymmetric.padded(at, k)[HALO..HALO + width];
         let psi = &vector.padded(above, 0)[after..after + width];
         let phi = &vector.padded(above, 1)[after..after + width];
         for i in 0..width {
@@ -246,7 +197,7 @@ impl<T: Real> Operator<T> {
         }
         let p = &self.psi.padded(below, k)[before..before + width];
         let q = &coupled.phi.padded(below, k)[before..before + width];
-        let c = &coupled.cross.padded(below, k)[before..before + width];
+        let c = &coupled.antisymmetric.padded(below, k)[before..before + width];
         let psi = &vector.padded(below, 0)[before..before + width];
         let phi = &vector.padded(below, 1)[before..before + width];
         for i in 0..width {
@@ -287,8 +238,8 @@ fn subtract_symmetric<'a, T: Real + 'a, const ABSOLUTE: bool>(
 }
 
 /// The entries of one offset along node row `row`.
-fn row_of(part: &Stencil<f64>, row: usize, dx: isize, dy: isize) -> &[f64] {
-    &part.padded(row + HALO, offset_index(dx, dy))[HALO..]
+fn row_of(block: &Stencil<f64>, row: usize, dx: isize, dy: isize) -> &[f64] {
+    &block.padded(row + HALO, offset_index(dx, dy))[HALO..]
 }
 
 /// `entries` = `weight` times `source`.

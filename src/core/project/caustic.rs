@@ -8,6 +8,8 @@ use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{KeyFrame, Project, Shows};
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 use crate::{Error, Result};
 
 /// Most caustics of a project.
@@ -16,38 +18,59 @@ const MAX_CAUSTICS: usize = 1000;
 /// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CausticDesc {
-    /// By what the key frames call it; not empty, each name once.
+    /// Its name; not empty, each name once.
     pub name: String,
-    /// Name of the light that casts it. Default: any light.
+    /// Name of the light that casts it; none: any light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<String>,
-    /// Name of the mesh that the light met last: that of `scene.meshes`, or "name/material" for one part of a file of
-    /// several materials. Default: any mesh. What fits several caustics belongs to the first in the list.
+    /// Name of the mesh that the light met last; none: any mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
-    /// Whether it flows by a field of its own and never mixes with the others (default false: all that move share one
-    /// field).
+    /// Whether it flows by a field of its own ([`Self::OWN_FLOW`]).
     #[serde(default)]
     pub own_flow: bool,
 }
 
+settings! { CausticDesc {
+    /// Name by which the key frames refer to the caustic; each name once.
+    NAME = Setting::text("caustics[].name");
+    /// Name of the light that casts it. Default: any light.
+    LIGHT = Setting::part("caustics[].light");
+    /// Name of the glass or mirror that the light met last: that of the mesh, or "mesh/material" for one part of a file of
+    /// several materials. Default: any. What fits several caustics belongs to the first in the list.
+    MESH = Setting::part("caustics[].mesh");
+    /// Whether it flows by a field of its own and never mixes with the others; else all that move share one field.
+    OWN_FLOW = Setting::switch("caustics[].own_flow", false);
+} }
+
 /// What one caustic does at a key frame, where it differs from the others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CausticKey {
     /// What it shows. Default: what the key shows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shows: Option<Shows>,
-    /// Factor on its light at this frame, linear Rec.709, each 0 to 1000. Default [1, 1, 1]: the light's own colour.
+    /// Factor on each channel of its light, linear Rec.709.
     pub colour: [f32; 3],
-    /// Factor on its light at this frame, 0 to 1000. Default 1, which keeps the energy.
+    /// Factor on its light.
     pub brightness: f32,
 }
 
+settings! { CausticKey {
+    /// What this caustic shows at the key frame. Default: what the key frame shows.
+    SHOWS = Setting::part("keys[].caustics.NAME.shows");
+    /// Factor on its light at this key frame, linear Rec.709. White leaves the light's own colour.
+    COLOUR = Setting::colour("keys[].caustics.NAME.colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
+    /// Factor on its light at this key frame. 1 keeps the energy.
+    BRIGHTNESS = Setting::real("keys[].caustics.NAME.brightness", [0.0, 1000.0], &[1.0]);
+} }
+
 impl Default for CausticKey {
     fn default() -> Self {
-        Self { shows: None, colour: [1.0; 3], brightness: 1.0 }
+        Self { shows: None, colour: Self::COLOUR.value(), brightness: Self::BRIGHTNESS.value() }
     }
 }
 
@@ -58,14 +81,8 @@ impl CausticKey {
     }
 
     fn check(&self, place: &str) -> Result<()> {
-        let in_range = |name: &str, value: f32| {
-            if (0.0..=1000.0).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("{value} is out of range; give 0 to 1000")))
-        };
-        self.colour.iter().try_for_each(|&channel| in_range("colour", channel))?;
-        in_range("brightness", self.brightness)?;
+        Self::COLOUR.check(self.colour, place)?;
+        Self::BRIGHTNESS.check(self.brightness, place)?;
         self.shows.as_ref().map_or(Ok(()), |shows| shows.check(&format!("{place}.shows")))
     }
 }

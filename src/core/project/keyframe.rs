@@ -6,14 +6,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::CausticKey;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::targets::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
 /// One key frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct KeyFrame {
-    /// Frame number, -1000000 to 1000000. Keys stand in rising order.
+    /// Frame number. Keys stand in rising order.
     pub frame: i32,
     /// What the light shows at this frame.
     pub shows: Shows,
@@ -24,18 +27,38 @@ pub struct KeyFrame {
         skip_serializing_if = "BTreeMap::is_empty"
     )]
     pub caustics: BTreeMap<String, CausticKey>,
-    /// How the time runs from this key to the next: "smooth" (default), "linear", "in" or "out".
+    /// How the time runs from this key to the next.
     #[serde(default)]
     pub ease: Ease,
 }
 
+settings! { KeyFrame {
+    /// Frame at which the light shows this. Key frames stand in rising order.
+    FRAME = Setting::whole("keys[].frame", [-1e6, 1e6], &[]);
+    /// What the light shows at this key frame.
+    SHOWS = Setting::choice("keys[].shows", &[
+        Choice { value: "physical_caustic", help: "what the scene's glass and mirrors really cast" },
+        Choice { value: "image", help: "a picture: its bright parts attract the light" },
+        Choice { value: "points", help: "a file of points, one for each photon or fewer" },
+        Choice { value: "", help: "what the key frame shows by all light" },
+    ]).required();
+    /// How the time runs from this key frame to the next.
+    EASE = Setting::choice("keys[].ease", &[
+        Choice { value: "smooth", help: "starts and ends at rest" },
+        Choice { value: "linear", help: "constant pace" },
+        Choice { value: "in", help: "starts at rest, arrives at full pace" },
+        Choice { value: "out", help: "starts at full pace, comes to rest" },
+    ]);
+} }
+
 /// What the light shows at a key frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(KeyFrame::SHOWS))]
 pub enum Shows {
-    /// The caustic that the scene's glass and mirrors really cast. Needs a scene.
+    /// The caustic that the scene casts.
     PhysicalCaustic,
-    /// A picture, drawn by its brightness.
+    /// A picture.
     Image(ImageTarget),
     /// A file of points.
     Points(PointsTarget),
@@ -44,15 +67,16 @@ pub enum Shows {
 /// How the time runs between two keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(KeyFrame::EASE))]
 pub enum Ease {
-    /// Starts and ends at rest.
+    /// x^2 (3 - 2 x).
     #[default]
     Smooth,
-    /// At constant pace.
+    /// x.
     Linear,
-    /// Starts at rest, arrives at full pace.
+    /// x^2.
     In,
-    /// Starts at full pace, comes to rest.
+    /// x (2 - x).
     Out,
 }
 
@@ -101,12 +125,7 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
         ));
     }
     for (i, key) in keys.iter().enumerate() {
-        if !(-1_000_000..=1_000_000).contains(&key.frame) {
-            return Err(Error::value(
-                format!("keys[{i}].frame"),
-                format!("{} is out of range; frames go from -1000000 to 1000000", key.frame),
-            ));
-        }
+        KeyFrame::FRAME.check(key.frame, &format!("keys[{i}]"))?;
         if i > 0 && key.frame <= keys[i - 1].frame {
             return Err(Error::value(
                 format!("keys[{i}].frame"),

@@ -43,7 +43,7 @@ pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Ve
         Err(error) => error,
     };
     let text = text(bytes, path)?;
-    let Some((known, unknown)) = unknown::without(text, &Project::json_schema()) else { return Err(strict) };
+    let Some((known, unknown)) = unknown::strip(text, &Project::json_schema()) else { return Err(strict) };
     if unknown.is_empty() || newer_version(text).is_some() {
         return Err(strict);
     }

@@ -16,6 +16,7 @@ mod keyframe;
 mod load;
 mod output;
 mod schema_docs;
+mod settings;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -30,12 +31,15 @@ pub use caustic::{CausticDesc, CausticKey};
 pub use file::ProjectFile;
 pub use keyframe::{Ease, KeyFrame, SegmentTime, Shows, segment_time};
 pub use output::OutputSettings;
+pub use settings::settings;
 
 use crate::constraint::Constraint;
 use crate::flow::{FlowSettings, Movement};
 use crate::matching::Method;
 use crate::render::RenderSettings;
 use crate::scene::SceneDesc;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 use crate::{Error, Result};
 
 /// The version of the format that this program writes.
@@ -44,6 +48,7 @@ pub const VERSION: u32 = 1;
 /// A Lightloom project.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(Method::MATCHING), transform = Describe(Movement::METHOD))]
 pub struct Project {
     /// Where the JSON schema of this format stands, for editors that complete and check while one types.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
@@ -53,8 +58,8 @@ pub struct Project {
     /// The project's name.
     #[serde(default)]
     pub name: String,
-    /// Seed of all random numbers, 0 to 9007199254740991, default 1. The same seed gives the same bytes.
-    #[serde(default = "one")]
+    /// Seed of all random numbers.
+    #[serde(default = "default_seed")]
     pub seed: u64,
     /// Glass, lights, camera and receiver. Without it the plane is seen straight on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -68,11 +73,10 @@ pub struct Project {
     pub caustics: Vec<CausticDesc>,
     /// The key frames, in rising order.
     pub keys: Vec<KeyFrame>,
-    /// How source and target points are paired: "transport" (default) or "given" (row i with row i).
+    /// How source and target points are paired.
     #[serde(default)]
     pub matching: Method,
-    /// How the photons get from key to key: "flow" (default), or to compare with it "stylized" (the method of 2016) or
-    /// "linear" (straight lines).
+    /// How the photons get from key to key.
     #[serde(default)]
     pub method: Movement,
     /// What the artist drew: directed lines and walls. Only the flow heeds them.
@@ -93,16 +97,31 @@ pub struct Project {
 /// units, the longer side being 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct PlaneSettings {
-    /// Width over height, 0.01 to 100, default 1. A scene has its receiver instead.
+    /// Width over height. A scene has its receiver instead.
     pub aspect: f32,
-    /// Power of all the light on it in watts, 1e-9 to 1e9, default 1. A plane unit counts as one metre.
+    /// Power of all the light on it [W]; a plane unit counts as one metre.
     pub watts: f32,
 }
 
+settings! { Project {
+    /// Name of the project.
+    NAME = Setting::text("name");
+    /// Seed of all random numbers: the same seed gives the same bytes, another one other noise.
+    SEED = Setting::whole("seed", [0.0, 9_007_199_254_740_991.0], &[1.0]);
+} }
+
+settings! { PlaneSettings {
+    /// Width of the plane over its height. A scene has its receiver instead.
+    ASPECT = Setting::real("plane.aspect", [0.01, 100.0], &[1.0]);
+    /// Power of all the light on the plane; a plane unit counts as one metre.
+    WATTS = Setting::real("plane.watts", [1e-9, 1e9], &[1.0]).unit("W");
+} }
+
 impl Default for PlaneSettings {
     fn default() -> Self {
-        Self { aspect: 1.0, watts: 1.0 }
+        Self { aspect: Self::ASPECT.value(), watts: Self::WATTS.value() }
     }
 }
 
@@ -113,20 +132,13 @@ impl PlaneSettings {
     }
 
     fn check(&self, place: &str) -> Result<()> {
-        if !(0.01..=100.0).contains(&self.aspect) {
-            let what = format!("{} is out of range; width over height is 0.01 to 100", self.aspect);
-            return Err(Error::value(format!("{place}.aspect"), what));
-        }
-        if !(1e-9..=1e9).contains(&self.watts) {
-            let what = format!("{} is out of range; give 1e-9 to 1e9 watts", self.watts);
-            return Err(Error::value(format!("{place}.watts"), what));
-        }
-        Ok(())
+        Self::ASPECT.check(self.aspect, place)?;
+        Self::WATTS.check(self.watts, place)
     }
 }
 
-fn one() -> u64 {
-    1
+fn default_seed() -> u64 {
+    Project::SEED.value()
 }
 
 impl Project {
@@ -153,9 +165,7 @@ impl Project {
                 format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
             return Err(Error::value("lightloom", what));
         }
-        if self.seed > 9_007_199_254_740_991 {
-            return Err(Error::value("seed", "is out of range; give 0 to 9007199254740991"));
-        }
+        Self::SEED.check_at(self.seed, || "seed".to_owned())?;
         if let Some(scene) = &self.scene {
             scene.check("scene")?;
         }

@@ -5,30 +5,49 @@ use serde::{Deserialize, Serialize};
 
 use super::frames;
 use crate::export::{FrameFormat, FramePattern, PngDepth};
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
 
 /// What is written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct OutputSettings {
-    /// File name without its ending; #### or %04d stands for the frame number. Default "frame.####".
+    /// File name without its ending.
     pub name: String,
-    /// Frames to render, such as "1-100x5,120"; default all from the first key to the last.
+    /// List of frames ([`Self::FRAMES`]).
     pub frames: Option<String>,
-    /// Frames per second as a fraction, such as \[24000, 1001\]; each 1 to 1000000, default \[24, 1\].
+    /// Frames per second as a fraction.
     pub fps: [u32; 2],
-    /// Formats: "exr", "png". Default both.
+    /// Formats: "exr", "png".
     pub formats: Vec<FrameFormat>,
-    /// Bits per channel of PNG files, 8 (default) or 16.
+    /// Bits per channel of PNG files, 8 or 16.
     pub png_bits: u8,
 }
+
+settings! { OutputSettings {
+    /// File name without its ending; #### or %04d stands for the frame number. Default frame.####
+    NAME = Setting::text("output.name");
+    /// Frames to render, such as 1-100x5,120. Default: all from the first key frame to the last.
+    FRAMES = Setting::text("output.frames");
+    /// Frames per second as a fraction: 24000 over 1001 is 23.976.
+    FPS = Setting::whole("output.fps", [1.0, 1e6], &[24.0, 1.0]);
+    /// Formats: "exr" holds the light itself in layers, for compositing; "png" shows it as on a screen. Default both.
+    FORMATS = Setting::part("output.formats");
+    /// Bits per channel of PNG files.
+    PNG_BITS = Setting::choice("output.png_bits", &[
+        Choice { value: "8", help: "small files" },
+        Choice { value: "16", help: "smooth dark gradients, larger files" },
+    ]);
+} }
 
 impl Default for OutputSettings {
     fn default() -> Self {
         Self {
             name: "frame.####".into(),
             frames: None,
-            fps: [24, 1],
+            fps: Self::FPS.value(),
             formats: vec![FrameFormat::Exr, FrameFormat::Png],
             png_bits: 8,
         }
@@ -59,15 +78,7 @@ impl OutputSettings {
         if let Some(list) = &self.frames {
             frames::parse(list, &format!("{place}.frames"))?;
         }
-        if self.fps.iter().any(|n| !(1..=1_000_000).contains(n)) {
-            let [n, d] = self.fps;
-            return wrong(
-                "fps",
-                format!(
-                    "{n}/{d} is no frame rate; give two whole numbers from 1 to 1000000, such as [24, 1]"
-                ),
-            );
-        }
+        Self::FPS.check(self.fps, place)?;
         if self.formats.is_empty() {
             return wrong("formats", "the list is empty; name at least one of \"exr\", \"png\"".into());
         }

@@ -4,46 +4,68 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::view::ViewSettings;
-use crate::{Error, Result};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// Size and quality of the pictures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct RenderSettings {
-    /// Width of the picture in pixels, 16 to 16384. Default 1280.
+    /// Width of the picture in pixels.
     pub width: u32,
-    /// Height of the picture in pixels, 16 to 16384. Default 720.
+    /// Height of the picture in pixels.
     pub height: u32,
-    /// Passes, each with its own batch of photons, 1 to 100000: the noise falls and the caustic sharpens with each.
-    /// Default 8.
+    /// Number of passes ([`Self::PASSES`]).
     pub passes: u32,
-    /// Photons per pass, 1 to 100000000. Default 1000000.
+    /// Photons per pass ([`Self::PHOTONS`]).
     pub photons: u64,
-    /// Radius of the kernel in the first pass, as a share of the longer side of the receiver, above 0 to 0.5: larger is
-    /// smoother, smaller sharper. Default: so that about fifty photons fall under the kernel.
+    /// Radius of the kernel in the first pass, plane units ([`Self::RADIUS`]).
     pub radius: Option<f32>,
-    /// Largest number of texels along the longer side of the receiver, 64 to 8192; the picture's own sharpness decides
-    /// below it. Default 2048.
+    /// Most texels along the longer side ([`Self::MAX_TEXELS`]).
     pub max_texels: u32,
-    /// Camera samples per pixel towards the receiver, 1 to 4096. Default 16.
+    /// Camera samples per pixel towards the receiver.
     pub camera_samples: u32,
-    /// First light paths per pixel of the background, 1 to 65536; noisy pixels take up to 64 times as many. Default 16.
+    /// First light paths per pixel of the background ([`Self::BACKGROUND_SAMPLES`]).
     pub background_samples: u32,
     /// How the PNG pictures show the light.
     pub view: ViewSettings,
 }
 
+settings! { RenderSettings {
+    /// Width of the picture.
+    WIDTH = Setting::whole("render.width", [16.0, 16_384.0], &[1280.0]).unit("px");
+    /// Height of the picture.
+    HEIGHT = Setting::whole("render.height", [16.0, 16_384.0], &[720.0]).unit("px");
+    /// Photons per pass. More give less noise and need more memory.
+    PHOTONS = Setting::whole("render.photons", [1.0, 1e8], &[1e6]);
+    /// Passes, each with photons of its own: with each the noise falls and the caustic sharpens. Time grows alike.
+    PASSES = Setting::whole("render.passes", [1.0, 100_000.0], &[8.0]);
+    /// Radius of the kernel in the first pass, as a share of the plane's longer side. Larger is smoother, smaller sharper
+    /// and noisier. By default about fifty photons fall under the kernel.
+    RADIUS = Setting::real("render.radius", [0.0, 0.5], &[]).above();
+    /// Most texels of the light along the plane's longer side; the sharpness of the picture decides below it. Raise it
+    /// only for large pictures of a near plane.
+    MAX_TEXELS = Setting::whole("render.max_texels", [64.0, 8192.0], &[2048.0]);
+    /// Camera samples per pixel towards the plane. More smooth the edges of glass.
+    CAMERA_SAMPLES = Setting::whole("render.camera_samples", [1.0, 4096.0], &[16.0]);
+    /// First light paths per pixel of the picture without caustics; noisy pixels take up to 64 times as many. More give
+    /// less noise around the caustics.
+    BACKGROUND_SAMPLES = Setting::whole("render.background_samples", [1.0, 65_536.0], &[16.0]);
+} }
+
 impl Default for RenderSettings {
     fn default() -> Self {
         Self {
-            width: 1280,
-            height: 720,
-            passes: 8,
-            photons: 1_000_000,
-            radius: None,
-            max_texels: 2048,
-            camera_samples: 16,
-            background_samples: 16,
+            width: Self::WIDTH.value(),
+            height: Self::HEIGHT.value(),
+            passes: Self::PASSES.value(),
+            photons: Self::PHOTONS.value(),
+            radius: Self::RADIUS.value(),
+            max_texels: Self::MAX_TEXELS.value(),
+            camera_samples: Self::CAMERA_SAMPLES.value(),
+            background_samples: Self::BACKGROUND_SAMPLES.value(),
             view: ViewSettings::default(),
         }
     }
@@ -52,25 +74,14 @@ impl Default for RenderSettings {
 impl RenderSettings {
     /// Refuses values out of range, naming `place.field`.
     pub fn check(&self, place: &str) -> Result<()> {
-        let counts = [
-            ("width", self.width.into(), 16, 16_384),
-            ("height", self.height.into(), 16, 16_384),
-            ("passes", self.passes.into(), 1, 100_000),
-            ("photons", self.photons, 1, 100_000_000),
-            ("max_texels", self.max_texels.into(), 64, 8192),
-            ("camera_samples", self.camera_samples.into(), 1, 4096),
-            ("background_samples", self.background_samples.into(), 1, 65_536),
-        ];
-        for (field, value, least, most) in counts {
-            if !(least..=most).contains(&value) {
-                let what = format!("is {value}, but must lie between {least} and {most}");
-                return Err(Error::value(format!("{place}.{field}"), what));
-            }
-        }
-        if let Some(radius) = self.radius.filter(|r| !(*r > 0.0 && *r <= 0.5)) {
-            let what = format!("is {radius}, but must lie above 0 and at most at 0.5 of the longer side");
-            return Err(Error::value(format!("{place}.radius"), what));
-        }
+        Self::WIDTH.check(self.width, place)?;
+        Self::HEIGHT.check(self.height, place)?;
+        Self::PASSES.check(self.passes, place)?;
+        Self::PHOTONS.check(self.photons, place)?;
+        Self::MAX_TEXELS.check(self.max_texels, place)?;
+        Self::CAMERA_SAMPLES.check(self.camera_samples, place)?;
+        Self::BACKGROUND_SAMPLES.check(self.background_samples, place)?;
+        Self::RADIUS.check(self.radius, place)?;
         self.view.check(&format!("{place}.view"))
     }
 }

@@ -12,37 +12,47 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::image::Image;
-use crate::{Error, Result};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 
-/// How light becomes screen colours.
+/// The function from light to screen colours ([`ViewSettings::TRANSFORM`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(ViewSettings::TRANSFORM))]
 pub enum ViewTransform {
-    /// Filmic: highlights roll off and bleach towards white.
+    /// AgX, filmic.
     #[default]
     Agx,
-    /// The plain sRGB curve, clipped at white.
+    /// The sRGB curve.
     Standard,
 }
 
 /// How the PNG pictures show the light; the EXR files hold it unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct ViewSettings {
-    /// Exposure in stops, -32 to 32: light is multiplied by 2^exposure. Default 0.
+    /// Exposure in stops ([`Self::EXPOSURE`]).
     pub exposure: f32,
-    /// The view transform: "agx" or "standard". Default "agx".
+    /// The view transform ([`Self::TRANSFORM`]).
     pub transform: ViewTransform,
 }
 
+settings! { ViewSettings {
+    /// Exposure of the PNG pictures and the preview: each stop doubles the light. EXR files hold it unchanged.
+    EXPOSURE = Setting::real("render.view.exposure", [-32.0, 32.0], &[0.0]).unit("EV");
+    /// View transform of the PNG pictures and the preview, from light to the colours of a screen.
+    TRANSFORM = Setting::choice("render.view.transform", &[
+        Choice { value: "agx", help: "filmic: highlights roll off and bleach towards white" },
+        Choice { value: "standard", help: "the plain sRGB curve, clipped at white" },
+    ]);
+} }
+
 impl ViewSettings {
-    /// Refuses an exposure that is not within -32 to 32 stops, naming `place.exposure`.
+    /// Refuses an exposure out of range, naming `place.exposure`.
     pub fn check(&self, place: &str) -> Result<()> {
-        if self.exposure.is_finite() && self.exposure.abs() <= 32.0 {
-            return Ok(());
-        }
-        let what = format!("is {} stops, but must lie between -32 and 32", self.exposure);
-        Err(Error::value(format!("{place}.exposure"), what))
+        Self::EXPOSURE.check(self.exposure, place)
     }
 
     /// The resolved transform.

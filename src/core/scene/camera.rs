@@ -5,25 +5,44 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Ray, check};
+use crate::setting::schema::Describe;
+use crate::setting::{ANY, Setting, settings};
 use crate::{Error, Result};
 
 /// From where the picture is taken, world [m]. The image size belongs to the export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CameraDesc {
-    /// Where it stands [m]. Default (0, 1.2, 1.6).
+    /// Its position [m].
     pub position: [f32; 3],
-    /// The point in the middle of the picture [m]. Default the origin.
+    /// The point in the middle of the picture [m].
     pub look_at: [f32; 3],
-    /// What is up in the picture; not along the view. Default (0, 1, 0).
+    /// Upwards in the picture; any length but 0, not along the view.
     pub up: [f32; 3],
-    /// Vertical field of view in degrees, 1 to 170. Default 40.
+    /// Vertical field of view, degrees.
     pub fov_deg: f32,
 }
 
+settings! { CameraDesc {
+    /// Position of the camera, x y z; y is up.
+    POSITION = Setting::vector("scene.camera.position", [-1e6, 1e6], &[0.0, 1.2, 1.6]).unit("m");
+    /// The point in the middle of the picture.
+    LOOK_AT = Setting::vector("scene.camera.look_at", [-1e6, 1e6], &[0.0; 3]).unit("m");
+    /// Upwards in the picture; any length but 0, not along the view. Change it only to look straight down, or to tilt.
+    UP = Setting::vector("scene.camera.up", ANY, &[0.0, 1.0, 0.0]);
+    /// Vertical field of view. Narrow flattens, wide exaggerates.
+    FOV = Setting::real("scene.camera.fov_deg", [1.0, 170.0], &[40.0]).unit("°");
+} }
+
 impl Default for CameraDesc {
     fn default() -> Self {
-        Self { position: [0.0, 1.2, 1.6], look_at: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 40.0 }
+        Self {
+            position: Self::POSITION.value(),
+            look_at: Self::LOOK_AT.value(),
+            up: Self::UP.value(),
+            fov_deg: Self::FOV.value(),
+        }
     }
 }
 
@@ -38,9 +57,9 @@ impl CameraDesc {
     /// # Errors
     /// `Value` names the first value under `place` that cannot be used.
     pub fn resolve(&self, place: &str) -> Result<Camera> {
-        check::within(place, "position", &self.position, -1e6, 1e6)?;
-        check::within(place, "look_at", &self.look_at, -1e6, 1e6)?;
-        check::within(place, "fov_deg", &[self.fov_deg], 1.0, 170.0)?;
+        Self::POSITION.check(self.position, place)?;
+        Self::LOOK_AT.check(self.look_at, place)?;
+        Self::FOV.check(self.fov_deg, place)?;
         let position = Vec3::from(self.position);
         let view = Vec3::from(self.look_at) - position;
         let forward = view.try_normalize().ok_or_else(|| {

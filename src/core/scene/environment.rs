@@ -4,24 +4,35 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check;
 use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A sky of three colours, linear Rec.709 radiance [W/(sr m^2)].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct EnvironmentDesc {
-    /// Straight up. Default 0.
+    /// Radiance from straight up.
     pub zenith: [f32; 3],
-    /// At the horizon. Default 0.
+    /// Radiance from the horizon.
     pub horizon: [f32; 3],
-    /// Below the horizon, where no floor hides it. Default 0.
+    /// Radiance from below the horizon, where no floor hides it.
     pub ground: [f32; 3],
 }
 
+settings! { EnvironmentDesc {
+    /// Light from straight up, linear Rec.709 radiance. It casts no caustics.
+    ZENITH = Setting::colour("scene.environment.zenith", [0.0, 1e6], &[0.0; 3]).unit("W/(sr m²)");
+    /// Light from the horizon, linear Rec.709 radiance.
+    HORIZON = Setting::colour("scene.environment.horizon", [0.0, 1e6], &[0.0; 3]).unit("W/(sr m²)");
+    /// Light from below the horizon where no floor hides it, linear Rec.709 radiance.
+    GROUND = Setting::colour("scene.environment.ground", [0.0, 1e6], &[0.0; 3]).unit("W/(sr m²)");
+} }
+
 impl Default for EnvironmentDesc {
     fn default() -> Self {
-        Self { zenith: [0.0; 3], horizon: [0.0; 3], ground: [0.0; 3] }
+        Self { zenith: Self::ZENITH.value(), horizon: Self::HORIZON.value(), ground: Self::GROUND.value() }
     }
 }
 
@@ -34,8 +45,8 @@ impl EnvironmentDesc {
 
     /// Refuses negative or non-finite radiance.
     pub fn check(&self, place: &str) -> Result<()> {
-        check::within(place, "zenith", &self.zenith, 0.0, 1e6)?;
-        check::within(place, "horizon", &self.horizon, 0.0, 1e6)?;
-        check::within(place, "ground", &self.ground, 0.0, 1e6)
+        Self::ZENITH.check(self.zenith, place)?;
+        Self::HORIZON.check(self.horizon, place)?;
+        Self::GROUND.check(self.ground, place)
     }
 }

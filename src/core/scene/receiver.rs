@@ -8,39 +8,61 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::material::{Diffuse, Material};
-use super::{Hit, Primitive, Ray, SurfaceId, check};
+use super::{Hit, Primitive, Ray, SurfaceId};
 use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// The receiving rectangle as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct ReceiverDesc {
-    /// The middle of the rectangle, world [m]. Default the origin.
+    /// Its centre, world [m].
     pub centre: [f32; 3],
-    /// Width and height [m], each 1e-4 to 1e5. Default (1, 1).
+    /// Width and height [m].
     pub size: [f32; 2],
-    /// Turn about the X, then Y, then Z axis in degrees. Default none: horizontal, facing up.
+    /// Turn about the X, then Y, then Z axis, degrees.
     pub rotate: [f32; 3],
-    /// Share of light it gives back, linear Rec.709, 0 to 1. Default 0.8.
+    /// Share of light it gives back, linear Rec.709.
     pub albedo: [f32; 3],
-    /// How much further the floor reaches around the rectangle in the picture [m], 0 to 1e5. Default 0.
+    /// Width of the floor around it in the picture [m].
     pub surround: f32,
 }
 
+settings! { ReceiverDesc {
+    /// Centre of the rectangle on which the caustics fall, x y z.
+    CENTRE = Setting::vector("scene.receiver.centre", [-1e6, 1e6], &[0.0; 3]).unit("m");
+    /// Width and height of the rectangle. What was drawn keeps its place in shares of the longer side.
+    SIZE = Setting::vector("scene.receiver.size", [1e-4, 1e5], &[1.0, 1.0]).unit("m");
+    /// Turn about the x, then y, then z axis; without it the rectangle is horizontal and faces up.
+    ROTATE = Setting::vector("scene.receiver.rotate", [-36_000.0, 36_000.0], &[0.0; 3]).unit("°");
+    /// Share of light the rectangle gives back, linear Rec.709. Darker tables let caustics stand out.
+    ALBEDO = Setting::colour("scene.receiver.albedo", [0.0, 1.0], &[0.8, 0.8, 0.8]);
+    /// Width of the floor around the rectangle in the picture.
+    SURROUND = Setting::real("scene.receiver.surround", [0.0, 1e5], &[0.0]).unit("m");
+} }
+
 impl Default for ReceiverDesc {
     fn default() -> Self {
-        Self { centre: [0.0; 3], size: [1.0; 2], rotate: [0.0; 3], albedo: [0.8; 3], surround: 0.0 }
+        Self {
+            centre: Self::CENTRE.value(),
+            size: Self::SIZE.value(),
+            rotate: Self::ROTATE.value(),
+            albedo: Self::ALBEDO.value(),
+            surround: Self::SURROUND.value(),
+        }
     }
 }
 
 impl ReceiverDesc {
     /// Refuses an empty rectangle, an albedo above 1 and non-finite values.
     pub fn check(&self, place: &str) -> Result<()> {
-        check::within(place, "centre", &self.centre, -1e6, 1e6)?;
-        check::within(place, "size", &self.size, 1e-4, 1e5)?;
-        check::within(place, "rotate", &self.rotate, -36_000.0, 36_000.0)?;
-        check::within(place, "albedo", &self.albedo, 0.0, 1.0)?;
-        check::within(place, "surround", &[self.surround], 0.0, 1e5)
+        Self::CENTRE.check(self.centre, place)?;
+        Self::SIZE.check(self.size, place)?;
+        Self::ROTATE.check(self.rotate, place)?;
+        Self::ALBEDO.check(self.albedo, place)?;
+        Self::SURROUND.check(self.surround, place)
     }
 
     /// Width and height in plane units; the longer is 1.

@@ -1,4 +1,4 @@
-//! A small map of what attracts photons in a picture, to show where it lies.
+//! A low-resolution map of a picture's sampling density, for display.
 
 use std::path::Path;
 
@@ -9,14 +9,14 @@ use super::picture::Cells;
 use super::settings::{Channel, ImageTarget};
 use crate::Result;
 
-/// What attracts photons in a picture.
+/// The sampling density of a picture, downscaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brightness {
     /// Size of the picture in pixels.
     pub size: Vec2,
     /// Cells per row.
     pub width: usize,
-    /// 0 to 1 for each cell, row by row from the top; 1 is where most photons go.
+    /// Density of each cell over the largest, 0 to 1, row by row from the top.
     pub values: Vec<f32>,
 }
 

@@ -1,4 +1,4 @@
-//! Where photons should go: pictures, drawn from by brightness, and files of points.
+//! Target points of the photons: samples of a picture's brightness, or points from a file.
 
 mod brightness;
 mod decode;

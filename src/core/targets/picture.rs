@@ -1,4 +1,4 @@
-//! Points drawn from a picture, denser where it is brighter.
+//! Sampling of points from a picture, with density proportional to brightness.
 
 use std::path::Path;
 
@@ -17,11 +17,11 @@ use crate::{Error, Result};
 /// Larger pictures are averaged down to at most this many cells a side: finer than any plane texture.
 const MAX_CELLS: usize = 2048;
 
-/// A picture on the plane, ready to draw points from.
+/// The sampling distribution of a picture that lies on the plane.
 #[derive(Clone, Debug)]
 pub struct PictureSampler {
     brightness: Distribution2,
-    /// Colour of each cell over its brightness; empty when colours are not asked for.
+    /// Colour of each cell divided by its brightness; empty unless the target takes colours.
     colours: Vec<Vec3>,
     /// Pixels along the side of a cell.
     block: usize,
@@ -64,12 +64,12 @@ impl PictureSampler {
         Ok(Self { brightness, colours, block, size, frame, notes })
     }
 
-    /// What the artist should know about the file.
+    /// Warnings about the file.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Exactly `n` points of `pass`.
+    /// The `n` points of `pass`.
     ///
     /// Scrambled Sobol points through the inverse of the brightness's cumulative distribution: all passes together
     /// are one low-discrepancy sequence. Between pixels the brightness is bilinear, so no pixel grid shows.
@@ -93,7 +93,7 @@ impl PictureSampler {
         Points { positions, colours }.with_mean_luminance_one()
     }
 
-    /// A tent of two cells' width around the cell's centre: so drawn, the density is the bilinear interpolation.
+    /// The point of a sample: tent-distributed over two cells' width, which makes the density the bilinear interpolation.
     fn plane_from_sample(&self, sample: &crate::math::distribution::Sample2) -> Vec2 {
         let cell = Vec2::new(sample.cell[0] as f32, sample.cell[1] as f32) + 0.5;
         let offset = Vec2::new(tent(sample.within.x), tent(sample.within.y));

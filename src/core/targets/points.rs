@@ -1,23 +1,24 @@
-//! Target points, and reading them from CSV and NPY files.
+//! Target points, and their CSV and NPY files.
 
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
+use crate::files::npy::{self, Header, NpyError};
 use crate::files::read_regular_file;
 use crate::math::colour::luminance;
 use crate::math::hilbert;
 use crate::math::rng::{Purpose, Stream};
 use crate::{Error, Result};
 
-/// Largest file.
+/// Largest file, bytes.
 const MAX_BYTES: u64 = 64 << 20;
 /// Most points.
 const MAX_POINTS: usize = 10_000_000;
 /// Largest coordinate; beyond it f32 squares lose their meaning.
 const MAX_COORDINATE: f32 = 1e6;
 
-/// Points on the plane, perhaps coloured.
+/// Points on the plane, with optional colours.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Points {
     /// Plane coordinates.
@@ -27,8 +28,8 @@ pub struct Points {
 }
 
 impl Points {
-    /// `n` of these points, spread evenly over the plane: all of them when there are `n`, a part of them when there are
-    /// more (another part each pass), each one several times when there are fewer.
+    /// A resampling to `n` points that keeps the density: a subset when there are more (another one in each pass),
+    /// repetitions when there are fewer.
     pub fn resampled(&self, n: usize, seed: u64, pass: u64) -> Self {
         let count = self.positions.len();
         if count == n || count == 0 {
@@ -44,10 +45,10 @@ impl Points {
         Self { positions, colours }.with_mean_luminance_one()
     }
 
-    /// The points of these rows.
+    /// The points at the given rows, in that order.
     ///
     /// # Panics
-    /// When there is no such row.
+    /// When a row is out of range.
     pub fn rows(&self, rows: &[usize]) -> Self {
         let positions = rows.iter().map(|&row| self.positions[row]).collect();
         let colours = if self.colours.is_empty() {
@@ -58,7 +59,7 @@ impl Points {
         Self { positions, colours }.with_mean_luminance_one()
     }
 
-    /// Scales the colours; colours without any light are dropped.
+    /// The same points with colours scaled to mean luminance 1; without colours if all are black.
     pub(super) fn with_mean_luminance_one(mut self) -> Self {
         let sum: f64 = self.colours.iter().map(|colour| f64::from(luminance(*colour))).sum();
         if sum > 0.0 {
@@ -71,7 +72,7 @@ impl Points {
     }
 }
 
-/// Reads points in plane coordinates.
+/// Reads a file of points in plane coordinates.
 ///
 /// NPY (known by its content): an n x 2 or n x 5 array of f32 or f64. Anything else is text: on each line x, y and perhaps r,
 /// g, b, parted by commas, semicolons, spaces or tabs; a first line of names, empty lines and lines from `#` are skipped.
@@ -80,13 +81,13 @@ impl Points {
 /// `Io`, `Limit` (64 MiB, 10 million points), or `Format` naming the line or row that cannot be a point.
 pub fn load_points(path: &Path) -> Result<Points> {
     let bytes = read_regular_file(path, MAX_BYTES)?;
-    let mut reading = Reading { path, points: Points::default(), columns: 0 };
-    if bytes.starts_with(b"\x93NUMPY") {
-        reading.read_npy(&bytes)?;
+    let mut reader = PointReader { path, points: Points::default(), columns: 0 };
+    if bytes.starts_with(npy::MAGIC) {
+        reader.read_npy(&bytes)?;
     } else {
-        reading.read_text(&bytes)?;
+        reader.read_text(&bytes)?;
     }
-    let points = reading.points;
+    let points = reader.points;
     if points.positions.is_empty() {
         return Err(Error::format(path, "", "there are no points in it"));
     }
@@ -102,14 +103,14 @@ pub fn load_points(path: &Path) -> Result<Points> {
     Ok(points)
 }
 
-struct Reading<'a> {
+struct PointReader<'a> {
     path: &'a Path,
     points: Points,
-    /// 2 or 5, from the first point on.
+    /// Numbers per point, 2 or 5; 0 before the first point.
     columns: usize,
 }
 
-impl Reading<'_> {
+impl PointReader<'_> {
     fn read_text(&mut self, bytes: &[u8]) -> Result<()> {
         let text =
             std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).map_err(|_| {
@@ -134,28 +135,19 @@ impl Reading<'_> {
     }
 
     fn read_npy(&mut self, bytes: &[u8]) -> Result<()> {
-        let bad = |what: String| Error::format(self.path, "", what);
-        let file = npyz::NpyFile::new(bytes)
-            .map_err(|error| bad(format!("the NPY header cannot be read ({error})")))?;
-        let shape = file.shape().to_vec();
-        if shape.len() != 2 || !matches!(shape[1], 2 | 5) || file.order() != npyz::Order::C {
-            return Err(bad(format!(
+        let bad = |error: NpyError| Error::format(self.path, "", error.to_string());
+        let header = Header::parse(bytes).map_err(bad)?;
+        let shape = &header.shape;
+        if shape.len() != 2 || !matches!(shape[1], 2 | 5) || header.fortran_order {
+            let what = format!(
                 "an array of shape {shape:?} cannot be points; save n x 2 (x, y) or n x 5 (x, y, r, g, b) in C order"
-            )));
+            );
+            return Err(Error::format(self.path, "", what));
         }
         if shape[0] > MAX_POINTS as u64 {
             return Err(self.too_many());
         }
-        let short = |error| bad(format!("the array is cut short ({error})"));
-        let numbers: Vec<f32> = match file.try_data::<f32>() {
-            Ok(data) => data.collect::<Result<_, _>>().map_err(short)?,
-            Err(file) => match file.try_data::<f64>() {
-                Ok(data) => data.map(|n| n.map(|n| n as f32)).collect::<Result<_, _>>().map_err(short)?,
-                Err(_) => {
-                    return Err(bad("the array does not hold f32 or f64 numbers; convert it".to_owned()));
-                }
-            },
-        };
+        let numbers = header.values(bytes).map_err(bad)?;
         for (row, numbers) in numbers.chunks_exact(shape[1] as usize).enumerate() {
             self.add(numbers, || format!("row {row}"))?;
         }
@@ -194,7 +186,7 @@ impl Reading<'_> {
     }
 }
 
-/// The first six numbers of a line, its count of fields, and how many of those are numbers.
+/// The first six numbers of a line, its number of fields, and how many of them are numbers.
 fn numbers_of(line: &str) -> ([f32; 6], usize, usize) {
     let mut numbers = [0.0; 6];
     let (mut count, mut readable) = (0, 0);

@@ -4,42 +4,59 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
 
-/// Widest placement, and farthest centre, in plane units.
-const FARTHEST: f32 = 10.0;
 /// Share of the rectangle that a picture fills unless its width is given.
 const FILL: f32 = 0.9;
 
 /// A picture whose bright parts attract the photons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct ImageTarget {
     /// PNG, JPEG, OpenEXR or Radiance HDR file, relative to the project.
     pub file: String,
-    /// What of the picture attracts the photons (default `brightness`).
+    /// The channel that attracts the photons ([`Self::CHANNEL`]).
     #[serde(default)]
     pub channel: Channel,
-    /// Whether the photons take the picture's colours on (default false: they keep their own).
+    /// Whether the photons take the picture's colours.
     #[serde(default)]
     pub colour: bool,
-    /// Whether the dark parts attract instead of the bright ones (default false). Transparent parts never do.
+    /// Whether the dark parts attract instead of the bright ones.
     #[serde(default)]
     pub invert: bool,
-    /// Brightness as displayed, 0 to 1, below which a pixel counts as black (default 0).
+    /// Brightness as displayed, 0..=1, below which a pixel counts as black.
     #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub threshold: f32,
     /// Where the picture lies on the receiver (default: in the middle, as large as fits).
     #[serde(default)]
     pub placement: Placement,
 }
 
-/// What of a picture attracts photons.
+settings! { ImageTarget {
+    /// PNG, JPEG, OpenEXR or Radiance HDR file, relative to the project.
+    FILE = Setting::part("keys[].shows.image.file");
+    /// The channel of the picture that attracts the light.
+    CHANNEL = Setting::choice("keys[].shows.image.channel", &[
+        Choice { value: "brightness", help: "linear luminance times opacity; opacity alone where all is black" },
+        Choice { value: "alpha", help: "opacity alone" },
+    ]);
+    /// Whether the light takes the picture's colours; else it keeps its own.
+    COLOUR = Setting::switch("keys[].shows.image.colour", false);
+    /// Whether the dark parts attract instead of the bright ones. Transparent parts never do.
+    INVERT = Setting::switch("keys[].shows.image.invert", false);
+    /// Brightness as displayed, below which a pixel counts as black. Raise it where a grey ground takes light.
+    THRESHOLD = Setting::real("keys[].shows.image.threshold", [0.0, 1.0], &[0.0]);
+} }
+
+/// The channel of a picture that attracts photons ([`ImageTarget::CHANNEL`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(ImageTarget::CHANNEL))]
 pub enum Channel {
-    /// Luminance in linear light times opacity; opacity alone in a picture that is black all over.
+    /// Luminance times opacity.
     #[default]
     Brightness,
     /// Opacity.
@@ -49,24 +66,39 @@ pub enum Channel {
 /// Where a picture lies on the receiver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Placement {
-    /// Centre of the picture in plane coordinates, x to the right and y upwards, the receiver's longer side 1;
-    /// each within -10 to 10 (default: the middle of the receiver).
+    /// Centre, plane coordinates ([`Self::CENTRE`]).
     pub centre: Option<[f32; 2]>,
-    /// Width of the picture in plane units, above 0 up to 10 (default: 0.9 of what fits on the receiver).
+    /// Width, plane units ([`Self::WIDTH`]).
     pub width: Option<f32>,
-    /// Turn about the centre in degrees, counter-clockwise, -360 to 360 (default 0).
-    #[schemars(range(min = -360.0, max = 360.0))]
+    /// Turn about the centre, degrees.
     pub rotate: f32,
 }
+
+settings! { Placement {
+    /// Centre of the picture: x to the right, y upwards, the plane's longer side is 1. By default the middle of the plane.
+    CENTRE = Setting::vector("keys[].shows.image.placement.centre", [-10.0, 10.0], &[]).unit("plane units");
+    /// Width of the picture. By default nine tenths of what fits.
+    WIDTH = Setting::real("keys[].shows.image.placement.width", [0.0, 10.0], &[]).above().unit("plane units");
+    /// Turn of the picture about its centre, counter-clockwise.
+    ROTATE = Setting::real("keys[].shows.image.placement.rotate", [-360.0, 360.0], &[0.0]).unit("°");
+} }
 
 /// Points to which the photons go, as a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct PointsTarget {
-    /// CSV (columns x, y and perhaps r, g, b) or NPY (n x 2 or n x 5 numbers) in plane coordinates, relative to the project.
+    /// CSV or NPY file, relative to the project.
     pub file: String,
 }
+
+settings! { PointsTarget {
+    /// CSV (columns x, y and optionally r, g, b) or NPY (n x 2 or n x 5 numbers) file in plane coordinates, relative to
+    /// the project.
+    FILE = Setting::part("keys[].shows.points.file");
+} }
 
 impl ImageTarget {
     /// A picture with all defaults.
@@ -74,9 +106,9 @@ impl ImageTarget {
         Self {
             file: file.into(),
             channel: Channel::default(),
-            colour: false,
-            invert: false,
-            threshold: 0.0,
+            colour: Self::COLOUR.is_on(),
+            invert: Self::INVERT.is_on(),
+            threshold: Self::THRESHOLD.value(),
             placement: Placement::default(),
         }
     }
@@ -84,8 +116,8 @@ impl ImageTarget {
     /// # Errors
     /// `Value` naming the field under `place` that is out of range.
     pub fn check(&self, place: &str) -> Result<()> {
-        require(!self.file.is_empty(), place, "file", "name a picture")?;
-        require((0.0..=1.0).contains(&self.threshold), place, "threshold", "give a number from 0 to 1")?;
+        named(&self.file, place, "a picture")?;
+        Self::THRESHOLD.check(self.threshold, place)?;
         self.placement.check(&format!("{place}.placement"))
     }
 }
@@ -94,7 +126,7 @@ impl PointsTarget {
     /// # Errors
     /// `Value` naming the field under `place` that is out of range.
     pub fn check(&self, place: &str) -> Result<()> {
-        require(!self.file.is_empty(), place, "file", "name a CSV or NPY file")
+        named(&self.file, place, "a CSV or NPY file")
     }
 }
 
@@ -102,12 +134,9 @@ impl Placement {
     /// # Errors
     /// `Value` naming the field under `place` that is out of range.
     pub fn check(&self, place: &str) -> Result<()> {
-        let near = |value: f32| value.abs() <= FARTHEST;
-        let centre = self.centre.unwrap_or_default();
-        require(centre.into_iter().all(near), place, "centre", "give plane coordinates from -10 to 10")?;
-        let width = self.width.unwrap_or(1.0);
-        require(width > 0.0 && near(width), place, "width", "give a number above 0, at most 10")?;
-        require(self.rotate.abs() <= 360.0, place, "rotate", "give degrees from -360 to 360")
+        Self::CENTRE.check(self.centre, place)?;
+        Self::WIDTH.check(self.width, place)?;
+        Self::ROTATE.check(self.rotate, place)
     }
 
     /// The frame of a picture of `size` pixels on a receiver of `extent`: its centre, and the plane's steps for one
@@ -122,7 +151,7 @@ impl Placement {
     }
 }
 
-/// Comparisons with NaN are false, so that what is not a number is refused as well.
-fn require(holds: bool, place: &str, field: &str, what: &str) -> Result<()> {
-    if holds { Ok(()) } else { Err(Error::value(format!("{place}.{field}"), what)) }
+/// Refuses an empty file name.
+fn named(file: &str, place: &str, kind: &str) -> Result<()> {
+    if file.is_empty() { Err(Error::value(format!("{place}.file"), format!("name {kind}"))) } else { Ok(()) }
 }

@@ -1,4 +1,4 @@
-//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver answers when it has done something.
+//! Opening, saving and leaving documents. Nothing here waits for a disk: the saver replies when it is done.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,79 +6,16 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::App;
-use super::remember::Noted;
+use super::file_state::{Leave, PendingQuestion};
+use crate::editor::asset::{AssetUse, TargetSlot};
 use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
 use crate::editor::document::Document;
-use crate::editor::pick::{At, Pick};
-use crate::editor::places;
-use crate::editor::store::{Answer, Fingerprint, Folders, Journal, Recovery, Request, Save, Saver};
+use crate::editor::relative_path;
+use crate::editor::store::{Fingerprint, Journal, Recovery, SaveRequest, Saver, StoreReply, StoreRequest};
 use crate::editor::templates::{self, TEMPLATES};
 
-/// The threads that read and write, and what is waited for.
-pub(super) struct Files {
-    saver: Option<Saver>,
-    pub(super) journal: Option<Journal>,
-    /// The question that is open, and what its answer decides.
-    asked: Option<(Question, Asked)>,
-    /// What shall be done once the document is saved.
-    after_save: Option<Leave>,
-    /// The example that is being read.
-    template: Option<PathBuf>,
-    /// Work of earlier runs that is still to be asked for.
-    lost: Vec<Recovery>,
-    /// What was handed to the threads last, and the window's title.
-    pub(super) noted: Noted,
-    pub(super) title: String,
-    closing: bool,
-}
-
-/// What an answer decides.
-enum Asked {
-    Leave(Leave),
-    Recover(Box<Recovery>),
-    Changed(Box<Save>),
-    Nothing,
-}
-
-/// Why the document is left.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Leave {
-    Quit,
-    Open(PathBuf),
-    New(usize),
-}
-
-impl Files {
-    /// Starts the threads and looks for work that a crash left. Without folders the documents can be shown, not saved.
-    pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
-        let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
-        if let Some(saver) = &saver {
-            saver.ask(Request::LookForLost);
-        }
-        let journal = folders.as_ref().map(|folders| Journal::start(folders.recovery()));
-        Self {
-            saver,
-            journal,
-            asked: None,
-            after_save: None,
-            template: None,
-            lost: Vec::new(),
-            noted: Noted::default(),
-            title: String::new(),
-            closing: false,
-        }
-    }
-}
-
-impl Files {
-    /// Asks the saver; false where there is none.
-    pub(super) fn request(&self, request: Request) -> bool {
-        self.saver.as_ref().map(|saver| saver.ask(request)).is_some()
-    }
-}
-
 impl App {
-    /// Takes the answers of the threads, of dialogs and of questions.
+    /// Handles the replies of threads, file dialogs and questions.
     pub(super) fn receive(&mut self, ctx: &egui::Context) {
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
@@ -86,7 +23,7 @@ impl App {
         if let Some((purpose, path)) = self.picker.show(ctx) {
             self.picked(ctx, purpose, path);
         }
-        if let Some((question, _)) = &self.files.asked {
+        if let Some((question, _)) = &self.files.question {
             if let Some(answer) = question.show(ctx) {
                 self.decided(ctx, answer);
             }
@@ -103,68 +40,74 @@ impl App {
         }
     }
 
-    fn answered(&mut self, ctx: &egui::Context, answer: Answer) {
+    fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {
         match answer {
-            Answer::Opened(path, Ok(opened)) => {
+            StoreReply::Opened(path, Ok(opened)) => {
                 let template = self.files.template.take().is_some_and(|template| template == path);
                 let document =
                     Document::opened(opened.file, (!template).then_some((path.clone(), opened.seen)));
                 self.replace(document);
                 if !template {
-                    self.preferences.remember(&path);
+                    self.preferences.add_recent(&path);
                 }
                 if !opened.notes.is_empty() {
-                    self.word = opened.notes.join("; ");
+                    self.editor.status = opened.notes.join("; ");
                 }
             }
-            Answer::Opened(path, Err(error)) => {
+            StoreReply::Opened(path, Err(error)) => {
                 self.files.template = None;
-                self.tell(format!("'{}' cannot be opened", name(&path)), error.to_string());
+                self.show_message(format!("'{}' cannot be opened", name(&path)), error.to_string());
             }
-            Answer::Saved(save, Ok(saved)) => {
-                let from = templates::file_of(&self.document);
+            StoreReply::Saved(save, Ok(saved)) => {
+                let from = templates::file_of(&self.editor.document);
                 if from.parent() != save.path.parent() {
-                    self.document.relocate(|project| places::relocated(project, &from, &save.path));
+                    self.editor
+                        .document
+                        .relocate(|project| relative_path::relocated(project, &from, &save.path));
                 }
-                self.document.mark_saved(save.project, save.path.clone(), saved.seen);
-                self.preferences.remember(&save.path);
-                self.word = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
+                self.editor.document.mark_saved(save.project, save.path.clone(), saved.seen);
+                self.preferences.add_recent(&save.path);
+                self.editor.status = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
                 if let Some(leave) = self.files.after_save.take() {
                     self.leave(ctx, leave);
                 }
             }
-            Answer::Saved(save, Err(error)) => {
+            StoreReply::Saved(save, Err(error)) => {
                 self.files.after_save = None;
-                self.tell(format!("'{}' was not saved", name(&save.path)), error.to_string());
+                self.show_message(format!("'{}' was not saved", name(&save.path)), error.to_string());
             }
-            Answer::ChangedOnDisk(save) => {
+            StoreReply::ChangedOnDisk(save) => {
                 let question = Question::Changed { title: name(&save.path), unsaved: true };
-                self.files.asked = Some((question, Asked::Changed(Box::new(save))));
+                self.files.question = Some((question, PendingQuestion::Changed(Box::new(save))));
             }
-            Answer::Lost(lost) => self.files.lost = lost,
-            Answer::Failed(why) => self.word = why,
+            StoreReply::Lost(lost) => self.files.lost = lost,
+            StoreReply::Failed(why) => self.editor.status = why,
         }
     }
 
     fn decided(&mut self, ctx: &egui::Context, answer: dialogs::Answer) {
-        let Some((_, asked)) = self.files.asked.take() else { return };
+        let Some((_, asked)) = self.files.question.take() else { return };
         match (asked, answer) {
-            (Asked::Leave(leave), dialogs::Answer::Yes) => {
+            (PendingQuestion::Leave(leave), dialogs::Answer::Yes) => {
                 self.files.after_save = Some(leave);
                 self.save(ctx);
             }
-            (Asked::Leave(leave), dialogs::Answer::No) => self.go(ctx, leave),
-            (Asked::Recover(recovery), dialogs::Answer::Yes) => self.recover(*recovery),
-            (Asked::Recover(recovery), dialogs::Answer::No) => self.request(Request::Discard(recovery)),
-            (Asked::Changed(save), dialogs::Answer::Yes) => self.request(Request::Open(save.path)),
-            (Asked::Changed(save), dialogs::Answer::No) => {
-                self.request(Request::Save(Save { seen: None, ..*save }));
+            (PendingQuestion::Leave(leave), dialogs::Answer::No) => self.go(ctx, leave),
+            (PendingQuestion::Recover(recovery), dialogs::Answer::Yes) => self.recover(*recovery),
+            (PendingQuestion::Recover(recovery), dialogs::Answer::No) => {
+                self.request(StoreRequest::Discard(recovery))
             }
-            (_, dialogs::Answer::Cancel) | (Asked::Nothing, _) => self.files.after_save = None,
+            (PendingQuestion::Changed(save), dialogs::Answer::Yes) => {
+                self.request(StoreRequest::Open(save.path))
+            }
+            (PendingQuestion::Changed(save), dialogs::Answer::No) => {
+                self.request(StoreRequest::Save(SaveRequest { seen: None, ..*save }));
+            }
+            (_, dialogs::Answer::Cancel) | (PendingQuestion::Nothing, _) => self.files.after_save = None,
         }
     }
 
-    /// Takes up work that a crash left.
+    /// Opens work recovered from a crash.
     fn recover(&mut self, recovery: Recovery) {
         match &recovery.work {
             Ok(file) => {
@@ -174,7 +117,7 @@ impl App {
                 self.replace(document);
                 self.files.journal = Some(Journal::resume(recovery));
             }
-            Err(error) => self.tell("The work cannot be read".into(), error.to_string()),
+            Err(error) => self.show_message("The recovery file cannot be read".into(), error.to_string()),
         }
     }
 
@@ -187,14 +130,14 @@ impl App {
         };
         let (title, file_changed) = (recovery.title.clone(), recovery.file_changed);
         let question = Question::Recover { title, when, file_changed };
-        self.files.asked = Some((question, Asked::Recover(Box::new(recovery))));
+        self.files.question = Some((question, PendingQuestion::Recover(Box::new(recovery))));
     }
 
-    /// Leaves the document, after asking where it holds unsaved work.
+    /// Leaves the document, after a question where it has unsaved changes.
     pub(super) fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
-        if self.document.is_unsaved() {
-            let question = Question::Unsaved { title: self.document.title() };
-            self.files.asked = Some((question, Asked::Leave(leave)));
+        if self.editor.document.is_unsaved() {
+            let question = Question::Unsaved { title: self.editor.document.title() };
+            self.files.question = Some((question, PendingQuestion::Leave(leave)));
         } else {
             self.go(ctx, leave);
         }
@@ -209,59 +152,60 @@ impl App {
                 self.files.closing = true;
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
-            Leave::Open(path) => self.request(Request::Open(path)),
+            Leave::Open(path) => self.request(StoreRequest::Open(path)),
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
                     let what =
                         "their folder 'projects' is neither beside the program nor in the current folder";
-                    return self.tell("The examples are not there".into(), what.into());
+                    return self.show_message("The examples are missing".into(), what.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
                 self.files.template = Some(path.clone());
-                self.request(Request::Open(path));
+                self.request(StoreRequest::Open(path));
             }
         }
     }
 
     /// Asks for a project to open.
     pub(super) fn ask_what_to_open(&mut self, ctx: &egui::Context) {
-        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
         self.picker.ask(PickRequest::new(Purpose::OpenProject).in_folder(folder), ctx);
     }
 
     /// Saves to the document's file, or asks for one.
     pub(super) fn save(&mut self, ctx: &egui::Context) {
-        match self.document.path().map(Path::to_owned) {
-            Some(path) => self.save_to(path, self.document.seen()),
+        match self.editor.document.path().map(Path::to_owned) {
+            Some(path) => self.save_to(path, self.editor.document.seen()),
             None => self.save_as(ctx),
         }
     }
 
     /// Asks for a file to save to.
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
-        let folder = self.document.path().and_then(Path::parent).map(Path::to_owned);
-        let name = match self.document.path() {
+        let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
+        let name = match self.editor.document.path() {
             Some(path) => name(path),
-            None => format!("{}.json", self.document.title().to_lowercase().replace([' ', ','], "_")),
+            None => format!("{}.json", self.editor.document.title().to_lowercase().replace([' ', ','], "_")),
         };
         self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
     }
 
     fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {
-        let from = templates::file_of(&self.document);
+        let from = templates::file_of(&self.editor.document);
         let project = match from.parent() == path.parent() {
-            true => self.document.project().clone(),
-            false => Arc::new(places::relocated(self.document.project(), &from, &path)),
+            true => self.editor.document.project().clone(),
+            false => Arc::new(relative_path::relocated(self.editor.document.project(), &from, &path)),
         };
-        match self.document.file() {
-            Ok(file) => self.request(Request::Save(Save { path, file, project, seen })),
-            Err(error) => self.tell("The project cannot be saved".into(), error.to_string()),
+        match self.editor.document.file() {
+            Ok(file) => self.request(StoreRequest::Save(SaveRequest { path, file, project, seen })),
+            Err(error) => self.show_message("The project cannot be saved".into(), error.to_string()),
         }
     }
 
-    fn request(&mut self, request: Request) {
+    fn request(&mut self, request: StoreRequest) {
         if !self.files.request(request) {
-            self.word = "no thread could be started for files; nothing is opened or saved".into();
+            self.editor.status =
+                "no thread could be started for file access; nothing can be opened or saved".into();
         }
     }
 
@@ -274,20 +218,20 @@ impl App {
         }
     }
 
-    /// Lets the artist pick a file for the project.
-    pub(super) fn pick(&mut self, ctx: &egui::Context, pick: Pick) {
-        let folder = templates::file_of(&self.document).parent().map(Path::to_owned);
+    /// Asks for a file for the project.
+    pub(super) fn pick_file(&mut self, ctx: &egui::Context, pick: AssetUse) {
+        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
         self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
     }
 
-    /// Puts a file into the project. Who picks a file allows that it is read.
-    fn insert(&mut self, pick: &Pick, file: &Path) {
-        let base = templates::file_of(&self.document);
-        let written = places::relative(file, &base);
+    /// Puts a file into the project. Picking a file outside the project folder allows external files.
+    fn insert(&mut self, pick: &AssetUse, file: &Path) {
+        let base = templates::file_of(&self.editor.document);
+        let written = relative_path::relative(file, &base);
         self.external = true;
-        if let Some(edit) = pick.edit(self.document.project(), written) {
-            self.edit(edit);
-            self.document.settle();
+        if let Some(edit) = pick.edit(self.editor.document.project(), written) {
+            self.editor.edit(edit);
+            self.editor.document.settle();
         }
     }
 
@@ -295,22 +239,28 @@ impl App {
     /// what the key frame after the playhead shows.
     fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let ends = |pick: &Pick| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
-        let keys = &self.document.project().keys;
-        let after = keys.iter().position(|key| key.frame >= self.session.playhead);
-        let at = At { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
+        let ends = |pick: &AssetUse| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
+        let keys = &self.editor.document.project().keys;
+        let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
+        let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
         if ending.as_deref() == Some("json") {
             return self.leave(ctx, Leave::Open(file));
         }
-        match [Pick::Mesh, Pick::Picture(at.clone()), Pick::Points(at)].iter().find(|pick| ends(pick)) {
+        match [AssetUse::Mesh, AssetUse::Picture(at.clone()), AssetUse::Points(at)]
+            .iter()
+            .find(|pick| ends(pick))
+        {
             Some(pick) => self.insert(pick, &file),
-            None => self.word = format!("'{}' is no project, mesh, picture or file of points", name(&file)),
+            None => {
+                self.editor.status =
+                    format!("'{}' is not a project, mesh, picture or point file", name(&file))
+            }
         }
     }
 
-    /// Says something that must be read.
-    pub(super) fn tell(&mut self, title: String, text: String) {
-        self.files.asked = Some((Question::Message { title, text }, Asked::Nothing));
+    /// Shows a message window.
+    pub(super) fn show_message(&mut self, title: String, text: String) {
+        self.files.question = Some((Question::Message { title, text }, PendingQuestion::Nothing));
     }
 }
 

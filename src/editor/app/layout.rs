@@ -1,16 +1,17 @@
-//! What stands where in the window.
+//! The layout of the window.
 
 use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
 
-use super::{App, Card};
+use super::{App, Gpu};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
+use crate::editor::context::EditorContext;
 use crate::editor::export;
-use crate::editor::panels::{self, Desk};
+use crate::editor::panels;
 use crate::editor::store::PhotonRenderer;
 use crate::editor::timeline::Timeline;
-use crate::editor::tools::bar;
+use crate::editor::tools::toolbar;
 use crate::editor::tour::Anchors;
 use crate::editor::{menu, theme};
 
@@ -18,37 +19,36 @@ use crate::editor::{menu, theme};
 const PANEL: [f32; 2] = [330.0, 290.0];
 
 impl App {
-    /// Shows everything; what is asked for comes into `actions`.
+    /// Shows everything; actions are appended to `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
-        let mut desk =
-            Desk { document: &self.document, session: &mut self.session, preview: &self.preview, actions };
-        let desk = &mut desk;
-        Panel::top("menu").show(ui, |ui| menu::show(ui, desk, &self.recents.found()));
-        if let Some(problem) = desk.preview.problem().map(str::to_owned) {
+        let mut editor = self.editor.context(actions);
+        let editor = &mut editor;
+        Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found()));
+        if let Some(problem) = editor.preview.problem().map(str::to_owned) {
             Panel::top("problem").frame(banner(ui)).show(ui, |ui| {
                 problem_banner(ui, &problem, &mut self.external);
             });
         }
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-            if status(ui, desk, &self.word, self.card, self.preferences.photon_renderer, &self.exports) {
-                desk.ask(Command::Export);
+            if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
+                editor.ask(Command::Export);
             }
         });
-        let height = Timeline::height(desk);
+        let height = Timeline::height(editor);
         let timeline = Panel::bottom("timeline").resizable(true).default_size(height).min_size(110.0);
         self.timeline.external = self.external;
-        let play = timeline.show(ui, |ui| self.timeline.show(ui, desk)).inner;
+        let play = timeline.show(ui, |ui| self.timeline.show(ui, editor)).inner;
         let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2));
-        let tools = Panel::left("tools").exact_size(bar::WIDTH).resizable(false).frame(frame);
-        let [line, wall] = tools.show(ui, |ui| bar::show(ui, desk, &self.toolbox)).inner;
+        let tools = Panel::left("tools").exact_size(toolbar::WIDTH).resizable(false).frame(frame);
+        let [line, wall] = tools.show(ui, |ui| toolbar::show(ui, editor, &self.toolbox)).inner;
         Panel::right("panels")
             .resizable(true)
             .default_size(PANEL[0])
             .min_size(PANEL[1])
-            .show(ui, |ui| panels::show(ui, desk));
+            .show(ui, |ui| panels::show(ui, editor));
         let surround = Frame::NONE.fill(theme::SURROUND);
         let plane = CentralPanel::default().frame(surround).show(ui, |ui| {
-            self.views.show(ui, desk, &mut self.toolbox);
+            self.views.show(ui, editor, &mut self.toolbox);
             self.views.plane_rect()
         });
         self.windows.anchors = Some(Anchors { line, wall, play, plane: plane.inner });
@@ -61,32 +61,28 @@ fn banner(ui: &Ui) -> Frame {
         .inner_margin(Margin::symmetric(12, 6))
 }
 
-/// What is wrong with the project, and what can be done at once.
+/// The preview's problem, with a button for what can be done at once.
 fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("This cannot be worked out").strong());
+        ui.label(RichText::new("The preview cannot be computed").strong());
         ui.label(problem);
-        if problem.contains("--allow-external")
-            && !*external
-            && ui.button("Allow files from elsewhere").clicked()
-        {
+        if problem.contains("--allow-external") && !*external && ui.button("Allow external files").clicked() {
             *external = true;
         }
     });
 }
 
-/// What goes on, what the tool in hand does, and what draws. Tells whether the export was clicked.
+/// The status bar: activity, message, export, renderer. Returns whether the export was clicked.
 fn status(
     ui: &mut Ui,
-    desk: &Desk,
-    word: &str,
-    card: Card,
+    editor: &EditorContext,
+    gpu: Gpu,
     renderer: PhotonRenderer,
     exports: &export::Exports,
 ) -> bool {
     let mut clicked = false;
     ui.horizontal_centered(|ui| {
-        let activity = desk.preview.activity();
+        let activity = editor.preview.activity();
         let (doing, share) = activity.map_or(("ready", 1.0), |now| (doing(now.stage), now.fraction));
         let bar = egui::ProgressBar::new(share).desired_width(70.0).desired_height(6.0);
         ui.add_enabled(activity.is_some(), bar).accessible_name("Preview");
@@ -94,47 +90,46 @@ fn status(
         ui.add_sized([120.0, 18.0], egui::Label::new(RichText::new(doing).weak()).halign(Align::Min));
         ui.separator();
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (name, help) = drawn_by(card, renderer);
+            let (name, help) = drawn_by(gpu, renderer);
             ui.weak(name).on_hover_text(help);
             ui.separator();
-            panels::readouts::strip(ui, desk);
+            panels::readouts::status_line(ui, editor);
             ui.separator();
-            clicked = export::strip(ui, exports);
+            clicked = export::status_line(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(egui::Label::new(word).truncate());
+                ui.add(egui::Label::new(editor.status).truncate());
             });
         });
     });
     clicked
 }
 
-/// What the worker does, in a word.
+/// The name of the preview's stage.
 fn doing(stage: &str) -> &'static str {
     match stage {
         "trace" => "tracing photons",
         "match" => "matching",
         "fit" => "fitting the flow",
-        "visible" | "background" => "looking at the scene",
-        "render" | "carry" => "carrying photons",
+        "visible" | "background" => "rendering the background",
+        "render" | "carry" => "moving photons",
         _ => "loading",
     }
 }
 
-fn drawn_by(card: Card, renderer: PhotonRenderer) -> (&'static str, &'static str) {
-    match (card, renderer) {
-        (Card::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
+fn drawn_by(gpu: Gpu, renderer: PhotonRenderer) -> (&'static str, &'static str) {
+    match (gpu, renderer) {
+        (Gpu::Hardware, PhotonRenderer::Auto | PhotonRenderer::Gpu) => {
             ("Graphics card", "The graphics card draws the light of the plane view.")
         }
-        (Card::Software, PhotonRenderer::Gpu) => (
-            "Software graphics",
-            "There is no graphics card; a program that behaves like one draws the light.",
-        ),
-        (Card::Hardware, PhotonRenderer::Cpu) => {
-            ("Processor", "The processor works the light out, as the preferences say.")
+        (Gpu::Software, PhotonRenderer::Gpu) => {
+            ("Software graphics", "There is no graphics card; a software renderer draws the light.")
         }
-        (Card::Software | Card::None, _) => (
+        (Gpu::Hardware, PhotonRenderer::Cpu) => {
+            ("Processor", "The processor draws the light, as set in the preferences.")
+        }
+        (Gpu::Software | Gpu::None, _) => (
             "No graphics card",
-            "The processor works the light out: the same picture, some frames per second less. All else is as with a card.",
+            "The processor draws the light: the same picture at a lower frame rate. Everything else is the same.",
         ),
     }
 }

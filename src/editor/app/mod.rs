@@ -1,11 +1,12 @@
-//! The application: the order of a frame. Results come in, panels are shown, actions are carried out, the preview is asked.
+//! The application. One frame: results come in, panels are shown, actions are carried out, the preview is updated.
 
-mod apply;
+mod autosave;
 mod commands;
+mod file_state;
 mod files;
 mod layout;
+mod open_windows;
 mod recents;
-mod remember;
 mod windows;
 
 use std::sync::Arc;
@@ -21,20 +22,19 @@ use super::export::Exports;
 use super::playback::{self, Playback};
 use super::preview::{LivePreview, Subject};
 use super::session::Session;
+use super::state::EditorState;
 use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
-use super::{keys, preferences, templates, theme};
-use files::Files;
+use super::{keyboard, preferences, templates, theme};
+use file_state::Files;
+use open_windows::Windows;
 use recents::Recents;
-use windows::Windows;
 
-/// The window's state.
+/// The window: the editor's state with its views, windows and files.
 pub struct App {
-    document: Document,
-    session: Session,
-    preview: LivePreview,
+    editor: EditorState,
     toolbox: Toolbox,
     timeline: Timeline,
     playback: Playback,
@@ -45,41 +45,39 @@ pub struct App {
     recents: Recents,
     files: Files,
     preferences: Preferences,
-    /// What the graphics card can do.
-    card: Card,
+    /// The graphics device.
+    gpu: Gpu,
     /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
     external: bool,
-    /// What was asked for from outside.
+    /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
-    /// What the status bar says, until something else happens.
-    word: String,
 }
 
-/// What draws the photons of the plane.
+/// The kind of graphics device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Card {
+pub enum Gpu {
     /// A graphics card.
     Hardware,
-    /// A program that behaves like one. The processor estimates the light itself two to eighteen times as fast.
+    /// Software rendering; the processor draws the photons 2 to 18 times as fast itself.
     Software,
-    /// Nothing that blends 32-bit floats.
+    /// No device that blends 32-bit floats.
     None,
 }
 
-/// What a window is opened with.
+/// The initial state of a window.
 pub struct Setup {
-    /// What it shows.
+    /// The open document.
     pub document: Document,
-    /// What to tell first, if anything: a title and what to do.
+    /// A message to show first: title and text.
     pub message: Option<(String, String)>,
-    /// Where the user's files for recovery and preferences are; without them nothing is kept between runs.
+    /// Folders for recovery and preferences; without them nothing is kept between runs.
     pub folders: Option<Folders>,
-    /// What the user prefers.
+    /// The user's preferences.
     pub preferences: Preferences,
-    /// Where files are asked for.
+    /// The file dialogs.
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
-    pub card: Card,
+    pub gpu: Gpu,
 }
 
 impl App {
@@ -94,8 +92,7 @@ impl App {
         let engine = SharedEngine::default();
         let first_start = !setup.preferences.first_start_seen;
         let mut app = Self {
-            session: Session { snapping: setup.preferences.snapping, ..begin(&setup.document) },
-            preview: LivePreview::new(engine.clone(), wake()),
+            editor: EditorState::new(setup.document, engine.clone(), wake()),
             toolbox: Toolbox::default(),
             timeline: Timeline::default(),
             playback: Playback::default(),
@@ -106,38 +103,37 @@ impl App {
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             preferences: setup.preferences,
-            card: setup.card,
+            gpu: setup.gpu,
             external: false,
             asked: Vec::new(),
-            word: String::new(),
-            document: setup.document,
         };
+        app.editor.session.snapping = app.preferences.snapping;
         if first_start {
-            app.session.playing = true;
-            app.windows.tour.begin(app.document.project());
+            app.editor.session.playing = true;
+            app.windows.tour.begin(app.editor.document.project());
         }
         if let Some((title, text)) = setup.message {
-            app.tell(title, text);
+            app.show_message(title, text);
         }
         app
     }
 
-    /// The document, to look at.
+    /// The open document.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.editor.document
     }
 
-    /// The state of the window, to look at.
+    /// The state of the session.
     pub fn session(&self) -> &Session {
-        &self.session
+        &self.editor.session
     }
 
-    /// What was worked out, to look at.
+    /// The results of the preview.
     pub fn preview(&self) -> &LivePreview {
-        &self.preview
+        &self.editor.preview
     }
 
-    /// Asks for something as a panel would; it is done in the next frame of the window.
+    /// Asks for an action as a panel does; it is carried out in the next frame.
     pub fn ask(&mut self, action: Action) {
         self.asked.push(action);
     }
@@ -149,7 +145,7 @@ impl App {
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.name(), tool.key())).collect();
         let mut actions = std::mem::take(&mut self.asked);
-        actions.extend(keys::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
+        actions.extend(keyboard::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
         for action in actions {
@@ -157,48 +153,39 @@ impl App {
         }
         let gesture = ctx.input(|input| input.pointer.any_down()) || ctx.text_edit_focused();
         if !gesture && !self.toolbox.tool().is_busy() {
-            self.document.settle();
+            self.editor.document.settle();
         }
-        self.remember(&ctx);
+        self.autosave(&ctx);
         self.follow();
     }
 
-    /// Time that passed moves the playhead.
+    /// Moves the playhead by the time that passed.
     fn play(&mut self, ctx: &egui::Context) {
-        let frames = playback::played(self.document.project(), &self.session);
-        let fps = playback::fps(self.document.project());
+        let frames = playback::played(self.editor.document.project(), &self.editor.session);
+        let fps = playback::fps(self.editor.document.project());
         let seconds = ctx.input(|input| input.stable_dt).into();
-        if let Some(next) = self.playback.advance(&mut self.session, &frames, fps, seconds) {
+        if let Some(next) = self.playback.advance(&mut self.editor.session, &frames, fps, seconds) {
             ctx.request_repaint_after(Duration::from_secs_f64(next));
         }
     }
 
-    /// Tells the workers what is wanted now.
+    /// Updates the preview's subject and views.
     fn follow(&mut self) {
-        self.preview.draw_by_card(self.draws_by_card());
+        self.editor.preview.draw_by_card(self.draws_on_gpu());
         let subject = Subject {
-            project: self.document.project().clone(),
-            base: templates::file_of(&self.document),
+            project: self.editor.document.project().clone(),
+            base: templates::file_of(&self.editor.document),
             external: self.external,
         };
-        self.preview.follow(&subject, &self.session, self.views.wanted());
+        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
     }
 
-    /// Puts another document into the window.
+    /// Replaces the document.
     fn replace(&mut self, document: Document) {
-        let Session { views, show, snapping, looping, panel, tool, .. } = self.session.clone();
         let _ = self.toolbox.put_down();
-        self.session = Session { views, show, snapping, looping, panel, tool, ..begin(&document) };
-        self.document = document;
+        self.editor.open(document);
         self.external = false;
-        self.word.clear();
     }
-}
-
-/// A session at the begin of a document.
-fn begin(document: &Document) -> Session {
-    let first = document.project().keys.first().map_or(1, |key| key.frame);
-    Session { playhead: first, ..Session::default() }
 }
 
 impl eframe::App for App {

@@ -1,4 +1,4 @@
-//! Files that were open lately, and whether they are still there: asked on a thread, for a disk may be far away.
+//! Recent files, and whether they still exist: checked on a thread, since disks may be slow.
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -6,14 +6,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::editor::menu::Recent;
 use crate::editor::preview::worker::{Share, Turn, Worker};
 
-/// Looks for the newest list of files.
+/// The recent files with the thread that checks them.
 pub(super) struct Recents {
     worker: Worker<Vec<PathBuf>>,
     found: Arc<Mutex<Vec<Recent>>>,
 }
 
 impl Recents {
-    /// `wake` is called when the files were looked for.
+    /// `wake` is called when the files were checked.
     pub(super) fn new(wake: impl Fn() + Clone + Send + 'static) -> Self {
         let found: Arc<Mutex<Vec<Recent>>> = Arc::default();
         let theirs = found.clone();
@@ -30,12 +30,12 @@ impl Recents {
         Self { worker, found }
     }
 
-    /// Looks for these.
+    /// Checks these files.
     pub(super) fn ask(&self, paths: Vec<PathBuf>) {
         self.worker.ask(paths);
     }
 
-    /// What was found last.
+    /// The result of the last check.
     pub(super) fn found(&self) -> Vec<Recent> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,169 +1,182 @@
-//! Pointer and keys over a view become gestures of the plane and movements of the view.
+//! Pointer and keys over a view, as gestures on the plane and moves of the view.
 
 use egui::{Event, Key, MouseWheelSource, PointerButton, Pos2, Response, Ui, Vec2};
 use glam::Vec2 as PlanePoint;
 
-use crate::editor::tools::{Gesture, Grip, Held, is_covered};
+use crate::editor::keyboard::is_covered;
+use crate::editor::tools::{Gesture, HeldKeys, PointerMode};
 
-/// Points of the wheel that double the size.
+/// Wheel scroll that doubles the zoom, points.
 const WHEEL: f32 = 240.0;
-/// Points of a drag that double the size.
+/// Drag distance that doubles the zoom, points.
 const DRAG: f32 = 120.0;
-/// Factor of a click with the zoom tool.
+/// Zoom factor of a click with the zoom tool.
 const CLICK_ZOOM: f32 = 1.6;
 /// A drag shorter than this is a click, points.
 const CLICK: f32 = 4.0;
 
-/// How a view is moved.
+/// A move of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Move {
-    /// What is seen moves by so many points.
+pub enum ViewMove {
+    /// Pans by a vector in points.
     Pan(Vec2),
-    /// What is seen grows by a factor about a place of the screen.
+    /// Zooms by a factor about a screen position.
     Zoom(f32, Pos2),
 }
 
-/// What pointer and keys asked for in one frame of the window.
+/// The input of one frame.
 #[derive(Clone, Debug, Default)]
 pub struct Input {
-    /// For the tool in hand.
+    /// Gestures for the active tool.
     pub gestures: Vec<Gesture>,
-    /// For the view.
-    pub moves: Vec<Move>,
+    /// Moves of the view.
+    pub moves: Vec<ViewMove>,
     /// Whether the view is being dragged.
     pub dragging: bool,
 }
 
-/// What the buttons do that are down.
+/// What the pressed buttons are doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Hand {
+enum PointerDrag {
     #[default]
     Free,
     Tool,
     Pan(Pos2),
-    /// Where it began, where it is, and whether it is a drag.
+    /// Start, current position, and whether the drag threshold was passed.
     Zoom(Pos2, Pos2, bool),
 }
 
-/// What is held beside the pointer.
-pub fn held(ui: &Ui) -> Held {
+/// The modifier keys.
+pub fn held(ui: &Ui) -> HeldKeys {
     let modifiers = ui.input(|input| input.modifiers);
-    Held { shift: modifiers.shift, alt: modifiers.alt, ctrl: modifiers.command || modifiers.ctrl }
+    HeldKeys { shift: modifiers.shift, alt: modifiers.alt, ctrl: modifiers.command || modifiers.ctrl }
 }
 
-/// Reads the pointer over the view of `response`. `plane` tells the plane point at a place of the screen, if there is
+/// Reads the pointer over the view of `response`. `plane` maps a screen position to a plane point, if there is
 /// one.
 pub fn pointer(
     ui: &Ui,
     response: &Response,
-    grip: Grip,
+    pointer_mode: PointerMode,
     plane: &dyn Fn(Pos2) -> Option<PlanePoint>,
 ) -> Input {
     let id = response.id.with("hand");
-    let mut hand = ui.data(|data| data.get_temp::<Hand>(id)).unwrap_or_default();
+    let mut drag = ui.data(|data| data.get_temp::<PointerDrag>(id)).unwrap_or_default();
     let mut input = Input::default();
     let events = ui.input(|input| input.events.clone());
     for event in events {
         match event {
-            Event::PointerButton { pos, button, pressed: true, .. } if hand == Hand::Free => {
-                hand = press(ui, response, grip, pos, button);
-                let at = plane(pos).filter(|_| hand == Hand::Tool);
+            Event::PointerButton { pos, button, pressed: true, .. } if drag == PointerDrag::Free => {
+                drag = press(ui, response, pointer_mode, pos, button);
+                let at = plane(pos).filter(|_| drag == PointerDrag::Tool);
                 input.gestures.extend(at.map(Gesture::Press));
             }
-            Event::PointerMoved(pos) => moved(&mut hand, pos, plane, &mut input),
+            Event::PointerMoved(pos) => moved(&mut drag, pos, plane, &mut input),
             Event::PointerButton { pos, pressed: false, .. } => {
-                release(ui, std::mem::take(&mut hand), pos, plane, &mut input);
+                release(ui, std::mem::take(&mut drag), pos, plane, &mut input);
             }
             _ => (),
         }
     }
-    // A button that came up outside of the window is told to nobody.
-    if hand != Hand::Free && !ui.input(|input| input.pointer.any_down()) {
+    // No event reports a button released outside of the window.
+    if drag != PointerDrag::Free && !ui.input(|input| input.pointer.any_down()) {
         let at = ui.input(|input| input.pointer.latest_pos()).unwrap_or(response.rect.center());
-        release(ui, std::mem::take(&mut hand), at, plane, &mut input);
+        release(ui, std::mem::take(&mut drag), at, plane, &mut input);
     }
     let pointer = ui.input(|input| input.pointer.latest_pos());
-    if response.double_clicked() && grip == Grip::Tool {
+    if response.double_clicked() && pointer_mode == PointerMode::Tool {
         input.gestures.extend(pointer.and_then(plane).map(Gesture::DoubleClick));
     }
-    if response.hovered() && hand == Hand::Free {
+    if response.hovered() && drag == PointerDrag::Free {
         input.gestures.extend(pointer.and_then(plane).map(Gesture::Hover));
     }
     input.moves.extend(wheel(ui, response));
-    input.dragging = matches!(hand, Hand::Pan(_));
-    ui.data_mut(|data| data.insert_temp(id, hand));
+    input.dragging = matches!(drag, PointerDrag::Pan(_));
+    ui.data_mut(|data| data.insert_temp(id, drag));
     input
 }
 
-fn press(ui: &Ui, response: &Response, grip: Grip, pos: Pos2, button: PointerButton) -> Hand {
+fn press(
+    ui: &Ui,
+    response: &Response,
+    pointer_mode: PointerMode,
+    pos: Pos2,
+    button: PointerButton,
+) -> PointerDrag {
     let here = response.is_pointer_button_down_on()
         || response.clicked_by(button)
         || (button == PointerButton::Middle && response.contains_pointer());
     if !here {
-        return Hand::Free;
+        return PointerDrag::Free;
     }
     let space = ui.input(|input| input.key_down(Key::Space)) && !ui.ctx().text_edit_focused();
-    match (button, grip) {
-        (PointerButton::Middle, _) => Hand::Pan(pos),
-        (PointerButton::Primary, _) if space => Hand::Pan(pos),
-        (PointerButton::Primary, Grip::Pan) => Hand::Pan(pos),
-        (PointerButton::Primary, Grip::Zoom) => Hand::Zoom(pos, pos, false),
-        (PointerButton::Primary, Grip::Tool) => Hand::Tool,
-        _ => Hand::Free,
+    match (button, pointer_mode) {
+        (PointerButton::Middle, _) => PointerDrag::Pan(pos),
+        (PointerButton::Primary, _) if space => PointerDrag::Pan(pos),
+        (PointerButton::Primary, PointerMode::Pan) => PointerDrag::Pan(pos),
+        (PointerButton::Primary, PointerMode::Zoom) => PointerDrag::Zoom(pos, pos, false),
+        (PointerButton::Primary, PointerMode::Tool) => PointerDrag::Tool,
+        _ => PointerDrag::Free,
     }
 }
 
-fn moved(hand: &mut Hand, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlanePoint>, input: &mut Input) {
-    match hand {
-        Hand::Free => (),
-        Hand::Tool => input.gestures.extend(plane(pos).map(Gesture::Drag)),
-        Hand::Pan(last) => {
-            input.moves.push(Move::Pan(pos - *last));
+fn moved(drag: &mut PointerDrag, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlanePoint>, input: &mut Input) {
+    match drag {
+        PointerDrag::Free => (),
+        PointerDrag::Tool => input.gestures.extend(plane(pos).map(Gesture::Drag)),
+        PointerDrag::Pan(last) => {
+            input.moves.push(ViewMove::Pan(pos - *last));
             *last = pos;
         }
-        Hand::Zoom(begin, last, dragged) => {
+        PointerDrag::Zoom(begin, last, dragged) => {
             *dragged |= begin.distance(pos) > CLICK;
             if *dragged {
                 let by = (pos.x - last.x) - (pos.y - last.y);
-                input.moves.push(Move::Zoom((by / DRAG).exp2(), *begin));
+                input.moves.push(ViewMove::Zoom((by / DRAG).exp2(), *begin));
                 *last = pos;
             }
         }
     }
 }
 
-fn release(ui: &Ui, hand: Hand, pos: Pos2, plane: &dyn Fn(Pos2) -> Option<PlanePoint>, input: &mut Input) {
-    match hand {
+fn release(
+    ui: &Ui,
+    drag: PointerDrag,
+    pos: Pos2,
+    plane: &dyn Fn(Pos2) -> Option<PlanePoint>,
+    input: &mut Input,
+) {
+    match drag {
         // Where the pointer left the plane, the gesture ends at its last place.
-        Hand::Tool => {
+        PointerDrag::Tool => {
             let last = input.gestures.iter().rev().find_map(|gesture| match gesture {
                 Gesture::Press(p) | Gesture::Drag(p) => Some(*p),
                 _ => None,
             });
             input.gestures.push(Gesture::Release(plane(pos).or(last).unwrap_or_default()));
         }
-        Hand::Zoom(begin, _, false) => {
+        PointerDrag::Zoom(begin, _, false) => {
             let held = held(ui);
             let factor = if held.shift || held.alt { CLICK_ZOOM.recip() } else { CLICK_ZOOM };
-            input.moves.push(Move::Zoom(factor, begin));
+            input.moves.push(ViewMove::Zoom(factor, begin));
         }
-        Hand::Free | Hand::Pan(_) | Hand::Zoom(..) => (),
+        PointerDrag::Free | PointerDrag::Pan(_) | PointerDrag::Zoom(..) => (),
     }
 }
 
-/// The wheel brings nearer, two fingers on a trackpad move, and both of them apart bring nearer.
-fn wheel(ui: &Ui, response: &Response) -> Option<Move> {
+/// The wheel zooms, two-finger scrolling pans, pinching zooms.
+fn wheel(ui: &Ui, response: &Response) -> Option<ViewMove> {
     let pointer = response.hover_pos().filter(|_| response.hovered())?;
     let (scroll, pinch, source) =
         ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta(), input.scroll_source()));
     if source == Some(MouseWheelSource::Trackpad) && pinch == 1.0 {
-        return (scroll != Vec2::ZERO).then_some(Move::Pan(scroll));
+        return (scroll != Vec2::ZERO).then_some(ViewMove::Pan(scroll));
     }
     let factor = pinch * (scroll.y / WHEEL).exp2();
-    (factor != 1.0 && factor.is_finite()).then_some(Move::Zoom(factor, pointer))
+    (factor != 1.0 && factor.is_finite()).then_some(ViewMove::Zoom(factor, pointer))
 }
 
-/// The keys that tools answer, unless another widget has them.
+/// Key presses for tools, unless another widget has the focus.
 pub fn keys(ui: &Ui, response: &Response) -> Vec<Gesture> {
     const KEYS: [Key; 8] = [
         Key::Enter,

@@ -1,4 +1,4 @@
-//! A plain file dialog of our own, where the system has none: a list of folders and files, and a path to type.
+//! The built-in file dialog for systems without one: a list of folders and files, and a path field.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
@@ -6,20 +6,21 @@ use std::thread;
 
 use egui::{Button, Context, Key, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{PickRequest, Purpose, modal};
+use super::modal::modal;
+use super::request::{PickRequest, Purpose, with_ending};
 use crate::editor::theme;
 
-/// Most entries that are listed of one folder.
+/// Maximum number of listed entries of a folder.
 const MOST: usize = 5_000;
 
-/// The open dialog.
+/// The state of the open dialog.
 pub(super) struct Browser {
     purpose: Purpose,
     folder: PathBuf,
-    /// The path as typed, relative to the folder or absolute.
+    /// The typed path, relative to the folder or absolute.
     typed: String,
     listing: Listing,
-    /// A file of that name is there: asks again before it is overwritten.
+    /// An existing file that needs a confirmation before it is overwritten.
     overwrite: Option<PathBuf>,
     wake: Context,
 }
@@ -29,20 +30,20 @@ enum Listing {
     Read(Read),
 }
 
-/// What is to be listed of a folder, or where the typed path leads.
+/// The content of a folder, or the result of a typed path.
 #[derive(Clone, Debug, Default)]
 struct Read {
     folder: PathBuf,
-    entries: Vec<Entry>,
+    entries: Vec<FolderEntry>,
     problem: Option<String>,
-    /// The path that was typed, if it leads to something that can be taken.
+    /// The typed path, if it can be chosen.
     taken: Option<PathBuf>,
     /// Whether it would overwrite a file.
     exists: bool,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct FolderEntry {
     is_file: bool,
     name: String,
 }
@@ -64,7 +65,7 @@ impl Browser {
         }
     }
 
-    /// Shows the dialog; returns what was chosen, or that nothing is.
+    /// Shows the dialog; returns the chosen path, or `Some(None)` when cancelled.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Option<PathBuf>> {
         if let Some(taken) = self.collect() {
             return Some(Some(taken));
@@ -82,7 +83,7 @@ impl Browser {
         if answer.is_none() && shown.should_close() { Some(None) } else { answer }
     }
 
-    /// Takes in what was read; a typed path that can be taken is the answer.
+    /// Takes the result of the reading thread; returns a typed path that can be chosen.
     fn collect(&mut self) -> Option<PathBuf> {
         let Listing::Reading(results) = &self.listing else { return None };
         let read = match results.try_recv() {
@@ -105,7 +106,7 @@ impl Browser {
         None
     }
 
-    /// The folder with a button for each that it lies in.
+    /// The path of the folder, with a button for each ancestor.
     fn above(&mut self, ui: &mut Ui) {
         let mut wanted = None;
         ui.horizontal_wrapped(|ui| {
@@ -157,10 +158,7 @@ impl Browser {
                         }
                     });
                     if read.entries.is_empty() && read.problem.is_none() {
-                        ui.weak(format!(
-                            "No folder and no file of this kind is here ({}).",
-                            self.purpose.files().0
-                        ));
+                        ui.weak(format!("No folders or matching files here ({}).", self.purpose.files().0));
                     }
                 });
             },
@@ -174,7 +172,7 @@ impl Browser {
         }
     }
 
-    /// The path, and the buttons.
+    /// The path field and the buttons.
     fn below(&mut self, ui: &mut Ui) -> Option<Option<PathBuf>> {
         if let Some(path) = self.overwrite.clone() {
             return self.ask_again(ui, path);
@@ -209,13 +207,13 @@ impl Browser {
 
     fn ask_again(&mut self, ui: &mut Ui, path: PathBuf) -> Option<Option<PathBuf>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        ui.colored_label(theme::WARN, format!("'{name}' is there already. Shall it be overwritten?"));
+        ui.colored_label(theme::WARN, format!("'{name}' already exists. Overwrite it?"));
         let mut answer = None;
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button("Overwrite").clicked() {
                 answer = Some(Some(path));
             }
-            if ui.button("Another name").clicked() {
+            if ui.button("Choose another name").clicked() {
                 self.overwrite = None;
             }
         });
@@ -228,7 +226,7 @@ impl Browser {
         }
     }
 
-    /// Finds out where the typed path leads.
+    /// Resolves the typed path.
     fn take(&mut self) {
         let typed = self.typed.trim();
         let path = if typed.is_empty() { self.folder.clone() } else { self.folder.join(home(typed)) };
@@ -236,7 +234,7 @@ impl Browser {
     }
 }
 
-/// A path as typed, with ~ for the home folder.
+/// A typed path with ~ replaced by the home folder.
 fn home(typed: &str) -> PathBuf {
     let rest = typed.strip_prefix("~/").or_else(|| (typed == "~").then_some(""));
     match (rest, directories::UserDirs::new()) {
@@ -245,7 +243,7 @@ fn home(typed: &str) -> PathBuf {
     }
 }
 
-/// Reads a folder, or finds out where a path leads, on a thread of its own.
+/// Reads a folder, or resolves a path, on a thread of its own.
 fn read(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose, wake: &Context) -> Listing {
     let (sender, receiver) = channel();
     let wake = wake.clone();
@@ -265,19 +263,19 @@ fn look(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose) -> Read {
         // A folder that was typed is gone to, unless it is what is wanted.
         Some(path) if path.is_dir() && !wants_folder => list(path, purpose),
         Some(path) if wants_folder || path.is_file() || purpose.saves() => {
-            let saved = super::with_ending(&purpose, path.clone());
+            let saved = with_ending(&purpose, path.clone());
             let exists = purpose.saves() && saved.exists();
             Read { taken: Some(path), exists, ..list(folder, purpose) }
         }
         Some(path) => {
-            let problem = Some(format!("'{}' is not there", path.display()));
+            let problem = Some(format!("'{}' does not exist", path.display()));
             Read { problem, ..list(folder, purpose) }
         }
         None => list(folder, purpose),
     }
 }
 
-/// Folders, and files of the wanted kind, by name; hidden ones are left out.
+/// The folders and the files of the wanted kind, sorted by name, without hidden ones.
 fn list(folder: PathBuf, purpose: Purpose) -> Read {
     let folder = folder.canonicalize().unwrap_or(folder);
     let entries = match std::fs::read_dir(&folder) {
@@ -292,14 +290,14 @@ fn list(folder: PathBuf, purpose: Purpose) -> Read {
         let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         ending.is_some_and(|ending| endings.contains(&ending.as_str()))
     };
-    let mut entries: Vec<Entry> = entries
+    let mut entries: Vec<FolderEntry> = entries
         .flatten()
         .take(MOST)
         .filter_map(|entry| {
             let name = entry.file_name().to_string_lossy().into_owned();
             let is_file = !entry.path().is_dir();
             let shown = !name.starts_with('.') && (!is_file || wanted(&entry.path()));
-            shown.then_some(Entry { is_file, name })
+            shown.then_some(FolderEntry { is_file, name })
         })
         .collect();
     entries.sort();
@@ -328,7 +326,7 @@ mod tests {
         };
         assert_eq!(names(Purpose::OpenProject), ["frames", "A.JSON", "b.json"]);
         assert_eq!(names(Purpose::ExportFolder), ["frames"]);
-        assert_eq!(names(Purpose::Asset(crate::editor::pick::Pick::Mesh)), ["frames", "d.obj"]);
+        assert_eq!(names(Purpose::Asset(crate::editor::asset::AssetUse::Mesh)), ["frames", "d.obj"]);
     }
 
     #[test]

@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 use egui::Context;
 use rfd::AsyncFileDialog;
 
-use super::{Dialogs, PickRequest, PickResult};
+use super::request::{Dialogs, PickRequest, PickResult};
 
-/// A dialog that says no sooner than this was never on the screen: no one reads and answers so fast, and where the system
+/// A dialog cancelled sooner than this was never shown: no user answers so fast, and where the system
 /// has no file dialog the answer comes within some milliseconds.
 const NOBODY: Duration = Duration::from_millis(250);
 
-/// Asks through the desktop's portal, or the system's dialog on macOS and Windows.
+/// The desktop portal's dialogs, or the system's on macOS and Windows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Native;
 

@@ -1,49 +1,49 @@
-//! Questions and messages over the window: egui's own, since a system without dialogs would answer for the user.
+//! Modal questions and messages, drawn by egui: a system without dialogs would answer for the user.
 
-use super::modal;
+use super::modal::modal;
 use egui::{Button, Context, Key, RichText};
 
 /// A question, or a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// The document has changes that no file has, and is to be left.
+    /// The document has unsaved changes and is about to be left.
     Unsaved {
-        /// What the document is called.
+        /// Title of the document.
         title: String,
     },
-    /// Work of an earlier run was found that no file has.
+    /// Unsaved work of an earlier run was found.
     Recover {
-        /// What the document was called.
+        /// Title of the document.
         title: String,
-        /// When its last change was made, in words.
+        /// Age of the last change, in words.
         when: String,
         /// Whether the file has changed since.
         file_changed: bool,
     },
-    /// The file was changed by another program since it was read.
+    /// Another program changed the file since it was read.
     Changed {
         /// The file.
         title: String,
-        /// Whether the document has changes of its own, too.
+        /// Whether the document has unsaved changes too.
         unsaved: bool,
     },
-    /// Something went wrong.
+    /// A message.
     Message {
-        /// What.
+        /// Title.
         title: String,
-        /// Why, and what to do.
+        /// Reason and remedy.
         text: String,
     },
 }
 
-/// What the user wants.
+/// The answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save the changes; take up the recovered work; read the file anew.
+    /// Save the changes; recover the work; reload the file.
     Yes,
-    /// Lose the changes; drop the recovered work; keep what is in the window.
+    /// Discard the changes; delete the recovered work; keep the document.
     No,
-    /// Leave all as it is; a message was read; recovered work is asked for again at the next start.
+    /// Change nothing; close a message; offer the recovered work again at the next start.
     Cancel,
 }
 
@@ -59,29 +59,29 @@ impl Question {
         match self {
             Self::Unsaved { title } => Words {
                 title: format!("Save the changes in '{title}'?"),
-                text: "They are lost otherwise.".into(),
+                text: "Otherwise they are lost.".into(),
                 labels: ["Save", "Discard", "Cancel"],
             },
             Self::Recover { title, when, file_changed } => Words {
                 title: format!("Recover '{title}'?"),
                 text: format!(
-                    "The program ended before the changes of {when} were saved. They can be taken up again; {}",
+                    "The program ended before the changes of {when} were saved. They can be recovered; {}",
                     if *file_changed {
-                        "but another program has changed the file since, and saving them would replace that."
+                        "but another program has changed the file since, and saving would overwrite it."
                     } else {
                         "the file itself is as it was last saved."
                     }
                 ),
-                labels: ["Recover", "Delete them", "Ask again later"],
+                labels: ["Recover", "Delete", "Ask again later"],
             },
             Self::Changed { title, unsaved } => Words {
                 title: format!("'{title}' was changed by another program"),
                 text: if *unsaved {
-                    "Reading it anew loses the changes that were made here.".into()
+                    "Reloading discards your changes.".into()
                 } else {
-                    "It can be read anew, or stay as it is here.".into()
+                    "Reload it, or keep the open version.".into()
                 },
-                labels: ["Read anew", "Keep this", ""],
+                labels: ["Reload", "Keep open version", ""],
             },
             Self::Message { title, text } => {
                 Words { title: title.clone(), text: text.clone(), labels: ["", "", "Close"] }
@@ -89,7 +89,7 @@ impl Question {
         }
     }
 
-    /// Shows the question; returns the answer once it is given. Enter is yes, Escape is cancel.
+    /// Shows the question and returns the answer once given. Enter is yes, Escape is cancel.
     pub fn show(&self, ctx: &Context) -> Option<Answer> {
         let Words { title, text, labels } = self.words();
         let mut answer = None;

@@ -1,4 +1,4 @@
-//! All that can be changed in a project. `Edit::apply` is the only place that writes one.
+//! Edits: all changes of a project. `Edit::apply` is the only place that modifies one.
 
 use std::collections::BTreeSet;
 
@@ -10,45 +10,45 @@ use lightloom_core::project::{CausticDesc, KeyFrame, OutputSettings, PlaneSettin
 use lightloom_core::render::RenderSettings;
 use lightloom_core::scene::SceneDesc;
 
-/// One change of the project. A panel takes a copy of a part, changes it, and asks for the whole part.
+/// One change of the project. A panel copies a part, changes the copy, and asks for the whole part.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// The project's name.
     Name(String),
-    /// The seed of all random numbers.
+    /// The seed of the random numbers.
     Seed(u64),
-    /// Glass, lights, camera, receiver; none for a bare plane.
+    /// The scene; none for a bare plane.
     Scene(Option<Box<SceneDesc>>),
-    /// The plane of a project without scene.
+    /// The plane of a project without a scene.
     Plane(PlaneSettings),
-    /// The named caustics. Keys forget what they say of one that is gone.
+    /// The named caustics. Key frames drop their entries for removed ones.
     Caustics(Vec<CausticDesc>),
-    /// Gives caustic number `.0` the name `.1`, also in the keys.
+    /// Renames the caustic of index `.0` to `.1`, in the key frames too.
     RenameCaustic(usize, String),
-    /// The key frames; brought into rising order.
+    /// The key frames; sorted by frame.
     Keys(Vec<KeyFrame>),
-    /// How points are paired.
+    /// The matching method.
     Matching(Method),
-    /// How the photons get from key to key.
+    /// The method of movement.
     Method(Movement),
-    /// Adds what was drawn.
+    /// Adds constraints.
     Add(Vec<Constraint>),
     /// Removes constraints by index.
     Remove(BTreeSet<usize>),
-    /// Puts others in place of constraints, by index.
+    /// Replaces constraints, by index.
     Change(Vec<(usize, Constraint)>),
-    /// All constraints anew: joined, split, reordered.
+    /// Replaces all constraints: joined, split, reordered.
     Constraints(Vec<Constraint>),
-    /// The vector field and the way along it.
+    /// The flow settings.
     Flow(FlowSettings),
-    /// Photons, passes, picture.
+    /// The render settings.
     Render(RenderSettings),
-    /// What is written.
+    /// The output settings.
     Output(OutputSettings),
 }
 
 impl Edit {
-    /// What undo calls it.
+    /// Name of the edit in the undo menu.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Name(_) => "name",
@@ -71,7 +71,7 @@ impl Edit {
     /// The project after this change.
     ///
     /// # Errors
-    /// A value that cannot be used, by its path in the project.
+    /// An invalid value, with its path in the project.
     pub(super) fn apply(self, project: &Project) -> Result<Project> {
         let mut project = project.clone();
         self.write(&mut project);

@@ -1,4 +1,4 @@
-//! The open project: what it is, where it is saved, and what it was before.
+//! The open document: a project, its file, and its history.
 
 mod edit;
 mod history;
@@ -13,37 +13,37 @@ use lightloom_core::project::{Project, ProjectFile};
 
 use super::store::Fingerprint;
 
-/// The open project.
+/// A project with its file and its history.
 #[derive(Clone, Debug)]
 pub struct Document {
     project: Arc<Project>,
-    /// The project as it stands in its file.
+    /// The project as last saved.
     saved: Arc<Project>,
     path: Option<PathBuf>,
-    /// The text that the project came from; none for one that never was a file.
+    /// The text that the project was read from; none for one that was never a file.
     file: Option<Arc<ProjectFile>>,
-    /// The content of the file at `path` when it was last read or written.
+    /// Fingerprint of the file at `path` when it was last read or written.
     seen: Option<Fingerprint>,
     history: History,
-    /// Whether it holds work that no file has: a recovered one, say.
+    /// Whether it is unsaved regardless of edits, such as a recovered document.
     unsaved: bool,
 }
 
 impl Document {
-    /// A project that stands in the file `path`; without one it was never saved.
+    /// A document of a project saved at `path`, or never saved.
     pub fn new(project: Project, path: Option<PathBuf>) -> Self {
         let project = Arc::new(project);
         let (file, seen, history) = (None, None, History::default());
         Self { saved: project.clone(), project, path, file, seen, history, unsaved: false }
     }
 
-    /// A project that was read from a file. It stands at `at`; without a place it is a new one that began with that text.
+    /// A document read from a file saved at `at`; without `at`, a new one based on that text.
     pub fn opened(file: Arc<ProjectFile>, at: Option<(PathBuf, Fingerprint)>) -> Self {
         let (path, seen) = at.unzip();
         Self { file: Some(file.clone()), seen, ..Self::new(file.project().clone(), path) }
     }
 
-    /// What the project's text is made from: it keeps what this program does not know.
+    /// The project file that text is written through: it keeps fields that this program does not know.
     ///
     /// # Errors
     /// The project would not load again.
@@ -56,22 +56,22 @@ impl Document {
         Ok(file)
     }
 
-    /// The content of its file when that was last read or written.
+    /// Fingerprint of its file when that was last read or written.
     pub fn seen(&self) -> Option<Fingerprint> {
         self.seen
     }
 
-    /// The project as it is now.
+    /// The current project.
     pub fn project(&self) -> &Arc<Project> {
         &self.project
     }
 
-    /// The file it stands in; none where it was never saved.
+    /// Its file; none where it was never saved.
     pub fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 
-    /// What the window calls it: the file's name, or the project's.
+    /// Its title: the name of the file, or of the project.
     pub fn title(&self) -> String {
         let file = self.path.as_ref().and_then(|path| path.file_name());
         file.map_or_else(
@@ -80,7 +80,7 @@ impl Document {
         )
     }
 
-    /// Whether there is something to save.
+    /// Whether there are unsaved changes.
     pub fn is_unsaved(&self) -> bool {
         self.unsaved || (!Arc::ptr_eq(&self.project, &self.saved) && self.project != self.saved)
     }
@@ -90,10 +90,10 @@ impl Document {
         &self.history
     }
 
-    /// Changes the project; one step until [`Self::settle`].
+    /// Edits the project; all edits until [`Self::settle`] are one undo step.
     ///
     /// # Errors
-    /// A value that cannot be used; the project stays as it was.
+    /// An invalid value; the project is unchanged.
     pub fn edit(&mut self, edit: Edit) -> Result<()> {
         let name = edit.name();
         let after = edit.apply(&self.project)?;
@@ -104,40 +104,40 @@ impl Document {
         Ok(())
     }
 
-    /// The gesture is over: what comes next is a step of its own.
+    /// Ends the gesture: the next edit is a new undo step.
     pub fn settle(&mut self) {
         self.history.settle(&self.project);
     }
 
-    /// The gesture is broken off: the project is as before it.
+    /// Cancels the gesture and restores the project.
     pub fn abort(&mut self) {
         self.project = self.history.abort().unwrap_or_else(|| self.project.clone());
     }
 
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn undo(&mut self) {
         self.project = self.history.undo(&self.project).unwrap_or_else(|| self.project.clone());
     }
 
-    /// Does again what was taken back.
+    /// Redoes the last undone step.
     pub fn redo(&mut self) {
         self.project = self.history.redo(&self.project).unwrap_or_else(|| self.project.clone());
     }
 
-    /// `project` stands in the file `path` now, whose content is `seen`.
+    /// Records that `project` was saved at `path` with the fingerprint `seen`.
     pub fn mark_saved(&mut self, project: Arc<Project>, path: PathBuf, seen: Fingerprint) {
         self.saved = project;
         (self.path, self.seen) = (Some(path), Some(seen));
         self.unsaved = false;
     }
 
-    /// The document moves to another folder: `there` names the same files from it, now and in what can be undone.
+    /// Rewrites the file paths for another folder with `there`, in the project and its history.
     pub fn relocate(&mut self, there: impl Fn(&Project) -> Project) {
         self.project = Arc::new(there(&self.project));
         self.history.change_all(|project| Arc::new(there(project)));
     }
 
-    /// It holds work that no file has.
+    /// Marks the document as unsaved.
     pub fn mark_unsaved(&mut self) {
         self.unsaved = true;
     }

@@ -22,7 +22,7 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// What to export. Later changes of the document do not touch it.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct ExportSettings {
     /// The project as it shall be rendered.
     pub project: Arc<Project>,
     /// The project file, whose folder the project's paths are relative to.
@@ -39,7 +39,7 @@ pub struct Order {
 
 /// How an export stands.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stage {
+pub enum Status {
     /// It waits for those before it.
     Waiting,
     /// It is being rendered.
@@ -88,8 +88,8 @@ pub struct Growing {
 }
 
 /// An export, as the window sees it.
-pub struct Job {
-    order: Order,
+pub struct ExportJob {
+    settings: ExportSettings,
     engine: SharedEngine,
     progress: Progress,
     stop_asked: AtomicBool,
@@ -98,19 +98,19 @@ pub struct Job {
 }
 
 struct State {
-    stage: Stage,
+    status: Status,
     cost: Option<Cost>,
     passes: usize,
     files: usize,
     picture: Option<Growing>,
 }
 
-impl Job {
-    pub(super) fn new(order: Order, engine: SharedEngine) -> Self {
-        let state = State { stage: Stage::Waiting, cost: None, passes: 0, files: 0, picture: None };
+impl ExportJob {
+    pub(super) fn new(settings: ExportSettings, engine: SharedEngine) -> Self {
+        let state = State { status: Status::Waiting, cost: None, passes: 0, files: 0, picture: None };
         Self {
-            shown: AtomicI32::new(order.shown),
-            order,
+            shown: AtomicI32::new(settings.shown),
+            settings,
             engine,
             progress: Progress::new(),
             stop_asked: AtomicBool::new(false),
@@ -119,13 +119,13 @@ impl Job {
     }
 
     /// What is exported.
-    pub fn order(&self) -> &Order {
-        &self.order
+    pub fn settings(&self) -> &ExportSettings {
+        &self.settings
     }
 
     /// How it stands.
-    pub fn stage(&self) -> Stage {
-        self.state().stage.clone()
+    pub fn status(&self) -> Status {
+        self.state().status.clone()
     }
 
     /// What it will cost, once that is known.
@@ -155,7 +155,7 @@ impl Job {
 
     /// Whether it waits or is being rendered.
     pub fn is_open(&self) -> bool {
-        matches!(self.state().stage, Stage::Waiting | Stage::Running)
+        matches!(self.state().status, Status::Waiting | Status::Running)
     }
 
     /// Whether it rests.
@@ -173,12 +173,12 @@ impl Job {
         self.progress.resume();
     }
 
-    /// Breaks it off: nothing more is written. Frames that are complete already stay.
+    /// Cancels the export; nothing more is written. Frames that are complete already stay.
     pub fn cancel(&self) {
         self.progress.abandon();
         let mut state = self.state();
-        if state.stage == Stage::Waiting {
-            state.stage = Stage::Cancelled;
+        if state.status == Status::Waiting {
+            state.status = Status::Cancelled;
         }
     }
 
@@ -197,7 +197,7 @@ impl Job {
     }
 
     pub(super) fn fail(&self, why: &str) {
-        self.state().stage = Stage::Failed(why.to_owned());
+        self.state().status = Status::Failed(why.to_owned());
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -209,7 +209,7 @@ impl Job {
         if self.progress.is_abandoned() {
             return;
         }
-        self.state().stage = Stage::Running;
+        self.state().status = Status::Running;
         let finished = AtomicBool::new(false);
         let done = thread::scope(|scope| {
             let ticker = scope.spawn(|| self.tick(&finished, wake));
@@ -218,12 +218,12 @@ impl Job {
             ticker.thread().unpark();
             done
         });
-        self.state().stage = done;
+        self.state().status = done;
         wake();
     }
 
     fn render(&self) -> Result<Summary> {
-        let Order { project, file, external, folder, .. } = &self.order;
+        let ExportSettings { project, file, external, folder, .. } = &self.settings;
         let engine = self.engine.of(file, *external)?.on_behalf_of(Client::Export);
         prepare_folder(folder, file, project, "folder")?;
         let saved = |_: &Path| self.state().files += 1;
@@ -246,7 +246,8 @@ impl Job {
         let begun = Instant::now();
         while !finished.load(Relaxed) {
             let worked = begun.elapsed().saturating_sub(self.progress.rested());
-            let over = self.order.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
+            let over =
+                self.settings.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
             if over && self.passes() > 0 {
                 self.progress.cancel();
             }
@@ -256,7 +257,7 @@ impl Job {
     }
 }
 
-impl RenderObserver for Job {
+impl RenderObserver for ExportJob {
     fn planned(&self, plan: &Plan) {
         let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
         self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
@@ -275,12 +276,12 @@ impl RenderObserver for Job {
 }
 
 /// What came of the work.
-fn guarded(work: impl FnOnce() -> Result<Summary>) -> Stage {
+fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
     match catch_unwind(AssertUnwindSafe(work)) {
-        Ok(Ok(summary)) => Stage::Done(outcome(&summary)),
-        Ok(Err(Error::Cancelled)) => Stage::Cancelled,
-        Ok(Err(error)) => Stage::Failed(error.to_string()),
-        Err(panic) => Stage::Failed(format!("the export broke down: {}", words(&*panic))),
+        Ok(Ok(summary)) => Status::Done(outcome(&summary)),
+        Ok(Err(Error::Cancelled)) => Status::Cancelled,
+        Ok(Err(error)) => Status::Failed(error.to_string()),
+        Err(panic) => Status::Failed(format!("the export failed: {}", words(&*panic))),
     }
 }
 
@@ -315,7 +316,7 @@ mod tests {
     #[test]
     fn a_panic_is_a_failure_with_its_words() {
         let failed = guarded(|| panic!("index {} out of range", 7));
-        assert_eq!(failed, Stage::Failed("the export broke down: index 7 out of range".into()));
-        assert_eq!(guarded(|| Err(Error::Cancelled)), Stage::Cancelled);
+        assert_eq!(failed, Status::Failed("the export failed: index 7 out of range".into()));
+        assert_eq!(guarded(|| Err(Error::Cancelled)), Status::Cancelled);
     }
 }

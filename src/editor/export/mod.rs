@@ -1,72 +1,13 @@
 //! Exports beside editing: each renders a frozen project on threads of its own, one after the other.
 
 mod job;
-mod strip;
+mod options;
+mod queue;
+mod status_line;
 mod window;
-mod wish;
 
-use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
-use std::thread::{self, JoinHandle};
-
-use super::engine::SharedEngine;
-
-pub use job::{Cost, Growing, Job, Order, Outcome, Stage};
-pub use strip::strip;
+pub use job::{Cost, ExportJob, ExportSettings, Growing, Outcome, Status};
+pub use options::ExportOptions;
+pub use queue::Exports;
+pub use status_line::status_line;
 pub use window::ExportWindow;
-pub use wish::Wish;
-
-/// The exports of this run of the program, oldest first.
-pub struct Exports {
-    engine: SharedEngine,
-    jobs: Vec<Arc<Job>>,
-    queue: Option<Sender<Arc<Job>>>,
-    worker: Option<JoinHandle<()>>,
-}
-
-impl Exports {
-    /// No export yet. `wake` is called whenever something may have changed, from other threads.
-    pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (queue, orders) = channel::<Arc<Job>>();
-        let work = move || orders.into_iter().for_each(|job| job.run(&wake));
-        let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
-        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
-    }
-
-    /// Puts an export at the end of the queue.
-    pub fn add(&mut self, order: Order) -> Arc<Job> {
-        let job = Arc::new(Job::new(order, self.engine.clone()));
-        if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
-            job.fail("the system starts no thread for it");
-        }
-        self.jobs.push(job.clone());
-        job
-    }
-
-    /// All exports, oldest first.
-    pub fn jobs(&self) -> &[Arc<Job>] {
-        &self.jobs
-    }
-
-    /// Whether one waits or is being rendered.
-    pub fn is_busy(&self) -> bool {
-        self.jobs.iter().any(|job| job.is_open())
-    }
-
-    /// Takes those from the list that are over.
-    pub fn clear(&mut self) {
-        self.jobs.retain(|job| job.is_open());
-    }
-}
-
-impl Drop for Exports {
-    fn drop(&mut self) {
-        self.jobs.iter().for_each(|job| job.cancel());
-        // Without orders to come the worker ends after the one that it was told to break off.
-        self.queue = None;
-        if let Some(worker) = self.worker.take() {
-            // It catches panics of its jobs; if it broke down nonetheless there is nothing to undo.
-            let _ = worker.join();
-        }
-    }
-}

@@ -1,4 +1,4 @@
-//! The window of exports: what to export, and how the exports stand.
+//! The export window: settings of a new export, and the status of all exports.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,53 +12,59 @@ use lightloom_core::export::FrameFormat;
 use lightloom_core::project::Project;
 use lightloom_core::render::Image;
 
-use super::strip::{colour, controls, words};
-use super::{Exports, Growing, Job, Order, Wish};
+use super::status_line::{colour, controls, words};
+use super::{ExportJob, ExportOptions, ExportSettings, Exports, Growing};
+use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
-use crate::editor::panels::Desk;
 use crate::editor::{playback, templates, theme};
 
 /// Width of the settings, points.
 const LEFT: f32 = 350.0;
 
-/// The window of exports.
+/// The export window.
 pub struct ExportWindow {
-    /// Whether it is seen.
+    /// Whether it is open.
     pub open: bool,
-    /// Whether the project may read files from anywhere, not only from its own folder.
+    /// Whether the project may read files outside its folder.
     pub external: bool,
-    /// What was set here; none of what the project says itself.
-    wish: Option<Wish>,
-    /// What the project said itself when it was last looked at, and its file.
-    own: Option<(Wish, Option<PathBuf>)>,
-    /// Minutes of the time limit, and whether there is one.
+    /// The options as set by the user.
+    options: Option<ExportOptions>,
+    /// The project's own options and file when last shown.
+    own: Option<(ExportOptions, Option<PathBuf>)>,
+    /// Time limit in minutes, and whether it is used.
     limit: (f64, bool),
-    /// The growing picture: of which job, which frame, with how many passes.
+    /// The preview texture, with its job and passes, and its frame.
     picture: Option<([usize; 2], i32, TextureHandle)>,
 }
 
 impl Default for ExportWindow {
     fn default() -> Self {
-        Self { open: false, external: false, wish: None, own: None, limit: (10.0, false), picture: None }
+        Self { open: false, external: false, options: None, own: None, limit: (10.0, false), picture: None }
     }
 }
 
 impl ExportWindow {
-    /// Takes the folder that was picked.
+    /// Sets the output folder.
     pub fn set_folder(&mut self, folder: PathBuf) {
-        if let Some(wish) = &mut self.wish {
-            wish.folder = folder;
+        if let Some(options) = &mut self.options {
+            options.folder = folder;
         }
     }
 
-    /// Shows the window where it is open.
-    pub fn show(&mut self, ctx: &Context, desk: &mut Desk, exports: &mut Exports, picker: &mut Picker) {
+    /// Shows the window if it is open.
+    pub fn show(
+        &mut self,
+        ctx: &Context,
+        editor: &mut EditorContext,
+        exports: &mut Exports,
+        picker: &mut Picker,
+    ) {
         if !self.open {
             return;
         }
-        let project = desk.document.project().clone();
-        let file = desk.document.path().map(ToOwned::to_owned);
-        self.follow(Wish::of(&project, file.as_deref()), file);
+        let project = editor.document.project().clone();
+        let file = editor.document.path().map(ToOwned::to_owned);
+        self.follow(ExportOptions::of(&project, file.as_deref()), file);
         let mut open = true;
         let middle = ctx.content_rect().center() - vec2(390.0, 260.0);
         let window = egui::Window::new("Export").open(&mut open).collapsible(false).resizable(false);
@@ -67,46 +73,46 @@ impl ExportWindow {
                 ui.vertical(|ui| {
                     ui.set_width(LEFT);
                     ui.set_min_height(450.0);
-                    self.settings(ui, desk, &project, picker);
-                    self.begin(ui, desk, &project, exports);
+                    self.settings(ui, editor, &project, picker);
+                    self.begin(ui, editor, &project, exports);
                 });
                 ui.separator();
                 ui.vertical(|ui| {
                     ui.set_min_width(380.0);
-                    self.jobs(ui, desk, exports);
+                    self.jobs(ui, editor, exports);
                 });
             });
         });
         self.open = open;
     }
 
-    /// What was not set here follows the project; another file begins anew.
-    fn follow(&mut self, own: Wish, file: Option<PathBuf>) {
-        match (&mut self.wish, &self.own) {
-            (Some(wish), Some((before, of))) if *of == file => wish.follow(before, &own),
-            (wish, _) => *wish = Some(own.clone()),
+    /// Options not set by the user follow the project; another file resets all.
+    fn follow(&mut self, own: ExportOptions, file: Option<PathBuf>) {
+        match (&mut self.options, &self.own) {
+            (Some(options), Some((before, of))) if *of == file => options.follow(before, &own),
+            (options, _) => *options = Some(own.clone()),
         }
         self.own = Some((own, file));
     }
 
-    fn settings(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, picker: &mut Picker) {
-        let (Some(wish), Some((own, _))) = (&mut self.wish, &self.own) else { return };
+    fn settings(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, picker: &mut Picker) {
+        let (Some(options), Some((own, _))) = (&mut self.options, &self.own) else { return };
         Grid::new("export settings").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
             name(
                 ui,
                 "Frames",
                 "Which frames are rendered, such as 1-100, 1-100x5 or 1,5-10.",
-                &mut wish.frames,
+                &mut options.frames,
                 &own.frames,
             );
             ui.horizontal(|ui| {
-                let field = TextEdit::singleline(&mut wish.frames).desired_width(120.0);
+                let field = TextEdit::singleline(&mut options.frames).desired_width(120.0);
                 ui.add(field).accessible_name("Frames");
-                let played = playback::played(project, desk.session);
-                let marked = desk.session.marks != [None; 2];
-                let button = ui.add_enabled(marked, Button::new("Marked"));
-                if button.on_hover_text("From the in mark to the out mark of the time line.").clicked() {
-                    wish.frames = format!("{}-{}", played.start(), played.end());
+                let played = playback::played(project, editor.session);
+                let marked = editor.session.marks != [None; 2];
+                let button = ui.add_enabled(marked, Button::new("Marked range"));
+                if button.on_hover_text("From the in point to the out point of the timeline.").clicked() {
+                    options.frames = format!("{}-{}", played.start(), played.end());
                 }
             });
             ui.end_row();
@@ -114,11 +120,11 @@ impl ExportWindow {
                 ui,
                 "Size",
                 "Width and height of the pictures in pixels, 16 to 16384.",
-                &mut wish.size,
+                &mut options.size,
                 &own.size,
             );
             ui.horizontal(|ui| {
-                for (side, label) in wish.size.iter_mut().zip(["Width in pixels", "Height in pixels"]) {
+                for (side, label) in options.size.iter_mut().zip(["Width in pixels", "Height in pixels"]) {
                     ui.add(DragValue::new(side).range(16..=16_384).suffix(" px")).accessible_name(label);
                 }
             });
@@ -127,19 +133,20 @@ impl ExportWindow {
                 ui,
                 "Passes",
                 "Each pass has its own photons: more passes, less noise, sharper edges.",
-                &mut wish.passes,
+                &mut options.passes,
                 &own.passes,
             );
-            ui.add(DragValue::new(&mut wish.passes).range(1..=100_000).speed(0.2)).accessible_name("Passes");
+            ui.add(DragValue::new(&mut options.passes).range(1..=100_000).speed(0.2))
+                .accessible_name("Passes");
             ui.end_row();
             name(
                 ui,
                 "Photons",
-                "Photons of one pass. More of them make the picture finer and the memory larger.",
-                &mut wish.photons,
+                "Photons of one pass. More photons make a finer picture and need more memory.",
+                &mut options.photons,
                 &own.photons,
             );
-            let photons = DragValue::new(&mut wish.photons)
+            let photons = DragValue::new(&mut options.photons)
                 .range(1..=100_000_000)
                 .speed(2_000.0)
                 .custom_formatter(|n, _| grouped(n));
@@ -148,11 +155,11 @@ impl ExportWindow {
             name(
                 ui,
                 "Formats",
-                "EXR: linear half floats in layers, for compositing. PNG: as it is seen.",
-                &mut wish.formats,
+                "EXR: linear half floats in layers, for compositing. PNG: display values.",
+                &mut options.formats,
                 &own.formats,
             );
-            ui.horizontal(|ui| formats(ui, &mut wish.formats));
+            ui.horizontal(|ui| formats(ui, &mut options.formats));
             ui.end_row();
             ui.label("Time").on_hover_text(
                 "Without a limit all passes are rendered. The first pass is always completed.",
@@ -167,20 +174,20 @@ impl ExportWindow {
             name(
                 ui,
                 "Folder",
-                "Where the frames go; it is made if it is not there.",
-                &mut wish.folder,
+                "The output folder; created if it does not exist.",
+                &mut options.folder,
                 &own.folder,
             );
             ui.horizontal(|ui| {
-                let mut text = wish.folder.to_string_lossy().into_owned();
+                let mut text = options.folder.to_string_lossy().into_owned();
                 let text_before = text.clone();
                 let field = TextEdit::singleline(&mut text).desired_width(170.0);
                 let shown = ui.add(field).accessible_name("Folder").on_hover_text(&text_before);
                 if shown.changed() {
-                    wish.folder = text.into();
+                    options.folder = text.into();
                 }
                 if ui.button("Browse…").clicked() {
-                    let start = wish.folder.parent().map(ToOwned::to_owned);
+                    let start = options.folder.parent().map(ToOwned::to_owned);
                     picker.ask(PickRequest::new(Purpose::ExportFolder).in_folder(start), ui.ctx());
                 }
             });
@@ -188,10 +195,10 @@ impl ExportWindow {
         });
     }
 
-    /// The button that begins, and the command line that does the same.
-    fn begin(&mut self, ui: &mut Ui, desk: &Desk, project: &Project, exports: &mut Exports) {
-        let Some(wish) = &self.wish else { return };
-        let applied = wish.apply(project);
+    /// The export button, and the equivalent command line.
+    fn begin(&mut self, ui: &mut Ui, editor: &EditorContext, project: &Project, exports: &mut Exports) {
+        let Some(options) = &self.options else { return };
+        let applied = options.apply(project);
         let frames = applied.as_ref().ok().and_then(|project| project.frames().ok()).unwrap_or_default();
         ui.add_space(10.0);
         let text = match frames.len() {
@@ -207,39 +214,37 @@ impl ExportWindow {
             && begin.clicked()
         {
             let shown =
-                if frames.contains(&desk.session.playhead) { Some(desk.session.playhead) } else { None };
-            exports.add(Order {
+                if frames.contains(&editor.session.playhead) { Some(editor.session.playhead) } else { None };
+            exports.add(ExportSettings {
                 project: Arc::new(project.clone()),
-                file: templates::file_of(desk.document),
+                file: templates::file_of(editor.document),
                 external: self.external,
-                folder: wish.folder.clone(),
+                folder: options.folder.clone(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
                 shown: shown.or(frames.get(frames.len() / 2).copied()).unwrap_or_default(),
             });
         }
         ui.add_space(10.0);
-        command_line(ui, desk, project, wish, self.external);
+        command_line(ui, editor, project, options, self.external);
     }
 
-    fn jobs(&mut self, ui: &mut Ui, desk: &Desk, exports: &mut Exports) {
+    fn jobs(&mut self, ui: &mut Ui, editor: &EditorContext, exports: &mut Exports) {
         let jobs = exports.jobs().to_vec();
         if jobs.is_empty() {
-            ui.weak("Exports run beside your work, from the project as it is when they begin. Each pass makes all frames better, so that you can stop at any time.");
+            ui.weak("Exports run in the background, from the project as it is when they start. Each pass refines all frames, so that you can stop at any time.");
             return;
         }
         ui.horizontal(|ui| {
             ui.strong("Exports");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if jobs.iter().any(|job| !job.is_open())
-                    && ui.small_button("Clear those that are over").clicked()
-                {
+                if jobs.iter().any(|job| !job.is_open()) && ui.small_button("Clear finished").clicked() {
                     exports.clear();
                     self.picture = None;
                 }
             });
         });
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
-        jobs[active].show(desk.session.playhead);
+        jobs[active].show(editor.session.playhead);
         ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
             // The one at work first, then the newest.
             let others = (0..jobs.len()).rev().filter(|index| *index != active);
@@ -256,8 +261,8 @@ impl ExportWindow {
         });
     }
 
-    /// The picture of a job as it stands.
-    fn picture(&mut self, ui: &mut Ui, index: usize, job: &Job) {
+    /// The preview picture of a running job.
+    fn picture(&mut self, ui: &mut Ui, index: usize, job: &ExportJob) {
         let Some(Growing { frame, passes, image }) = job.picture() else { return };
         let now = [index, passes];
         if !matches!(&self.picture, Some((of, shown, _)) if *of == now && *shown == frame) {
@@ -279,7 +284,10 @@ impl ExportWindow {
 fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, own: &T) {
     let text = if value == own { RichText::new(label) } else { RichText::new(label).strong() };
     let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
-    if response.on_hover_text(format!("{tip} Double click: as in the project.")).double_clicked() {
+    if response
+        .on_hover_text(format!("{tip} Double click resets it to the project's value."))
+        .double_clicked()
+    {
         value.clone_from(own);
     }
 }
@@ -307,13 +315,19 @@ fn formats(ui: &mut Ui, chosen: &mut Vec<FrameFormat>) {
     }
 }
 
-fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish, external: bool) {
-    ui.label("The same from the command line");
-    let Some(file) = desk.document.path() else {
-        ui.weak("Once the project is saved, its command line stands here.");
+fn command_line(
+    ui: &mut Ui,
+    editor: &EditorContext,
+    project: &Project,
+    options: &ExportOptions,
+    external: bool,
+) {
+    ui.label("Equivalent command line");
+    let Some(file) = editor.document.path() else {
+        ui.weak("Save the project to see its command line.");
         return;
     };
-    let mut line = wish.command_line(project, file);
+    let mut line = options.command_line(project, file);
     if external {
         line += " --allow-external";
     }
@@ -324,19 +338,19 @@ fn command_line(ui: &mut Ui, desk: &Desk, project: &Project, wish: &Wish, extern
         if ui.small_button("Copy").clicked() {
             ui.ctx().copy_text(line.clone());
         }
-        if desk.document.is_unsaved() {
+        if editor.document.is_unsaved() {
             ui.weak("It renders the file as last saved.");
         }
     });
 }
 
-fn card(ui: &mut Ui, job: &Job) {
+fn card(ui: &mut Ui, job: &ExportJob) {
     let fill = ui.visuals().faint_bg_color;
     egui::Frame::new().fill(fill).corner_radius(4.0).inner_margin(8.0).show(ui, |ui| {
         ui.set_width(ui.available_width());
-        let stage = job.stage();
-        ui.label(RichText::new(job.order().folder.to_string_lossy()).small().weak());
-        ui.colored_label(colour(&stage, ui), words(job));
+        let status = job.status();
+        ui.label(RichText::new(job.settings().folder.to_string_lossy()).small().weak());
+        ui.colored_label(colour(&status, ui), words(job));
         if !job.is_open() {
             return;
         }
@@ -345,7 +359,7 @@ fn card(ui: &mut Ui, job: &Job) {
         if let Some(cost) = job.cost() {
             let (memory, scratch) = (size(cost.memory_mib), size(cost.scratch_mib));
             let text = format!(
-                "Up to {memory} of memory, however many frames; {scratch} of scratch space in the folder."
+                "Up to {memory} of memory for any number of frames; {scratch} of scratch space in the folder."
             );
             ui.label(RichText::new(text).small().weak());
         }

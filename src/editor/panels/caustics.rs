@@ -6,35 +6,27 @@ use egui::Ui;
 use lightloom_core::project::{CausticDesc, CausticKey, Project};
 use lightloom_core::scene::LightDesc;
 
-use super::setting::Setting;
-use super::{Desk, add_button, free_name, keys, remove_button, section, shows};
+use super::control::Control;
+use super::widgets::{add_button, remove_button, section};
+use super::{keys, shows};
+use crate::editor::asset::TargetSlot;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::pick::At;
+use crate::editor::unique_name::unique_name;
 
-const NAME: Setting =
-    Setting::text("Name", "caustics[].name").help("By what the key frames call it; each name once.");
-const LIGHT: Setting =
-    Setting::part("Light", "caustics[].light").help("The light that casts it. Default any.");
-const MESH: Setting = Setting::part("Mesh", "caustics[].mesh")
-    .help("The glass or mirror that the light met last. Default any. What fits several caustics belongs to the first in the list.");
-const OWN: Setting = Setting::switch("Own flow", "caustics[].own_flow", false).help(
-    "It flows by a field of its own and never mixes with the others; else all that move share one field.",
-);
-const COLOUR: Setting =
-    Setting::colour("Colour", "keys[].caustics.c.colour", [0.0, 1000.0], &[1.0, 1.0, 1.0])
-        .help("Factor on its light at this key frame, linear Rec.709. White leaves the light's own colour.");
-const BRIGHTNESS: Setting =
-    Setting::real("Brightness", "keys[].caustics.c.brightness", [0.0, 1000.0], &[1.0])
-        .slider(0.0, 10.0)
-        .help("Factor on its light at this key frame. 1 keeps the energy.");
-const SHOWS: Setting = Setting::part("Shows", "keys[].caustics.c.shows");
+const NAME: Control = Control::new("Name", CausticDesc::NAME);
+const LIGHT: Control = Control::new("Light", CausticDesc::LIGHT);
+const MESH: Control = Control::new("Mesh", CausticDesc::MESH);
+const OWN: Control = Control::new("Own flow", CausticDesc::OWN_FLOW);
+const COLOUR: Control = Control::new("Colour", CausticKey::COLOUR);
+const BRIGHTNESS: Control = Control::new("Brightness", CausticKey::BRIGHTNESS).slider(0.0, 10.0);
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = &[NAME, LIGHT, MESH, OWN, COLOUR, BRIGHTNESS, SHOWS];
+pub(super) const CONTROLS: &[Control] = &[NAME, LIGHT, MESH, OWN, COLOUR, BRIGHTNESS];
 
 /// The panel of caustics.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
     if project.scene.is_none() {
         ui.label("This project has no scene.");
         ui.weak("Caustics are cast by the lights of a scene through its glass. Add one in the scene panel.");
@@ -43,15 +35,15 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     let names = project.caustics.iter().map(|caustic| caustic.name.as_str());
     let rest = if project.caustics.is_empty() { "All light" } else { "The rest" };
     for (group, name) in names.chain([rest]).enumerate() {
-        list::row(ui, desk, group, name);
+        list::row(ui, editor, group, name);
     }
     let mut caustics = project.caustics.clone();
-    let chosen = desk.session.focus.caustic.filter(|index| *index < caustics.len());
+    let chosen = editor.session.focus.caustic.filter(|index| *index < caustics.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if add_button(ui, "Add a caustic") {
-            let name = free_name("caustic", |name| caustics.iter().any(|c| c.name == name));
-            desk.session.focus.caustic = Some(caustics.len());
+            let name = unique_name("caustic", |name| caustics.iter().any(|c| c.name == name));
+            editor.session.focus.caustic = Some(caustics.len());
             caustics.push(CausticDesc { name, ..CausticDesc::default() });
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
@@ -59,22 +51,28 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
                 && let Some(index) = chosen
             {
                 caustics.remove(index);
-                desk.session.focus.caustic = None;
+                editor.session.focus.caustic = None;
             }
         });
     });
     if let Some(index) = chosen.filter(|_| caustics.len() == project.caustics.len()) {
-        values(ui, desk, project, index, &mut caustics[index]);
+        values(ui, editor, project, index, &mut caustics[index]);
     }
     if caustics != project.caustics {
-        desk.ask(Edit::Caustics(caustics));
+        editor.ask(Edit::Caustics(caustics));
     }
 }
 
-fn values(ui: &mut Ui, desk: &mut Desk, project: &Project, index: usize, caustic: &mut CausticDesc) {
+fn values(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    project: &Project,
+    index: usize,
+    caustic: &mut CausticDesc,
+) {
     section(ui, &caustic.name);
-    if let Some(name) = NAME.words(ui, index, &caustic.name) {
-        desk.ask(Edit::RenameCaustic(index, name));
+    if let Some(name) = NAME.text(ui, index, &caustic.name) {
+        editor.ask(Edit::RenameCaustic(index, name));
     }
     if let Some(scene) = &project.scene {
         LIGHT.one_of(ui, &mut caustic.light, scene.lights.iter().map(LightDesc::name), "any");
@@ -82,15 +80,15 @@ fn values(ui: &mut Ui, desk: &mut Desk, project: &Project, index: usize, caustic
     }
     OWN.toggle(ui, &mut caustic.own_flow);
     section(ui, "At the key frame");
-    let at = keys::choose(ui, desk);
+    let at = keys::choose(ui, editor);
     let Some(key) = project.keys.get(at) else { return };
     let before = key.caustics.get(&caustic.name).cloned().unwrap_or_default();
     let mut own = before.clone();
-    let place = At { key: at, caustic: Some(caustic.name.clone()) };
-    if let Some(shows) = shows::show(ui, desk, &place, before.shows.as_ref()) {
+    let place = TargetSlot { key: at, caustic: Some(caustic.name.clone()) };
+    if let Some(shows) = shows::show(ui, editor, &place, before.shows.as_ref()) {
         own.shows = shows;
     }
-    COLOUR.tint(ui, &mut own.colour);
+    COLOUR.colour(ui, &mut own.colour);
     BRIGHTNESS.number(ui, &mut own.brightness);
     if own != before {
         let mut key = key.clone();
@@ -99,6 +97,6 @@ fn values(ui: &mut Ui, desk: &mut Desk, project: &Project, index: usize, caustic
         } else {
             key.caustics.insert(caustic.name.clone(), own);
         }
-        keys::replace(desk, at, key);
+        keys::replace(editor, at, key);
     }
 }

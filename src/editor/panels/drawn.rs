@@ -1,6 +1,6 @@
 //! What was drawn: a list of directed lines and walls, and the values of those that are selected.
 
-mod row;
+pub(super) mod row;
 mod values;
 
 use std::collections::BTreeSet;
@@ -8,55 +8,48 @@ use std::collections::BTreeSet;
 use egui::Ui;
 use lightloom_core::constraint::Constraint;
 
-use super::setting::Setting;
-use super::{Desk, Icon, icon_button, remove_button, section};
+use super::control::Control;
+use super::icons::Icon;
+use super::widgets::{icon_button, remove_button, section};
 use crate::editor::action::Action;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = values::SETTINGS;
-
-/// What the list calls a constraint: its name, or its kind and number.
-pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
-    let (kind, name) = match constraint {
-        Constraint::DirectedLine(line) => ("Line", &line.name),
-        Constraint::Wall(wall) => ("Wall", &wall.name),
-    };
-    if name.is_empty() { format!("{kind} {}", index + 1) } else { name.clone() }
-}
+pub(super) const CONTROLS: &[Control] = values::CONTROLS;
 
 /// The panel of what was drawn.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let constraints = &desk.document.project().constraints;
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let constraints = &editor.document.project().constraints;
     if constraints.is_empty() {
         ui.label("Nothing is drawn yet.");
         ui.weak("Take the tool for directed lines or for walls and draw on the plane: light follows the lines and never crosses the walls.");
         return;
     }
-    tools(ui, desk, constraints);
+    tools(ui, editor, constraints);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
         for (i, constraint) in constraints.iter().enumerate() {
-            row::show(ui, desk, constraint, i);
+            row::show(ui, editor, constraint, i);
         }
     });
     let chosen: Vec<usize> =
-        desk.session.selection.constraints().filter(|index| *index < constraints.len()).collect();
+        editor.session.selection.constraints().filter(|index| *index < constraints.len()).collect();
     match chosen[..] {
         [] => {
             ui.add_space(8.0);
             ui.weak("Select a line or a wall for its values.");
         }
-        [one] => section(ui, &title(&constraints[one], one)),
+        [one] => section(ui, &row::title(&constraints[one], one)),
         _ => section(ui, &format!("{} selected", chosen.len())),
     }
-    values::show(ui, desk, constraints, &chosen);
+    values::show(ui, editor, constraints, &chosen);
 }
 
 /// Buttons for what is selected: further up, further down, away.
-fn tools(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint]) {
-    let chosen: BTreeSet<usize> = desk.session.selection.constraints().collect();
+fn tools(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Constraint]) {
+    let chosen: BTreeSet<usize> = editor.session.selection.constraints().collect();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.add_enabled_ui(!chosen.is_empty(), |ui| {
@@ -65,15 +58,15 @@ fn tools(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint]) {
                     && let Some((order, selection)) = moved(constraints.len(), &chosen, down)
                 {
                     let moved = order.iter().map(|&index| constraints[index].clone()).collect();
-                    desk.ask(Edit::Constraints(moved));
-                    desk.ask(Action::Select(Selection::all(selection)));
+                    editor.ask(Edit::Constraints(moved));
+                    editor.ask(Action::Select(Selection::all(selection)));
                 }
             }
             if remove_button(ui, "Delete what is selected") {
                 let free =
                     chosen.iter().copied().filter(|&i| constraints.get(i).is_some_and(|c| !c.is_locked()));
-                desk.ask(Edit::Remove(free.collect()));
-                desk.ask(Action::Select(Selection::default()));
+                editor.ask(Edit::Remove(free.collect()));
+                editor.ask(Action::Select(Selection::default()));
             }
         });
         let lines = constraints.iter().filter(|c| matches!(c, Constraint::DirectedLine(_))).count();

@@ -3,49 +3,41 @@
 use egui::Ui;
 use lightloom_core::project::{Ease, KeyFrame};
 
-use super::setting::{Choice, Setting};
-use super::{Desk, aside, remove_button, shows};
+use super::control::Control;
+use super::shows;
+use super::widgets::{aside, remove_button};
 use crate::editor::action::Action;
+use crate::editor::asset::TargetSlot;
 use crate::editor::command::Command;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::pick::At;
 
-const FRAME: Setting = Setting::whole("Frame", "keys[].frame", [-1e6, 1e6], &[])
-    .help("When the light shows this. Key frames can also be dragged in the timeline.");
-const EASE: Setting = Setting::choice(
-    "Ease",
-    "keys[].ease",
-    &[
-        Choice::new("smooth", "Smooth", "starts and ends at rest"),
-        Choice::new("linear", "Linear", "at constant pace"),
-        Choice::new("in", "In", "starts at rest, arrives at full pace"),
-        Choice::new("out", "Out", "starts at full pace, comes to rest"),
-    ],
-)
-.help("How the time runs from this key frame to the next.");
+const FRAME: Control = Control::new("Frame", KeyFrame::FRAME);
+const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "In", "Out"]);
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[Setting] = &[FRAME, EASE];
+pub(super) const CONTROLS: &[Control] = &[FRAME, EASE];
 
 /// The key that the panels show: the one that was chosen, or the last at or before the playhead.
-pub(super) fn shown(desk: &Desk) -> usize {
-    let keys = &desk.document.project().keys;
-    let chosen = desk.session.focus.key.filter(|key| *key < keys.len());
-    chosen.unwrap_or_else(|| keys.partition_point(|key| key.frame <= desk.session.playhead).saturating_sub(1))
+pub(super) fn shown(editor: &EditorContext) -> usize {
+    let keys = &editor.document.project().keys;
+    let chosen = editor.session.focus.key.filter(|key| *key < keys.len());
+    chosen
+        .unwrap_or_else(|| keys.partition_point(|key| key.frame <= editor.session.playhead).saturating_sub(1))
 }
 
 /// Buttons with the frames of the keys; a click goes there.
-pub(super) fn choose(ui: &mut Ui, desk: &mut Desk) -> usize {
-    let now = shown(desk);
-    let keys = &desk.document.project().keys;
+pub(super) fn choose(ui: &mut Ui, editor: &mut EditorContext) -> usize {
+    let now = shown(editor);
+    let keys = &editor.document.project().keys;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = egui::vec2(4.0, 4.0);
         for (i, key) in keys.iter().enumerate() {
             let button = egui::Button::selectable(i == now, key.frame.to_string()).frame(true);
             let response = ui.add(button).accessible_name(format!("Key frame {}", key.frame));
             if response.on_hover_text("Go to this key frame").clicked() {
-                desk.session.focus.key = Some(i);
-                desk.ask(Action::Playhead(key.frame));
+                editor.session.focus.key = Some(i);
+                editor.ask(Action::Playhead(key.frame));
             }
         }
     });
@@ -53,20 +45,20 @@ pub(super) fn choose(ui: &mut Ui, desk: &mut Desk) -> usize {
 }
 
 /// The panel of key frames.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let keys = &desk.document.project().keys;
-    let index = choose(ui, desk);
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let keys = &editor.document.project().keys;
+    let index = choose(ui, editor);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui.button("Add here").on_hover_text("A key frame where the playhead stands").clicked() {
-            desk.ask(Command::AddKey);
+            editor.ask(Command::AddKey);
         }
         ui.add_enabled_ui(keys.len() > 1, |ui| {
             if remove_button(ui, "Remove this key frame") {
                 let mut fewer = keys.clone();
                 fewer.remove(index);
-                desk.session.focus.key = None;
-                desk.ask(Edit::Keys(fewer));
+                editor.session.focus.key = None;
+                editor.ask(Edit::Keys(fewer));
             }
         });
     });
@@ -75,7 +67,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
     let mut changed = key.clone();
     frame(ui, keys, index, &mut changed);
     EASE.choose(ui, &mut changed.ease, &[Ease::Smooth, Ease::Linear, Ease::In, Ease::Out]);
-    if let Some(Some(shows)) = shows::show(ui, desk, &At { key: index, caustic: None }, Some(&key.shows)) {
+    if let Some(Some(shows)) =
+        shows::show(ui, editor, &TargetSlot { key: index, caustic: None }, Some(&key.shows))
+    {
         changed.shows = shows;
     }
     if !key.caustics.is_empty() {
@@ -83,30 +77,30 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
         aside(ui, &format!("otherwise: {}", names.join(", ")));
     }
     if changed != *key {
-        replace(desk, index, changed);
+        replace(editor, index, changed);
     }
 }
 
 /// Puts another key in place of one.
-pub(super) fn replace(desk: &mut Desk, index: usize, key: KeyFrame) {
-    let mut keys = desk.document.project().keys.clone();
+pub(super) fn replace(editor: &mut EditorContext, index: usize, key: KeyFrame) {
+    let mut keys = editor.document.project().keys.clone();
     if let Some(old) = keys.get_mut(index) {
         *old = key;
-        desk.ask(Edit::Keys(keys));
+        editor.ask(Edit::Keys(keys));
     }
 }
 
 /// The frame of a key, between its neighbours.
 fn frame(ui: &mut Ui, keys: &[KeyFrame], index: usize, key: &mut KeyFrame) {
-    let mut setting = FRAME;
+    let mut control = FRAME;
     if let Some(before) = index.checked_sub(1).and_then(|i| keys.get(i)) {
-        setting.range[0] = f64::from(before.frame) + 1.0;
+        control.setting.range[0] = f64::from(before.frame) + 1.0;
     }
     if let Some(after) = keys.get(index + 1) {
-        setting.range[1] = f64::from(after.frame) - 1.0;
+        control.setting.range[1] = f64::from(after.frame) - 1.0;
     }
     let mut frame = [key.frame];
-    if setting.numbers(ui, &mut frame, [""]) {
+    if control.numbers(ui, &mut frame, [""]) {
         key.frame = frame[0];
     }
 }

@@ -1,6 +1,7 @@
 //! The panels: they read the document and answer with actions. One panel, one file, one line in [`PANELS`].
 
 mod caustics;
+pub mod control;
 mod drawn;
 mod fade;
 mod flow;
@@ -11,97 +12,67 @@ mod presets;
 pub(super) mod readouts;
 mod render;
 mod scene;
-pub mod setting;
 mod shows;
 mod turbulence;
 mod widgets;
 
 use egui::{Button, ScrollArea, Ui};
 
-pub(crate) use drawn::title;
-use icons::Icon;
+pub use control::Control;
+pub(crate) use drawn::row::title;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
-pub use setting::Setting;
-use widgets::{add_button, aside, fold, icon_button, menu, remove_button, section};
 
-use super::action::Action;
-use super::document::Document;
-use super::preview::LivePreview;
-use super::session::{Panel, Session};
-
-/// What a panel sees, and where it puts what it asks for.
-pub struct Desk<'a> {
-    /// The document, to read.
-    pub document: &'a Document,
-    /// The state of the window, to change.
-    pub session: &'a mut Session,
-    /// What the worker found out last.
-    pub preview: &'a LivePreview,
-    /// What is asked for.
-    pub actions: &'a mut Vec<Action>,
-}
-
-impl Desk<'_> {
-    /// Asks for something.
-    pub fn ask(&mut self, action: impl Into<Action>) {
-        self.actions.push(action.into());
-    }
-}
+use super::context::EditorContext;
+use super::session::Panel;
 
 /// A panel on the right of the window.
 #[derive(Clone, Copy)]
-pub struct Entry {
+pub struct PanelInfo {
     /// Which.
     pub panel: Panel,
     /// What it is called.
     pub name: &'static str,
     /// What stands in it.
     pub help: &'static str,
-    show: fn(&mut Ui, &mut Desk),
-    settings: &'static [&'static [Setting]],
+    show: fn(&mut Ui, &mut EditorContext),
+    controls: &'static [&'static [Control]],
 }
 
 /// All panels, in the order of their tabs.
 #[rustfmt::skip]
-pub const PANELS: &[Entry] = &[
-    Entry { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, settings: &[flow::SETTINGS, turbulence::SETTINGS, fade::SETTINGS] },
-    Entry { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, settings: &[drawn::SETTINGS] },
-    Entry { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, settings: &[caustics::SETTINGS] },
-    Entry { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, settings: &[keys::SETTINGS, shows::SETTINGS] },
-    Entry { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, settings: scene::SETTINGS },
-    Entry { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, settings: &[render::SETTINGS] },
-    Entry { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, settings: &[] },
+pub const PANELS: &[PanelInfo] = &[
+    PanelInfo { panel: Panel::Flow, name: "Flow", help: "How the light flows: gamma, smoothness, turbulence", show: flow::show, controls: &[flow::CONTROLS, turbulence::CONTROLS, fade::CONTROLS] },
+    PanelInfo { panel: Panel::Drawn, name: "Drawn", help: "Directed lines and walls", show: drawn::show, controls: &[drawn::CONTROLS] },
+    PanelInfo { panel: Panel::Caustics, name: "Caustics", help: "Which light through which glass", show: caustics::show, controls: &[caustics::CONTROLS] },
+    PanelInfo { panel: Panel::Keys, name: "Keys", help: "What the light shows at the key frames", show: keys::show, controls: &[keys::CONTROLS, shows::CONTROLS] },
+    PanelInfo { panel: Panel::Scene, name: "Scene", help: "Glass, lights, camera, receiver", show: scene::show, controls: scene::CONTROLS },
+    PanelInfo { panel: Panel::Render, name: "Render", help: "Size, photons, files", show: render::show, controls: &[render::CONTROLS] },
+    PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, controls: &[] },
 ];
 
 /// All settings of the panels.
-pub fn settings() -> impl Iterator<Item = &'static Setting> {
-    PANELS.iter().flat_map(|entry| entry.settings).copied().flatten()
+pub fn controls() -> impl Iterator<Item = &'static Control> {
+    PANELS.iter().flat_map(|entry| entry.controls).copied().flatten()
 }
 
 /// The tabs, and the panel that is chosen.
-pub fn show(ui: &mut Ui, desk: &mut Desk) {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = egui::vec2(2.0, 2.0);
         for entry in PANELS {
-            let tab = Button::selectable(desk.session.panel == entry.panel, entry.name);
+            let tab = Button::selectable(editor.session.panel == entry.panel, entry.name);
             if ui.add(tab).on_hover_text(entry.help).clicked() {
-                desk.session.panel = entry.panel;
+                editor.session.panel = entry.panel;
             }
         }
     });
     ui.separator();
-    let Some(entry) = PANELS.iter().find(|entry| entry.panel == desk.session.panel) else { return };
+    let Some(entry) = PANELS.iter().find(|entry| entry.panel == editor.session.panel) else { return };
     // The place of one panel is not that of the next.
     ScrollArea::vertical().id_salt(entry.name).auto_shrink(false).show(ui, |ui| {
         // Room for the bar, so that nothing jumps when it appears.
         ui.set_max_width(ui.available_width() - 4.0);
-        (entry.show)(ui, desk);
+        (entry.show)(ui, editor);
     });
-}
-
-/// `name`, or where that is taken the first of "name 2", "name 3", … that is free.
-pub(super) fn free_name(name: &str, taken: impl Fn(&str) -> bool) -> String {
-    let numbered = (2..).map(|number| format!("{name} {number}"));
-    std::iter::once(name.to_owned()).chain(numbered).find(|name| !taken(name)).unwrap_or_default()
 }

@@ -3,9 +3,11 @@
 use egui::{Color32, RichText, Ui};
 use lightloom_core::engine::{Preview, Quality};
 use lightloom_core::flow::FlowReport;
+use lightloom_core::setting::format::number;
 
-use super::setting::{NAMES, format_number};
-use super::{Desk, fold, section};
+use super::control::row::LABELS;
+use super::widgets::{fold, section};
+use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
 /// Energy farther than this from what is asked for is to be looked at.
@@ -33,7 +35,7 @@ fn of(preview: &Preview, frame: i32, tolerance: f32) -> Vec<Readout> {
     };
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} ({detail})", format_number(preview.photons() as f64, true)),
+        value: format!("{} ({detail})", number(preview.photons() as f64, true)),
         help: "Photons of the preview; it gets finer while nothing is changed.",
         is_bad: false,
     }];
@@ -66,11 +68,11 @@ fn of_energy(energy: f64) -> Readout {
 fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
     let [early, middle, late] = flow.crossing_index.map(percent);
     let plain = |name, value, help| Readout { name, value, help, is_bad: false };
-    let count = |name, number: usize, help| Readout {
+    let count = |name, count: usize, help| Readout {
         name,
-        value: format_number(number as f64, true),
+        value: number(count as f64, true),
         help,
-        is_bad: number > 0,
+        is_bad: count > 0,
     };
     vec![
         count(
@@ -90,12 +92,12 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         ),
         plain(
             "Dispersion",
-            format_number(digits(flow.dispersion), false),
+            number(digits(flow.dispersion), false),
             "How much neighbours differ in velocity, over the run. Low values look like one fluid.",
         ),
         plain(
             "Peak speed",
-            format!("{} x", format_number(digits(flow.peak_speed_ratio), false)),
+            format!("{} x", number(digits(flow.peak_speed_ratio), false)),
             "Fastest photons over the mean straight speed. Lower the speed limit of the fade where light darts.",
         ),
         plain(
@@ -110,7 +112,7 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         ),
         Readout {
             name: "Solver residual",
-            value: format_number(digits(flow.solver_residual), false),
+            value: number(digits(flow.solver_residual), false),
             help: "Relative residual of the solver, the worst. Above the tolerance the fit did not end.",
             is_bad: flow.solver_residual > f64::from(tolerance),
         },
@@ -123,31 +125,31 @@ fn digits(value: f64) -> f64 {
 }
 
 fn percent(share: f64) -> String {
-    format!("{} %", format_number(digits(100.0 * share), false))
+    format!("{} %", number(digits(100.0 * share), false))
 }
 
 /// The panel of readouts.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    if let Some(problem) = desk.preview.problem() {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    if let Some(problem) = editor.preview.problem() {
         ui.colored_label(theme::BAD, problem);
         ui.add_space(4.0);
     }
-    let Some(preview) = desk.preview.preview() else {
+    let Some(preview) = editor.preview.preview() else {
         ui.weak("Nothing is worked out yet.");
         return;
     };
-    let frame = desk.session.playhead;
+    let frame = editor.session.playhead;
     section(ui, &format!("Frame {frame}"));
-    if !desk.preview.is_current() {
+    if !editor.preview.is_current() {
         ui.weak("Of the version before the last change.");
     }
-    for readout in of(preview, frame, desk.document.project().flow.tolerance) {
+    for readout in of(preview, frame, editor.document.project().flow.tolerance) {
         let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
         line(ui, readout.name, &readout.value, colour, readout.help);
     }
     section(ui, "Seconds of each stage");
     for stage in preview.stages() {
-        let seconds = format_number(digits(stage.seconds), false);
+        let seconds = number(digits(stage.seconds), false);
         let help = "Wall-clock time; what was remembered does not run again.";
         line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
     }
@@ -171,9 +173,9 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
 fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let size = egui::vec2(NAMES, ui.text_style_height(&egui::TextStyle::Body));
+        let size = egui::vec2(LABELS, ui.text_style_height(&egui::TextStyle::Body));
         ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-            ui.set_min_width(NAMES);
+            ui.set_min_width(LABELS);
             ui.add(egui::Label::new(RichText::new(name).weak()).truncate()).on_hover_text(help);
         });
         ui.add(egui::Label::new(RichText::new(value).color(colour)).truncate()).on_hover_text(help);
@@ -181,9 +183,9 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
 }
 
 /// The most important of it for the status bar, from right to left.
-pub(in crate::editor) fn strip(ui: &mut Ui, desk: &Desk) {
-    let Some(preview) = desk.preview.preview() else { return };
-    for readout in in_short(preview, desk.session.playhead).into_iter().rev() {
+pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
+    let Some(preview) = editor.preview.preview() else { return };
+    for readout in in_short(preview, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
         let text = if readout.is_bad { text.color(theme::WARN) } else { text.weak() };
         ui.label(text).on_hover_text(readout.help);
@@ -193,7 +195,7 @@ pub(in crate::editor) fn strip(ui: &mut Ui, desk: &Desk) {
 fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
     let mut all = vec![Readout {
         name: "Photons",
-        value: format!("{} photons", format_number(preview.photons() as f64, true)),
+        value: format!("{} photons", number(preview.photons() as f64, true)),
         help: "Photons of the preview.",
         is_bad: false,
     }];
@@ -208,7 +210,7 @@ fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
         (unreachable, "unreachable", "Photons whose target no way around the walls reaches."),
     ] {
         if count > 0 {
-            let value = format!("{} {words}", format_number(count as f64, true));
+            let value = format!("{} {words}", number(count as f64, true));
             all.push(Readout { name: "Walls", value, help, is_bad: true });
         }
     }

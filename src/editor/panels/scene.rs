@@ -9,49 +9,47 @@ use egui::Ui;
 use lightloom_core::project::Project;
 use lightloom_core::scene::SceneDesc;
 
-use super::setting::Setting;
-use super::{Desk, fold};
+use super::control::Control;
+use super::widgets::fold;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 /// The settings of this panel.
-pub(super) const SETTINGS: &[&[Setting]] =
-    &[meshes::SETTINGS, materials::SETTINGS, lights::SETTINGS, surroundings::SETTINGS];
-
-/// Names of the components of a place.
-const XYZ: [&str; 3] = ["x", "y", "z"];
+pub(super) const CONTROLS: &[&[Control]] =
+    &[meshes::CONTROLS, materials::CONTROLS, lights::CONTROLS, surroundings::CONTROLS];
 
 /// The scene panel.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project();
-    let Some(before) = &project.scene else { return without_scene(ui, desk, project) };
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project();
+    let Some(before) = &project.scene else { return without_scene(ui, editor, project) };
     let mut scene = before.clone();
     let mut caustics = project.caustics.clone();
-    fold_open(ui, "Meshes", |ui| meshes::show(ui, desk, &mut scene, &mut caustics));
-    fold_open(ui, "Lights", |ui| lights::show(ui, desk, &mut scene, &mut caustics));
-    fold(ui, "Camera", |ui| surroundings::camera(ui, desk, &mut scene.camera));
+    fold_open(ui, "Meshes", |ui| meshes::show(ui, editor, &mut scene, &mut caustics));
+    fold_open(ui, "Lights", |ui| lights::show(ui, editor, &mut scene, &mut caustics));
+    fold(ui, "Camera", |ui| surroundings::camera(ui, editor, &mut scene.camera));
     fold(ui, "Receiver", |ui| surroundings::receiver(ui, &mut scene.receiver));
     fold(ui, "Sky", |ui| surroundings::sky(ui, &mut scene.environment));
     if scene != *before {
-        desk.ask(Edit::Scene(Some(Box::new(scene))));
+        editor.ask(Edit::Scene(Some(Box::new(scene))));
     }
     if caustics != project.caustics {
-        desk.ask(Edit::Caustics(caustics));
+        editor.ask(Edit::Caustics(caustics));
     }
 }
 
 /// The plane alone, and the way to a scene.
-fn without_scene(ui: &mut Ui, desk: &mut Desk, project: &Project) {
+fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
     ui.label("This project has no scene: the plane is seen straight on.");
     let mut plane = project.plane.clone();
     surroundings::plane(ui, &mut plane);
     if plane != project.plane {
-        desk.ask(Edit::Plane(plane));
+        editor.ask(Edit::Plane(plane));
     }
     ui.add_space(6.0);
     let add = ui.button("Add a scene").on_hover_text("A light, a camera and a receiver; then add glass.");
     if add.clicked() {
         let scene = SceneDesc { lights: vec![lights::first()], ..SceneDesc::default() };
-        desk.ask(Edit::Scene(Some(Box::new(scene))));
+        editor.ask(Edit::Scene(Some(Box::new(scene))));
     }
 }
 
@@ -59,24 +57,4 @@ fn without_scene(ui: &mut Ui, desk: &mut Desk, project: &Project) {
 fn fold_open(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, add);
-}
-
-/// A list of names of which one can be chosen; a click on the chosen one closes it.
-fn list<'a>(
-    ui: &mut Ui,
-    kind: &str,
-    names: impl Iterator<Item = (&'a str, &'a str)>,
-    chosen: &mut Option<usize>,
-) {
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        for (i, (name, aside)) in names.enumerate() {
-            let size = egui::vec2(ui.available_width(), 22.0);
-            let button = egui::Button::selectable(*chosen == Some(i), name);
-            let button = button.right_text(egui::RichText::new(aside).weak()).truncate();
-            if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
-                *chosen = if *chosen == Some(i) { None } else { Some(i) };
-            }
-        }
-    });
 }

@@ -1,57 +1,26 @@
 //! Turbulence: swirls on top of the field.
 
 use egui::Ui;
-use lightloom_core::flow::TurbulenceSettings;
+use lightloom_core::flow::{FlowSettings, TurbulenceSettings};
 
-use super::setting::{Choice, Setting};
-use super::{add_button, pictures, remove_button};
+use super::control::Control;
+use super::pictures;
+use super::widgets::{add_button, remove_button};
 
-const ON: Setting = Setting::choice(
-    "Turbulence",
-    "flow.turbulence",
-    &[Choice::new("", "Off", ""), Choice::new("", "On", "")],
-)
-.help("Swirls of random noise, added to the flow; they fade before the light arrives.");
-const STRENGTH: Setting = Setting::real("Strength", "flow.turbulence.strength", [0.0, 1000.0], &[20.0])
-    .unit("%")
-    .slider(0.0, 100.0)
-    .help("Speed of the swirls, in per cent of the plane from key frame to key frame.")
-    .pictures(&pictures::TURBULENCE);
-const GRIDS: Setting = Setting::part("Swirl grids", "flow.turbulence.grids")
-    .help("Each grid adds swirls of its own size: the more cells along the plane, the finer. A swirl is about two cells wide. Up to 8 different grids of 4 to 512 cells, default 30.");
-const CELLS: Setting = Setting::whole("Cells", "flow.turbulence.grids[]", [4.0, 512.0], &[30.0])
-    .slider(4.0, 512.0)
-    .logarithmic()
-    .help("Cells of this grid along the longer side of the plane.");
-const SHARES: Setting = Setting::choice(
-    "Shares",
-    "flow.turbulence.weights",
-    &[
-        Choice::new("", "By slope", "the finer the swirls, the weaker, by a law"),
-        Choice::new("", "By hand", "a weight for each grid"),
-    ],
-)
-.help("How the strength is shared among the grids.");
-const WEIGHT: Setting = Setting::real("Weight", "flow.turbulence.weights[]", [0.0, 1000.0], &[1.0])
-    .slider(0.0, 10.0)
-    .help("Share of this grid in the speed; only the ratios count.");
-const SLOPE: Setting =
-    Setting::real("Slope", "flow.turbulence.slope", [-10.0, 10.0], &[-5.0 / 3.0]).slider(-4.0, 2.0).help(
-        "Slope of the energy over the grids. -1.67 is Kolmogorov's law; higher ones give fine swirls more.",
-    );
-const RATE: Setting = Setting::real("Rate", "flow.turbulence.rate", [0.0, 100.0], &[1.0])
-    .slider(0.0, 20.0)
-    .help("How often the swirls are replaced from key frame to key frame. Low rates wind light up like ink in water, high ones scatter it.");
-const SEED: Setting =
-    Setting::whole("Swirl seed", "flow.turbulence.seed", [0.0, 9_007_199_254_740_991.0], &[1.0])
-        .slider(0.0, 100.0)
-        .help("Another number gives other swirls of the same kind.");
+const ON: Control = Control::new("Turbulence", FlowSettings::TURBULENCE).labels(&["Off", "On"]);
+const STRENGTH: Control =
+    Control::new("Strength", TurbulenceSettings::STRENGTH).slider(0.0, 100.0).pictures(&pictures::TURBULENCE);
+const GRIDS: Control = Control::new("Swirl grids", TurbulenceSettings::GRIDS);
+const CELLS: Control =
+    Control::new("Cells", TurbulenceSettings::CELLS).log_slider(4.0, 512.0).without_suffix();
+const SHARES: Control = Control::new("Shares", TurbulenceSettings::WEIGHTS).labels(&["By slope", "By hand"]);
+const WEIGHT: Control = Control::new("Weight", TurbulenceSettings::WEIGHT).slider(0.0, 10.0);
+const SLOPE: Control = Control::new("Slope", TurbulenceSettings::SLOPE).slider(-4.0, 2.0);
+const RATE: Control = Control::new("Rate", TurbulenceSettings::RATE).slider(0.0, 20.0);
+const SEED: Control = Control::new("Swirl seed", TurbulenceSettings::SEED).slider(0.0, 100.0);
 
 /// The settings of this part.
-pub(super) const SETTINGS: &[Setting] = &[ON, STRENGTH, GRIDS, CELLS, SHARES, WEIGHT, SLOPE, RATE, SEED];
-
-/// Most grids.
-const MOST: usize = 8;
+pub(super) const CONTROLS: &[Control] = &[ON, STRENGTH, GRIDS, CELLS, SHARES, WEIGHT, SLOPE, RATE, SEED];
 
 /// Off, or on with its values.
 pub(super) fn show(ui: &mut Ui, turbulence: &mut Option<TurbulenceSettings>) {
@@ -84,11 +53,12 @@ fn grids(ui: &mut Ui, settings: &mut TurbulenceSettings) {
             if before.len() > 1 && remove_button(ui, &format!("Remove swirl grid {}", i + 1)) {
                 gone = Some(i);
             }
-            if i == 0 && before.len() < MOST && add_button(ui, "Add a swirl grid") {
-                let twice = before.iter().max().map_or(30, |cells| cells * 2);
+            if i == 0 && before.len() < TurbulenceSettings::MOST_GRIDS && add_button(ui, "Add a swirl grid") {
+                let [coarsest, finest] = CELLS.setting.range.map(|cells| cells as u32);
+                let twice = before.iter().max().map_or(CELLS.setting.value(), |cells| cells * 2);
                 // Beyond the finest grid: the coarsest that is not there yet.
-                let free = (4..=512).find(|cells| !before.contains(cells)).unwrap_or(4);
-                settings.grids.push(if twice <= 512 { twice } else { free });
+                let free = (coarsest..=finest).find(|cells| !before.contains(cells)).unwrap_or(coarsest);
+                settings.grids.push(if twice <= finest { twice } else { free });
                 if let Some(weights) = &mut settings.weights {
                     weights.push(1.0);
                 }

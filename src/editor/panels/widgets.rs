@@ -2,8 +2,8 @@
 
 use egui::{CollapsingHeader, Ui};
 
+use super::control::row::LABELS;
 use super::icons::{self, Icon};
-use super::setting;
 
 /// A part that is folded until it is opened.
 pub(super) fn fold(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
@@ -22,7 +22,7 @@ pub(super) fn section(ui: &mut Ui, name: &str) {
 pub(super) fn aside(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        ui.add_space(setting::NAMES + 4.0);
+        ui.add_space(LABELS + 4.0);
         // Never wider than the panel: all that follows would be, too.
         ui.add(egui::Label::new(egui::RichText::new(words).small()).truncate());
     });
@@ -63,4 +63,27 @@ pub(super) fn menu<'a>(
         }
     });
     taken
+}
+
+/// Names of the components of a position.
+pub(super) const XYZ: [&str; 3] = ["x", "y", "z"];
+
+/// A list of names of which one can be chosen; a click on the chosen one closes it.
+pub(super) fn list<'a>(
+    ui: &mut Ui,
+    kind: &str,
+    names: impl Iterator<Item = (&'a str, &'a str)>,
+    chosen: &mut Option<usize>,
+) {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for (i, (name, aside)) in names.enumerate() {
+            let size = egui::vec2(ui.available_width(), 22.0);
+            let button = egui::Button::selectable(*chosen == Some(i), name);
+            let button = button.right_text(egui::RichText::new(aside).weak()).truncate();
+            if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
+                *chosen = if *chosen == Some(i) { None } else { Some(i) };
+            }
+        }
+    });
 }

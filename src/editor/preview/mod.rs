@@ -25,7 +25,8 @@ pub use subject::Subject;
 pub use target::TargetPicture;
 
 use super::engine::SharedEngine;
-use super::session::{Other, Session};
+use super::session::{Comparison, Session};
+use super::target_image::TargetImage;
 use background_worker::BackgroundWorker;
 use flow::FlowViewer;
 use orbit_worker::OrbitWorker;
@@ -40,7 +41,7 @@ pub struct LivePreview {
     previews: PreviewWorker,
     /// What the wipe compares with.
     other: PreviewWorker,
-    compared: Option<(Subject, Other)>,
+    compared: Option<(Subject, Comparison)>,
     pictures: PictureWorker,
     background: BackgroundWorker,
     orbit: OrbitWorker,
@@ -114,7 +115,7 @@ impl LivePreview {
         }
         self.compare(subject, session);
         self.receive();
-        let shown = super::tools::shown(&subject.project, session).map(|shown| shown.image);
+        let shown = TargetImage::at_playhead(&subject.project, session).map(|target| target.image);
         self.targets.follow(subject, shown);
         let preview = self.preview().cloned();
         self.flow.follow(preview.as_ref(), &subject.project, session);
@@ -251,9 +252,9 @@ impl LivePreview {
 }
 
 /// The project as it is compared with.
-fn other(project: &Project, with: Other) -> Project {
+fn other(project: &Project, with: Comparison) -> Project {
     match with {
-        Other::Method(method) => Project { method, ..project.clone() },
-        Other::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
+        Comparison::Method(method) => Project { method, ..project.clone() },
+        Comparison::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }

@@ -1,4 +1,4 @@
-//! Small steps on the disk that several parts of the store take.
+//! File operations shared by the store.
 
 use std::fs::DirBuilder;
 use std::io::Write as _;
@@ -8,11 +8,11 @@ use std::time::Duration;
 use lightloom_core::{Error, Result, files};
 use serde::{Deserialize, Serialize};
 
-/// From this age on a half-written file is nobody's any more.
+/// Age from which a temporary file counts as abandoned.
 const LEFT_OVER: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// By what the content of a file is known again: FNV-1a of its bytes, 64 bits. It tells versions of a file apart; it is no
-/// proof against somebody who wants two to look alike.
+/// Fingerprint of a file's content: FNV-1a of its bytes, 64 bits. It distinguishes versions of a file; it is not
+/// cryptographic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fingerprint(u64);
 
@@ -23,13 +23,13 @@ impl Fingerprint {
         Self(bytes.iter().fold(0xcbf2_9ce4_8422_2325, step))
     }
 
-    /// Eight letters of it, for file names.
+    /// Its upper 32 bits in hexadecimal, for file names.
     pub(super) fn short(self) -> String {
         format!("{:08x}", self.0 >> 32)
     }
 }
 
-/// Makes a folder, with those above it, that only this user may look into; one that exists stays as it is.
+/// Creates a folder and its parents, accessible to this user only; existing folders stay as they are.
 pub(super) fn make_private(folder: &Path) -> Result<()> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
@@ -38,7 +38,7 @@ pub(super) fn make_private(folder: &Path) -> Result<()> {
     builder.create(folder).map_err(Error::io("create", folder))
 }
 
-/// Writes a file of the editor's own in one step, making its folder if needed; once this returns it outlasts a power cut.
+/// Writes a file of the editor atomically and durably, creating its folder if needed.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     if let Some(folder) = path.parent() {
         make_private(folder)?;
@@ -47,8 +47,8 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     files::sync_folder_of(path)
 }
 
-/// Removes what a crash left of half-written files in a folder. They are recognised by the name that the program gives them
-/// and by their age; what cannot be removed stays.
+/// Removes temporary files that a crash left in a folder, recognised by name
+/// and age; those that cannot be removed stay.
 pub(super) fn sweep(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten() {

@@ -1,16 +1,16 @@
-//! Where the editor keeps what is no project.
+//! The folders for recovery files, backups and preferences.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
 use directories::ProjectDirs;
 
-/// Names another folder for recovery files and backups.
+/// Environment variable that overrides the folder of recovery files and backups.
 pub const STATE_VARIABLE: &str = "LIGHTLOOM_STATE_DIR";
-/// Names another folder for the preferences.
+/// Environment variable that overrides the folder of the preferences.
 pub const CONFIG_VARIABLE: &str = "LIGHTLOOM_CONFIG_DIR";
 
-/// The editor's own folders; they need not exist yet.
+/// The editor's folders; they need not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folders {
     /// For recovery files and backups.
@@ -20,7 +20,7 @@ pub struct Folders {
 }
 
 impl Folders {
-    /// The user's: by the environment variables, or else where the system wants them (on Linux
+    /// The user's folders: from the environment variables, or the system's defaults (on Linux
     /// `~/.local/state/lightloom` and `~/.config/lightloom`). None where the user has no home.
     pub fn of_user() -> Option<Self> {
         let own = ProjectDirs::from("", "", "lightloom");
@@ -33,18 +33,18 @@ impl Folders {
         })
     }
 
-    /// For the journals of open documents.
+    /// Folder of the journals of open documents.
     pub fn recovery(&self) -> PathBuf {
         self.state.join("recovery")
     }
 
-    /// For the last version of each saved file.
+    /// Folder of backups: the previous version of each saved file.
     pub fn backups(&self) -> PathBuf {
         self.state.join("backups")
     }
 }
 
-/// The folder that a variable names, if it names one.
+/// The folder in a variable; none if it is empty.
 fn named(variable: Option<OsString>) -> Option<PathBuf> {
     variable.filter(|name| !name.is_empty()).map(PathBuf::from)
 }

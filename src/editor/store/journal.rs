@@ -1,4 +1,4 @@
-//! The autosave journal: every change of the open document is on the disk within about half a second, outside the user's file.
+//! The autosave journal: every change of the open document is on disk within half a second, outside the user's file.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -8,45 +8,33 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use lightloom_core::project::{Project, ProjectFile};
 use lightloom_core::{Error, Result};
-use serde::{Deserialize, Serialize};
 
-use super::slot::Slot;
+use super::record::Record;
+use super::slot::JournalSlot;
 use super::{Fingerprint, Recovery, disk};
 
-/// How long a change waits for others to be written with it.
+/// Delay in which changes are batched.
 const GATHER: Duration = Duration::from_millis(400);
-/// How long to wait before a failed write is tried again.
+/// Delay before a failed write is retried.
 const RETRY: Duration = Duration::from_secs(2);
 
-/// The document as it is after a change. Making one copies nothing but pointers.
+/// The document after a change. Creating one copies pointers only.
 #[derive(Clone, Debug)]
 pub struct Note {
     /// The document's file; none where it was never saved.
     pub path: Option<PathBuf>,
-    /// What the document is called when it is offered for recovery.
+    /// The title under which it is offered for recovery.
     pub title: String,
     /// The file the project came from.
     pub file: Arc<ProjectFile>,
-    /// The project as it is now.
+    /// The current project.
     pub project: Arc<Project>,
-    /// The content of the document's file when it was last read or saved; none where it was never saved.
+    /// Fingerprint of the document's file when last read or saved; none where it was never saved.
     pub seen: Option<Fingerprint>,
 }
 
-/// A journal's file.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Entry {
-    pub(super) path: Option<PathBuf>,
-    pub(super) title: String,
-    /// When the change was made, seconds since 1970.
-    pub(super) time: u64,
-    pub(super) seen: Option<Fingerprint>,
-    /// The project file as it would have been saved.
-    pub(super) text: String,
-}
-
-/// The journal of one open document. Dropped without [`clean`](Self::clean), it writes what it still has and leaves its
-/// file to be recovered.
+/// The journal of one open document. Dropped without [`clean`](Self::clean), it writes pending changes and leaves its
+/// file for recovery.
 #[derive(Debug)]
 pub struct Journal {
     messages: Option<Sender<Message>>,
@@ -60,19 +48,19 @@ enum Message {
 }
 
 impl Journal {
-    /// A journal in `folder`, which is made when there is something to write.
+    /// A journal in `folder`, which is created on the first write.
     pub fn start(folder: PathBuf) -> Self {
         Self::run(folder, None)
     }
 
-    /// The journal of a recovered document goes on in the file it was found in: so there is no moment at which the work
-    /// stands nowhere.
+    /// Continues the journal of a recovered document in its own file, so that the work
+    /// is never without a copy on disk.
     pub fn resume(recovery: Recovery) -> Self {
         let slot = recovery.into_slot();
         Self::run(slot.file().parent().unwrap_or(Path::new(".")).to_owned(), Some(slot))
     }
 
-    fn run(folder: PathBuf, slot: Option<Slot>) -> Self {
+    fn run(folder: PathBuf, slot: Option<JournalSlot>) -> Self {
         let (messages, inbox) = channel();
         let problem = Problem::default();
         let writer = Writer { folder, slot, problem: problem.clone() };
@@ -87,18 +75,18 @@ impl Journal {
         Self { messages: Some(messages), writer, problem }
     }
 
-    /// Writes the document down soon. Costs the caller microseconds.
+    /// Schedules the document to be written. Takes microseconds.
     pub fn note(&self, note: Note) {
         self.send(Message::Note(Box::new(note), SystemTime::now()));
     }
 
-    /// All that was noted until now stands in the user's file, or the user does not want it: removes the journal's file.
-    /// After a save call it only if nothing was changed since the save was asked for.
+    /// Removes the journal's file: all changes were saved or discarded.
+    /// After a save, call it only if nothing changed since the save was requested.
     pub fn clean(&self) {
         self.send(Message::Clean);
     }
 
-    /// Why the last change could not be written; none while all is well.
+    /// Why the last change could not be written, if so.
     pub fn problem(&self) -> Option<String> {
         self.problem.get()
     }
@@ -124,7 +112,7 @@ impl Drop for Journal {
     }
 }
 
-/// What the thread has to say to the window.
+/// The thread's last problem, shared with the window.
 #[derive(Clone, Debug, Default)]
 struct Problem(Arc<Mutex<Option<String>>>);
 
@@ -140,11 +128,11 @@ impl Problem {
 
 struct Writer {
     folder: PathBuf,
-    slot: Option<Slot>,
+    slot: Option<JournalSlot>,
     problem: Problem,
 }
 
-/// The newest change that is not written yet, and when it is due.
+/// The newest change not written yet, and when it is due.
 struct Pending {
     due: Instant,
     note: Box<Note>,
@@ -169,7 +157,7 @@ impl Writer {
                 }
                 Ok(Message::Clean) => {
                     pending = None;
-                    let cleared = self.slot.as_ref().map_or(Ok(()), Slot::clear);
+                    let cleared = self.slot.as_ref().map_or(Ok(()), JournalSlot::clear);
                     self.problem.set(cleared.err().map(|error| error.to_string()));
                 }
                 Err(RecvTimeoutError::Timeout) => pending = pending.and_then(|pending| self.attempt(pending)),
@@ -181,7 +169,7 @@ impl Writer {
         }
     }
 
-    /// Writes a change; gives it back for another attempt where that failed.
+    /// Writes a change; returns it for another attempt on failure.
     fn attempt(&mut self, pending: Pending) -> Option<Pending> {
         let written = self.write(&pending);
         let failed = written.is_err();
@@ -192,7 +180,7 @@ impl Writer {
     }
 
     fn write(&mut self, Pending { note, time, .. }: &Pending) -> Result<()> {
-        let entry = Entry {
+        let record = Record {
             // JSON knows no path that is not UTF-8: such a document is offered as one without file.
             path: note.path.as_ref().filter(|path| path.to_str().is_some()).map(|path| absolute(path)),
             title: note.title.clone(),
@@ -200,18 +188,18 @@ impl Writer {
             seen: note.seen,
             text: note.file.text_of(&note.project)?,
         };
-        let bytes = serde_json::to_vec(&entry)
+        let bytes = serde_json::to_vec(&record)
             .map_err(|e| Error::value("journal", format!("cannot be written as JSON: {e}")))?;
         let slot = match self.slot.take() {
             Some(slot) => slot,
-            None => Slot::new(&self.folder)?,
+            None => JournalSlot::new(&self.folder)?,
         };
         let slot = self.slot.insert(slot);
         disk::write(slot.file(), &bytes)
     }
 }
 
-/// The same path from wherever the editor is started next.
+/// The absolute path: the editor may start elsewhere next time.
 fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -1,12 +1,12 @@
-//! Keeps the artist's work: the project file, the journal beside it, and what the editor remembers.
+//! Storage: project files, the autosave journal, and preferences.
 //!
 //! ```text
-//! every change ──► Journal ──► <state folder>/recovery/<id>.json    at most a second later, whatever happens to the window
-//! open, save   ──► Saver   ──► the artist's file, its last version as <state folder>/backups/….bak
-//! next start   ──► recoverable ──► what a crash left there, to be taken up or discarded
+//! every change ──► Journal ──► <state folder>/recovery/<id>.json    at most a second later
+//! open, save   ──► Saver   ──► the user's file, its previous version as <state folder>/backups/….bak
+//! next start   ──► recoverable ──► what a crash left there, to be recovered or discarded
 //! ```
 //!
-//! Nothing here knows a window, and nothing here is waited for: threads of their own read and write.
+//! Nothing here knows a window; all reading and writing runs on threads.
 
 pub mod folders;
 pub mod journal;
@@ -15,6 +15,7 @@ pub mod recovery;
 pub mod saver;
 
 mod disk;
+mod record;
 mod slot;
 
 pub use disk::Fingerprint;
@@ -22,4 +23,4 @@ pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
-pub use saver::{Answer, Opened, Request, Save, Saved, Saver};
+pub use saver::{Opened, SaveRequest, Saved, Saver, StoreReply, StoreRequest};

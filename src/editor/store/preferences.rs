@@ -1,4 +1,4 @@
-//! What the editor remembers of its user from one start to the next.
+//! User preferences, kept between runs.
 
 use std::path::{Path, PathBuf};
 
@@ -8,30 +8,30 @@ use serde_json::{Map, Value};
 
 use super::disk;
 
-/// Most recent files.
+/// Maximum number of recent files.
 pub const MOST_RECENT: usize = 20;
-/// Size of the window's texts and controls, as a factor.
+/// Range of the interface scale.
 pub const UI_SCALES: std::ops::RangeInclusive<f32> = 0.5..=3.0;
-/// Larger files are no preferences.
+/// Maximum size of the preferences file.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// What the editor remembers.
+/// The user's preferences.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
-    /// Files that were open, the newest first, at most [`MOST_RECENT`]; also such as are missing now: a disk may come back.
+    /// Recent files, newest first, at most [`MOST_RECENT`]; missing ones stay: a disk may come back.
     pub recent: Vec<PathBuf>,
     /// Colours of the window.
     pub theme: Theme,
-    /// Size of texts and controls, a factor in [`UI_SCALES`].
+    /// Interface scale, within [`UI_SCALES`].
     pub ui_scale: f32,
-    /// Whether the three steps of the first start were seen.
+    /// Whether the tour of the first start was seen.
     pub first_start_seen: bool,
     /// What draws the photons of the preview.
     pub photon_renderer: PhotonRenderer,
-    /// Whether points snap to others as they are drawn.
+    /// Whether drawing snaps.
     pub snapping: bool,
-    /// What a later version remembers.
+    /// Fields of later versions.
     #[serde(flatten)]
     other: Map<String, Value>,
 }
@@ -40,12 +40,12 @@ pub struct Preferences {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Theme {
-    /// Light on dark: the caustic is judged best so.
+    /// Light on dark, best for judging caustics.
     #[default]
     Dark,
     /// Dark on light.
     Light,
-    /// As the system has it.
+    /// The system's theme.
     System,
 }
 
@@ -77,7 +77,7 @@ impl Default for Preferences {
 }
 
 impl Preferences {
-    /// The preferences in the folder `config`, or the defaults; a note says why where a file is there and cannot be used.
+    /// The preferences in the folder `config`, or the defaults; with a note if the file exists but cannot be used.
     pub fn load(config: &Path) -> (Self, Option<String>) {
         let path = file_in(config);
         let read = files::read_regular_file(&path, MOST_BYTES).and_then(|bytes| {
@@ -99,10 +99,10 @@ impl Preferences {
         }
     }
 
-    /// Writes them into the folder `config`, in one step.
+    /// Writes them to the folder `config`, atomically.
     ///
     /// # Errors
-    /// Names the file and the system's reason; the old file is left as it was.
+    /// The file and the system's reason; the old file is unchanged.
     pub fn save(&self, config: &Path) -> Result<()> {
         let path = file_in(config);
         let text = serde_json::to_string_pretty(self)
@@ -110,8 +110,8 @@ impl Preferences {
         disk::write(&path, (text + "\n").as_bytes())
     }
 
-    /// Puts a file at the head of the recent ones. A path that is not UTF-8 is not remembered: JSON cannot hold it.
-    pub fn remember(&mut self, path: &Path) {
+    /// Adds a file to the front of the recent files. A path that is not UTF-8 is skipped: JSON cannot hold it.
+    pub fn add_recent(&mut self, path: &Path) {
         let Ok(path) = std::path::absolute(path) else { return };
         if path.to_str().is_none() {
             return;
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(Preferences::load(&config), (Preferences::default(), None));
         let mut preferences = Preferences { theme: Theme::Light, snapping: false, ..Preferences::default() };
         preferences.other.insert("later".into(), 1.into());
-        (0..30).for_each(|i| preferences.remember(Path::new(&format!("{}.json", i % 25))));
+        (0..30).for_each(|i| preferences.add_recent(Path::new(&format!("{}.json", i % 25))));
         preferences.save(&config).unwrap();
         let (read, note) = Preferences::load(&config);
         assert_eq!((&read, note), (&preferences, None));

@@ -1,4 +1,4 @@
-//! What a crash left: documents whose editor is gone.
+//! Recovery of unsaved documents after a crash.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -8,42 +8,42 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use lightloom_core::project::ProjectFile;
 use lightloom_core::{Error, Result, files};
 
-use super::journal::Entry;
-use super::slot::Slot;
+use super::record::Record;
+use super::slot::JournalSlot;
 use super::{Fingerprint, disk};
 
-/// A journal holds one project file of 64 MiB at most, with escapes.
+/// Maximum size of a journal: one project file of 64 MiB with JSON escapes.
 const MOST_BYTES: u64 = 160 << 20;
 
-/// Work that no editor has open and no file holds. While this exists no other editor offers it; dropped, it is offered
+/// Unsaved work of a crashed editor. While this exists no other editor offers it; dropped, it is offered
 /// again at the next start.
 pub struct Recovery {
     /// The user's file; none where the document was never saved.
     pub path: Option<PathBuf>,
-    /// What the document is called.
+    /// Title of the document.
     pub title: String,
-    /// How long ago the last change was made.
+    /// Age of the last change.
     pub age: Duration,
-    /// The project as it was last, or why it cannot be read.
+    /// The last state of the project, or why it cannot be read.
     pub work: Result<Arc<ProjectFile>>,
-    /// The content of the user's file when the lost editor last read or saved it.
+    /// Fingerprint of the user's file when the crashed editor last read or saved it.
     pub seen: Option<Fingerprint>,
-    /// Whether the user's file holds something else by now: the editor was lost right after saving, or another program
-    /// wrote it. Then the file may be newer than this work.
+    /// Whether the user's file has changed since: the editor crashed right after saving, or another program
+    /// wrote it. The file may be newer than this work.
     pub file_changed: bool,
-    slot: Slot,
+    slot: JournalSlot,
 }
 
 impl Recovery {
-    /// Removes the work for good.
+    /// Deletes the work.
     ///
     /// # Errors
-    /// Names the file and the system's reason.
+    /// The file and the system's reason.
     pub fn discard(self) -> Result<()> {
         self.slot.clear()
     }
 
-    pub(super) fn into_slot(self) -> Slot {
+    pub(super) fn into_slot(self) -> JournalSlot {
         self.slot
     }
 }
@@ -54,23 +54,23 @@ impl fmt::Debug for Recovery {
     }
 }
 
-/// What can be recovered from `folder`, the newest first. Reads files: not for the window's own thread. Work that stands in
-/// the user's file after all is cleared away and not offered.
+/// The recoverable work in `folder`, newest first. Reads files: not for the window's thread. Work that equals
+/// the user's file is deleted and not offered.
 pub fn recoverable(folder: &Path) -> Vec<Recovery> {
     disk::sweep(folder);
-    let mut found: Vec<_> = Slot::abandoned(folder).into_iter().filter_map(look_into).collect();
+    let mut found: Vec<_> = JournalSlot::abandoned(folder).into_iter().filter_map(look_into).collect();
     found.sort_by_key(|recovery| recovery.age);
     found
 }
 
-fn look_into(slot: Slot) -> Option<Recovery> {
+fn look_into(slot: JournalSlot) -> Option<Recovery> {
     let file = slot.file().to_owned();
     let read = files::read_regular_file(&file, MOST_BYTES).and_then(|bytes| {
         let broken = |e| Error::format(&file, "", format!("is no recovery file: {e}; discard it"));
-        serde_json::from_slice::<Entry>(&bytes).map_err(broken)
+        serde_json::from_slice::<Record>(&bytes).map_err(broken)
     });
-    let entry = match read {
-        Ok(entry) => entry,
+    let record = match read {
+        Ok(record) => record,
         Err(error) => {
             let title = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let age = std::fs::metadata(&file).and_then(|data| data.modified()).map_or(Duration::ZERO, since);
@@ -85,18 +85,26 @@ fn look_into(slot: Slot) -> Option<Recovery> {
             });
         }
     };
-    let in_file = entry.path.as_ref().and_then(|path| files::read_regular_file(path, MOST_BYTES).ok());
-    if in_file.as_ref().is_some_and(|bytes| bytes == entry.text.as_bytes()) && slot.clear().is_ok() {
+    let in_file = record.path.as_ref().and_then(|path| files::read_regular_file(path, MOST_BYTES).ok());
+    if in_file.as_ref().is_some_and(|bytes| bytes == record.text.as_bytes()) && slot.clear().is_ok() {
         return None;
     }
-    let file_changed = in_file.zip(entry.seen).is_some_and(|(bytes, seen)| Fingerprint::of(&bytes) != seen);
-    let named = entry.path.as_deref().unwrap_or(&file);
-    let work = ProjectFile::parse(entry.text.as_bytes(), named).map(|(work, _)| Arc::new(work));
-    let age = UNIX_EPOCH.checked_add(Duration::from_secs(entry.time)).map_or(Duration::ZERO, since);
-    Some(Recovery { path: entry.path, title: entry.title, age, work, seen: entry.seen, file_changed, slot })
+    let file_changed = in_file.zip(record.seen).is_some_and(|(bytes, seen)| Fingerprint::of(&bytes) != seen);
+    let named = record.path.as_deref().unwrap_or(&file);
+    let work = ProjectFile::parse(record.text.as_bytes(), named).map(|(work, _)| Arc::new(work));
+    let age = UNIX_EPOCH.checked_add(Duration::from_secs(record.time)).map_or(Duration::ZERO, since);
+    Some(Recovery {
+        path: record.path,
+        title: record.title,
+        age,
+        work,
+        seen: record.seen,
+        file_changed,
+        slot,
+    })
 }
 
-/// How long ago it was; nothing where it is still to come.
+/// Time since; zero for a time in the future.
 fn since(time: SystemTime) -> Duration {
     time.elapsed().unwrap_or_default()
 }

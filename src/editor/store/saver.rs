@@ -1,4 +1,4 @@
-//! The thread that opens and saves, so that the window never waits for a disk.
+//! The file thread: opens and saves, so that the window never waits for a disk.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -11,93 +11,94 @@ use lightloom_core::{Error, Result, files};
 
 use super::{Fingerprint, Folders, Preferences, Recovery, disk, recoverable};
 
-/// No project file is larger; a larger file is not replaced by one.
+/// Maximum size of a project file; a larger file is not overwritten.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// What the saver is asked to do; answers come in the same order.
+/// A request to the saver; replies come in the same order.
 #[derive(Debug)]
-pub enum Request {
-    /// Read a project file.
+pub enum StoreRequest {
+    /// Reads a project file.
     Open(PathBuf),
-    /// Write one.
-    Save(Save),
-    /// Look for work that a crash left.
+    /// Writes a project file.
+    Save(SaveRequest),
+    /// Looks for work that a crash left.
     LookForLost,
-    /// Remove such work for good.
+    /// Deletes such work.
     Discard(Box<Recovery>),
-    /// Write the preferences.
+    /// Writes the preferences.
     Remember(Box<Preferences>),
 }
 
-/// A project to be saved.
+/// A request to save a project.
 #[derive(Clone, Debug)]
-pub struct Save {
-    /// Where to.
+pub struct SaveRequest {
+    /// Destination.
     pub path: PathBuf,
-    /// The file it came from.
+    /// The file it was read from.
     pub file: Arc<ProjectFile>,
-    /// The project as it is now.
+    /// The current project.
     pub project: Arc<Project>,
-    /// What the file at `path` must still hold; none: whatever is there may be replaced, for the user was asked.
+    /// Expected fingerprint of the file at `path`; none overwrites whatever is there.
     pub seen: Option<Fingerprint>,
 }
 
-/// What came of a request.
+/// The reply to a request.
 #[derive(Debug)]
-pub enum Answer {
-    /// A file was read, or not.
+pub enum StoreReply {
+    /// A file was read, or why not.
     Opened(PathBuf, Result<Opened>),
-    /// A project was written, or not; then the old file is as it was.
-    Saved(Save, Result<Saved>),
-    /// Nothing was written: another program changed the file since this one last read or wrote it. Sent again with `seen`
-    /// none, the request replaces the other program's work.
-    ChangedOnDisk(Save),
-    /// What can be recovered, the newest first.
+    /// A project was written, or why not; then the old file is unchanged.
+    Saved(SaveRequest, Result<Saved>),
+    /// Nothing was written: another program changed the file since it was last read or written. Repeated with `seen`
+    /// none, the request overwrites it.
+    ChangedOnDisk(SaveRequest),
+    /// Recoverable work, newest first.
     Lost(Vec<Recovery>),
-    /// A request without an answer of its own failed, for this reason.
+    /// Another request failed, for this reason.
     Failed(String),
 }
 
 /// A file that was read.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// Its project and text.
+    /// The file.
     pub file: Arc<ProjectFile>,
-    /// What of it this program does not know.
+    /// Notes on content that this program does not know.
     pub notes: Vec<String>,
-    /// Its content.
+    /// Its fingerprint.
     pub seen: Fingerprint,
 }
 
 /// A file that was written.
 #[derive(Clone, Debug)]
 pub struct Saved {
-    /// Its content now.
+    /// Its new fingerprint.
     pub seen: Fingerprint,
-    /// Why there is no backup of what stood there before, if there is none.
+    /// Why there is no backup of the previous version, if so.
     pub note: Option<String>,
 }
 
-/// Opens and saves on a thread of its own. Dropped, it first does all that it was asked.
+/// The handle of the file thread. Dropping it waits for all requests.
 #[derive(Debug)]
 pub struct Saver {
-    requests: Option<Sender<Request>>,
-    answers: Receiver<Answer>,
+    requests: Option<Sender<StoreRequest>>,
+    answers: Receiver<StoreReply>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Saver {
-    /// Starts it. `wake` is called on its thread after each answer; the window then asks for it.
+    /// Starts the thread. `wake` is called on it after each reply.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system starts no thread.
     pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
-        let (requests, inbox) = channel::<Request>();
+        let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
         let serve = move || {
             for request in inbox {
                 let answer = catch_unwind(AssertUnwindSafe(|| answer(&folders, request)));
-                let failed = || Some(Answer::Failed("an internal error; the file may not be saved".into()));
+                let failed =
+                    || Some(StoreReply::Failed("an internal error; the file may not be saved".into()));
                 let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
                 if outbox.send(answer).is_err() {
                     // The window is gone; what it asked for is done all the same.
@@ -111,16 +112,16 @@ impl Saver {
         Ok(Self { requests: Some(requests), answers, thread: Some(thread) })
     }
 
-    /// Asks for something to be done; returns at once.
-    pub fn ask(&self, request: Request) {
+    /// Sends a request; returns at once.
+    pub fn ask(&self, request: StoreRequest) {
         if let Some(requests) = &self.requests {
             // The thread ends only after this sender.
             let _ = requests.send(request);
         }
     }
 
-    /// The next answer that is there; none while there is none.
-    pub fn answer(&self) -> Option<Answer> {
+    /// The next reply, if any.
+    pub fn answer(&self) -> Option<StoreReply> {
         self.answers.try_recv().ok()
     }
 }
@@ -134,21 +135,21 @@ impl Drop for Saver {
     }
 }
 
-fn answer(folders: &Folders, request: Request) -> Option<Answer> {
-    let failed = |result: Result<()>| result.err().map(|error| Answer::Failed(error.to_string()));
+fn answer(folders: &Folders, request: StoreRequest) -> Option<StoreReply> {
+    let failed = |result: Result<()>| result.err().map(|error| StoreReply::Failed(error.to_string()));
     match request {
-        Request::Open(path) => {
+        StoreRequest::Open(path) => {
             let opened = open(&path);
-            Some(Answer::Opened(path, opened))
+            Some(StoreReply::Opened(path, opened))
         }
-        Request::Save(request) => Some(match save(folders, &request) {
-            Ok(Some(saved)) => Answer::Saved(request, Ok(saved)),
-            Ok(None) => Answer::ChangedOnDisk(request),
-            Err(error) => Answer::Saved(request, Err(error)),
+        StoreRequest::Save(request) => Some(match save(folders, &request) {
+            Ok(Some(saved)) => StoreReply::Saved(request, Ok(saved)),
+            Ok(None) => StoreReply::ChangedOnDisk(request),
+            Err(error) => StoreReply::Saved(request, Err(error)),
         }),
-        Request::LookForLost => Some(Answer::Lost(recoverable(&folders.recovery()))),
-        Request::Discard(recovery) => failed(recovery.discard()),
-        Request::Remember(preferences) => failed(preferences.save(&folders.config)),
+        StoreRequest::LookForLost => Some(StoreReply::Lost(recoverable(&folders.recovery()))),
+        StoreRequest::Discard(recovery) => failed(recovery.discard()),
+        StoreRequest::Remember(preferences) => failed(preferences.save(&folders.config)),
     }
 }
 
@@ -158,8 +159,8 @@ fn open(path: &Path) -> Result<Opened> {
     Ok(Opened { file: Arc::new(file), notes, seen: Fingerprint::of(&bytes) })
 }
 
-/// Saves; none where the file holds something else than was seen.
-fn save(folders: &Folders, request: &Save) -> Result<Option<Saved>> {
+/// Saves a project; none where the file does not have the expected fingerprint.
+fn save(folders: &Folders, request: &SaveRequest) -> Result<Option<Saved>> {
     // Through a link the file behind it is written; the link stays.
     let path = request.path.canonicalize().unwrap_or_else(|_| request.path.clone());
     let old = present(&path)?;
@@ -177,7 +178,7 @@ fn save(folders: &Folders, request: &Save) -> Result<Option<Saved>> {
     Ok(Some(Saved { seen: Fingerprint::of(text.as_bytes()), note }))
 }
 
-/// What stands at `path` now; none where nothing does. Refuses what must not be replaced.
+/// The content of the file at `path`; none where there is none. Refuses a file that must not be overwritten.
 fn present(path: &Path) -> Result<Option<Vec<u8>>> {
     match std::fs::metadata(path) {
         Ok(data) if data.permissions().readonly() => {
@@ -188,7 +189,7 @@ fn present(path: &Path) -> Result<Option<Vec<u8>>> {
     }
 }
 
-/// Puts the last version of a file aside. Files of the same name from different folders do not get into each other's way.
+/// Writes a backup of the previous version. The name contains a hash of the folder, so that equal names do not collide.
 fn keep(folders: &Folders, path: &Path, old: &[u8]) -> Result<()> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = Fingerprint::of(path.as_os_str().as_encoded_bytes()).short();

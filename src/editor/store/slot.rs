@@ -1,5 +1,5 @@
-//! A place for one journal: a file, and a lock that says whose it is. The system lets go of the lock when its holder ends,
-//! however it ends, so a file whose lock is free has lost its editor.
+//! The file of one journal with a lock that marks its owner. The system releases the lock when its owner ends,
+//! so a file whose lock is free belongs to a crashed editor.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
@@ -8,19 +8,19 @@ use lightloom_core::{Error, Result};
 
 use super::disk;
 
-/// Tries to find a name that no other editor clears away at the same moment.
+/// Attempts to create a name that no other editor removes at the same moment.
 const TRIES: usize = 16;
 
 /// A journal's file, held by its lock.
 #[derive(Debug)]
-pub(super) struct Slot {
+pub(super) struct JournalSlot {
     file: PathBuf,
     lock_path: PathBuf,
     _lock: File,
 }
 
-impl Slot {
-    /// A new one with a random name; the file itself does not exist yet.
+impl JournalSlot {
+    /// A new slot with a random name; the file itself does not exist yet.
     pub(super) fn new(folder: &Path) -> Result<Self> {
         disk::make_private(folder)?;
         for _ in 0..TRIES {
@@ -41,10 +41,10 @@ impl Slot {
         &self.file
     }
 
-    /// Removes the file and keeps the slot.
+    /// Deletes the file and keeps the slot.
     ///
     /// # Errors
-    /// Names the file and the system's reason.
+    /// The file and the system's reason.
     pub(super) fn clear(&self) -> Result<()> {
         match std::fs::remove_file(&self.file) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -54,7 +54,7 @@ impl Slot {
         }
     }
 
-    /// All with a file and without an editor, now held by this one. Those without either are cleared away.
+    /// All slots with a file and without an owner, now owned by this editor. Those without a file are removed.
     pub(super) fn abandoned(folder: &Path) -> Vec<Self> {
         let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
         let mut files: Vec<_> = entries
@@ -76,7 +76,7 @@ impl Slot {
     }
 }
 
-impl Drop for Slot {
+impl Drop for JournalSlot {
     fn drop(&mut self) {
         if !self.file.exists() {
             let _ = std::fs::remove_file(&self.lock_path);
@@ -84,8 +84,8 @@ impl Drop for Slot {
     }
 }
 
-/// Whether nobody else holds the lock. Where the disk knows no locks, work that is offered twice is better than work that
-/// is never offered.
+/// Whether nobody else holds the lock. Without lock support it counts as free: work offered twice is better than work
+/// never offered.
 fn is_free(lock: Result<(), TryLockError>) -> bool {
     !matches!(lock, Err(TryLockError::WouldBlock))
 }
@@ -98,13 +98,13 @@ mod tests {
     #[test]
     fn a_slot_is_abandoned_once_its_holder_is_gone() {
         let folder = tempfile::tempdir().unwrap();
-        let slot = Slot::new(folder.path()).unwrap();
+        let slot = JournalSlot::new(folder.path()).unwrap();
         std::fs::write(slot.file(), b"work").unwrap();
-        assert!(Slot::abandoned(folder.path()).is_empty());
+        assert!(JournalSlot::abandoned(folder.path()).is_empty());
         drop(slot);
-        let found = Slot::abandoned(folder.path());
+        let found = JournalSlot::abandoned(folder.path());
         assert_eq!(found.len(), 1);
-        assert!(Slot::abandoned(folder.path()).is_empty(), "held by the one who found it");
+        assert!(JournalSlot::abandoned(folder.path()).is_empty(), "held by the one who found it");
         found[0].clear().unwrap();
         drop(found);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -115,7 +115,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.lock"), b"").unwrap();
         std::fs::write(folder.path().join("b.json"), b"work").unwrap();
-        let found = Slot::abandoned(folder.path());
+        let found = JournalSlot::abandoned(folder.path());
         assert!(matches!(&found[..], [one] if one.file().ends_with("b.json")));
         assert!(!folder.path().join("a.lock").exists());
     }

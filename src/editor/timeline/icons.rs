@@ -1,11 +1,11 @@
-//! The small pictures of the time line, drawn so that they are sharp at every scale.
+//! Vector icons of the timeline.
 
 use egui::{
     Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use lightloom_core::project::Ease;
 
-/// A picture for a button.
+/// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Icon {
     First,
@@ -21,7 +21,7 @@ pub(super) enum Icon {
     Fit,
 }
 
-/// A button with a picture; `label` is its accessible name.
+/// A button with an icon; `label` is its accessible name.
 pub(super) fn button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
@@ -110,7 +110,7 @@ fn repeat(painter: &Painter, at: Pos2, colour: Color32) {
     }
 }
 
-/// The sign of a key frame.
+/// The diamond of a key frame.
 pub(super) fn diamond(painter: &Painter, at: Pos2, radius: f32, fill: Color32, stroke: Stroke) {
     let corners = [vec2(radius, 0.0), vec2(0.0, radius), vec2(-radius, 0.0), vec2(0.0, -radius)];
     painter.add(Shape::convex_polygon(corners.map(|c| at + c).to_vec(), fill, stroke));
@@ -127,7 +127,7 @@ pub(super) fn ease(painter: &Painter, ease: Ease, square: Rect, stroke: Stroke) 
     painter.line((0..=12).map(point).collect(), stroke);
 }
 
-/// The sign of the physical caustic: rays through a lens.
+/// The icon of the physical caustic: rays through a lens.
 pub(super) fn physical(painter: &Painter, rect: Rect, colour: Color32) {
     let (centre, unit) = (rect.center(), rect.height() / 2.0);
     let stroke = Stroke::new(1.2, colour);

@@ -1,14 +1,15 @@
-//! The time line: transport, ruler, key frames, what is worked out, and when each constraint acts.
+//! The timeline: transport, ruler, coverage of the preview, key frames, and spans of constraints.
 
 mod commands;
+mod coverage_bar;
 mod drag;
+mod edits;
 mod icons;
-mod keys;
-mod moves;
+mod key_frames;
+mod lanes;
 mod ruler;
 mod scale;
 mod spans;
-mod stripe;
 mod thumbnails;
 mod transport;
 
@@ -16,67 +17,65 @@ use egui::{Align2, FontId, PointerButton, Rect, Ui, pos2};
 
 pub use commands::carry_out;
 
-use super::panels::Desk;
 use super::playback;
+use crate::editor::context::EditorContext;
 use drag::Dragging;
-use scale::{Scale, Seen};
+use lanes::{GUTTER, KEYS, ROW, with_bar};
+use scale::{Scale, VisibleRange};
 use thumbnails::Thumbnails;
 
-/// Width of the names at the left, points.
-const GUTTER: f32 = 84.0;
-
-/// The time line of the window.
+/// The timeline of the window.
 #[derive(Default)]
 pub struct Timeline {
-    /// The part of the time axis that is seen; none for all frames.
-    seen: Option<Seen>,
+    /// The visible part of the time axis; none for all frames.
+    seen: Option<VisibleRange>,
     drag: Dragging,
-    /// Whether the pictures of the keys may stand anywhere, not only in the project's folder.
+    /// Whether thumbnails may read files outside the project's folder.
     pub external: bool,
     thumbnails: Thumbnails,
 }
 
 impl Timeline {
-    /// Shows the time line and asks for what is done with it. Returns where the play button is.
-    pub fn show(&mut self, ui: &mut Ui, desk: &mut Desk) -> Rect {
-        let play = self.transport(ui, desk);
+    /// Shows the timeline. Returns the rectangle of the play button.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext) -> Rect {
+        let play = self.transport(ui, editor);
         ui.add_space(2.0);
         let area = ui.available_rect_before_wrap();
         ui.allocate_rect(area, egui::Sense::hover());
         let track = area.with_min_x(area.left() + GUTTER);
-        let scale = self.scale(track, desk);
+        let scale = self.scale(track, editor);
         let lane = |top: f32, height: f32| Rect::from_x_y_ranges(track.x_range(), top..=top + height);
         let ruler = lane(area.top(), ruler::HEIGHT);
-        let stripe = lane(ruler.bottom(), stripe::HEIGHT);
-        let keys = lane(stripe.bottom(), keys::HEIGHT);
-        ruler::show(ui, ruler, &scale, desk);
-        stripe::show(ui, stripe, &scale, desk);
-        self.keys(ui, keys, &scale, desk);
+        let stripe = lane(ruler.bottom(), coverage_bar::HEIGHT);
+        let keys = lane(stripe.bottom(), KEYS);
+        ruler::show(ui, ruler, &scale, editor);
+        coverage_bar::show(ui, stripe, &scale, editor);
+        self.keys(ui, keys, &scale, editor);
         title(ui, area, ruler, "Frames");
         title(ui, area, keys, "Key frames");
         let bars = Rect::from_min_max(pos2(area.left(), keys.bottom() + 2.0), area.max);
-        if bars.height() >= spans::ROW {
-            self.spans(ui, bars, &scale, desk);
+        if bars.height() >= ROW {
+            self.spans(ui, bars, &scale, editor);
         }
         let over = Rect::from_min_max(track.min, pos2(track.right(), area.bottom()));
-        ruler::playhead(ui, over, &scale, desk.session.playhead);
-        self.navigate(ui, ruler.union(keys), &scale, desk);
+        ruler::playhead(ui, over, &scale, editor.session.playhead);
+        self.navigate(ui, ruler.union(keys), &scale, editor);
         play
     }
 
-    /// Height at which all bars are seen with as many lanes as the document has, points.
-    pub fn height(desk: &Desk) -> f32 {
-        let bars = spans::shown(desk.document.project(), &desk.session.selection).len();
-        30.0 + ruler::HEIGHT + stripe::HEIGHT + keys::HEIGHT + 8.0 + spans::ROW * bars.clamp(1, 5) as f32
+    /// Preferred height for the bars of a document, points.
+    pub fn height(editor: &EditorContext) -> f32 {
+        let bars = with_bar(editor.document.project(), &editor.session.selection).len();
+        30.0 + ruler::HEIGHT + coverage_bar::HEIGHT + KEYS + 8.0 + ROW * bars.clamp(1, 5) as f32
     }
 
-    fn scale(&self, track: Rect, desk: &Desk) -> Scale {
-        let whole = playback::whole(desk.document.project());
-        Scale::new(track.x_range(), self.seen.unwrap_or_else(|| Seen::all(&whole, track.width())))
+    fn scale(&self, track: Rect, editor: &EditorContext) -> Scale {
+        let whole = playback::whole(editor.document.project());
+        Scale::new(track.x_range(), self.seen.unwrap_or_else(|| VisibleRange::all(&whole, track.width())))
     }
 
-    /// The wheel zooms about the pointer, with Shift or sideways it moves; so does dragging with the middle button.
-    fn navigate(&mut self, ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
+    /// The wheel zooms about the pointer; Shift, sideways scrolling and the middle button pan.
+    fn navigate(&mut self, ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
         let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|at| rect.contains(*at)) else { return };
         if ui.ctx().layer_id_at(at) != Some(ui.layer_id()) {
             return;
@@ -88,7 +87,7 @@ impl Timeline {
         let factor = f64::from(zoom) * f64::from(scroll.y / 240.0).exp2();
         let seen = if factor != 1.0 { scale.zoomed(factor, at.x) } else { scale.panned(scroll.x + drag) };
         if factor != 1.0 || scroll.x + drag != 0.0 {
-            self.seen = Some(seen.kept_near(&playback::whole(desk.document.project())));
+            self.seen = Some(seen.kept_near(&playback::whole(editor.document.project())));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The ruler: frame numbers and seconds, scrubbing, the marks between which it is played, the playhead.
+//! The ruler: frame numbers and seconds, scrubbing, playback marks, playhead.
 
 use egui::{
     Align2, CursorIcon, FontId, Id, PointerButton, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
@@ -7,36 +7,36 @@ use egui::{
 
 use super::commands::go;
 use super::scale::Scale;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::playback;
 use crate::editor::theme;
 
 /// Height, points.
 pub(super) const HEIGHT: f32 = 34.0;
 
-/// Shows the ruler and asks for the frame to which it is dragged.
-pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) -> Response {
+/// Shows the ruler and asks for the frame scrubbed to.
+pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
-    let frame = desk.session.playhead;
+    let frame = editor.session.playhead;
     response.widget_info(|| WidgetInfo::slider(true, f64::from(frame), "Time ruler"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
-    ticks(ui, rect, scale, desk);
+    ticks(ui, rect, scale, editor);
     let held = response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary);
     if held && let Some(at) = response.interact_pointer_pos() {
         let frame = scale.frame(at.x);
-        if frame != desk.session.playhead || desk.session.playing {
-            go(desk, frame);
+        if frame != editor.session.playhead || editor.session.playing {
+            go(editor, frame);
         }
     }
-    marks(ui, rect, scale, desk);
+    marks(ui, rect, scale, editor);
     response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(
-        "Drag to scrub. The wheel zooms, with Shift it moves along; I and O mark from where to where it plays.",
+        "Drag to scrub. The wheel zooms, with Shift it pans; I and O set the in and out points.",
     )
 }
 
-fn ticks(ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
-    let project = desk.document.project();
+fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
+    let project = editor.document.project();
     let (fps, first) = (playback::fps(project), *playback::whole(project).start());
     let painter = ui.painter_at(rect);
     let [step, tick] = scale.steps();
@@ -67,10 +67,10 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, desk: &Desk) {
     }
 }
 
-/// What is not played is shaded; the handles of the marks can be dragged.
-fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
-    let project = desk.document.project().clone();
-    let played = playback::played(&project, desk.session);
+/// Shades the frames outside of the marks, and shows the marks' handles.
+fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
+    let project = editor.document.project().clone();
+    let played = playback::played(&project, editor.session);
     let (from, to) = (scale.x(f64::from(*played.start())), scale.x(f64::from(*played.end())));
     let shade = ui.visuals().panel_fill.gamma_multiply(0.7);
     let painter = ui.painter_at(rect);
@@ -84,8 +84,8 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
         0.0,
         shade,
     );
-    for (end, name) in ["In mark", "Out mark"].into_iter().enumerate() {
-        let Some(frame) = desk.session.marks[end] else { continue };
+    for (end, name) in ["In point", "Out point"].into_iter().enumerate() {
+        let Some(frame) = editor.session.marks[end] else { continue };
         let x = scale.x(f64::from(frame));
         let grip = Rect::from_center_size(pos2(x, rect.center().y), vec2(12.0, rect.height()));
         if !rect.intersects(grip) {
@@ -96,10 +96,10 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
         if response.dragged()
             && let Some(at) = response.interact_pointer_pos()
         {
-            desk.session.marks[end] = Some(bounded(scale.frame(at.x), end, desk.session.marks[1 - end]));
+            editor.session.marks[end] = Some(bounded(scale.frame(at.x), end, editor.session.marks[1 - end]));
         }
         if response.double_clicked() {
-            desk.session.marks[end] = None;
+            editor.session.marks[end] = None;
         }
         let inwards = if end == 0 { 7.0 } else { -7.0 };
         let painter = ui.painter_at(rect);
@@ -107,13 +107,13 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, desk: &mut Desk) {
         let (top, bottom) = (rect.top() + 1.0, rect.bottom() - 1.0);
         let bracket = vec![pos2(x + inwards, top), pos2(x, top), pos2(x, bottom), pos2(x + inwards, bottom)];
         painter.add(Shape::line(bracket, Stroke::new(2.0, colour)));
-        response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
-            "{name} at frame {frame}. Drag to move it, double click to take it away."
-        ));
+        response
+            .on_hover_cursor(CursorIcon::ResizeHorizontal)
+            .on_hover_text(format!("{name} at frame {frame}. Drag to move it, double click to remove it."));
     }
 }
 
-/// Marks do not pass each other.
+/// Sets a mark; marks do not cross.
 fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
     match (end, other) {
         (0, Some(to)) => frame.min(to),
@@ -122,7 +122,7 @@ fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
     }
 }
 
-/// The playhead over all lanes, with its frame number in the ruler.
+/// Paints the playhead over all lanes, with its frame number.
 pub(super) fn playhead(ui: &Ui, area: Rect, scale: &Scale, frame: i32) {
     let painter = ui.painter_at(area);
     let x = painter.round_to_pixel_center(scale.x(f64::from(frame)));

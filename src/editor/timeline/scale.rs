@@ -1,16 +1,16 @@
-//! Frames and places: which frame stands where on the time axis.
+//! The scale of the time axis: from frames to screen positions.
 
 use std::ops::RangeInclusive;
 
 use egui::Rangef;
 
-/// Fewest frames that are shown when zoomed in.
+/// Minimum number of visible frames.
 const FEWEST: f64 = 4.0;
-/// Most frames that are shown when zoomed out; projects hold frames from -1000000 to 1000000.
+/// Maximum number of visible frames; projects hold frames from -1000000 to 1000000.
 const MOST: f64 = 2_100_000.0;
-/// Room at both ends where all frames fit, points.
+/// Margin at both ends when all frames are visible, points.
 const MARGIN: f64 = 34.0;
-/// Least distance of two numbers on the ruler, points.
+/// Minimum distance of two numbers on the ruler, points.
 const LABEL: f64 = 58.0;
 
 /// The time axis on the screen.
@@ -24,31 +24,31 @@ pub(super) struct Scale {
     per_frame: f64,
 }
 
-/// The part of the time axis that is seen: its first frame and how many there are.
+/// The visible part of the time axis: first frame and number of frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct VisibleRange {
     pub(super) first: f64,
     pub(super) frames: f64,
 }
 
 impl Scale {
-    /// `seen` over the points `x`.
-    pub(super) fn new(x: Rangef, seen: Seen) -> Self {
+    /// The scale that maps `seen` to the screen range `x`.
+    pub(super) fn new(x: Rangef, seen: VisibleRange) -> Self {
         let width = f64::from(x.span()).max(1.0);
         Self { left: f64::from(x.min), width, first: seen.first, per_frame: width / seen.frames.max(1e-6) }
     }
 
-    /// Where a frame is, points; frames between frames are moments between them.
+    /// Screen position of a frame, points; fractions are times between frames.
     pub(super) fn x(&self, frame: f64) -> f32 {
         (self.left + (frame - self.first) * self.per_frame) as f32
     }
 
-    /// The moment at a place, in frames.
+    /// Time at a screen position, frames.
     pub(super) fn moment(&self, x: f32) -> f64 {
         self.first + (f64::from(x) - self.left) / self.per_frame
     }
 
-    /// The frame nearest to a place.
+    /// The frame nearest to a screen position.
     pub(super) fn frame(&self, x: f32) -> i32 {
         self.moment(x).round() as i32
     }
@@ -58,17 +58,20 @@ impl Scale {
         self.per_frame as f32
     }
 
-    /// What is seen after zooming by `factor` about a place, which stays where it is.
-    pub(super) fn zoomed(&self, factor: f64, about: f32) -> Seen {
+    /// The visible range after zooming by `factor` about a fixed screen position.
+    pub(super) fn zoomed(&self, factor: f64, about: f32) -> VisibleRange {
         let now = self.width / self.per_frame;
         let frames = (now / factor.max(1e-6)).clamp(FEWEST, MOST);
         let fixed = self.moment(about);
-        Seen { first: fixed - (fixed - self.first) * frames / now, frames }
+        VisibleRange { first: fixed - (fixed - self.first) * frames / now, frames }
     }
 
-    /// What is seen after dragging the axis by points.
-    pub(super) fn panned(&self, points: f32) -> Seen {
-        Seen { first: self.first - f64::from(points) / self.per_frame, frames: self.width / self.per_frame }
+    /// The visible range after panning by points.
+    pub(super) fn panned(&self, points: f32) -> VisibleRange {
+        VisibleRange {
+            first: self.first - f64::from(points) / self.per_frame,
+            frames: self.width / self.per_frame,
+        }
     }
 
     /// Frames between two numbers on the ruler, and between two ticks.
@@ -85,7 +88,7 @@ impl Scale {
         }
     }
 
-    /// The multiples of `step` that are seen.
+    /// The visible multiples of `step`.
     pub(super) fn multiples(&self, step: i64) -> impl Iterator<Item = i64> {
         let (from, to) = (self.first, self.first + self.width / self.per_frame);
         let first = (from / step as f64).ceil() as i64;
@@ -94,8 +97,8 @@ impl Scale {
     }
 }
 
-impl Seen {
-    /// All of `frames` with some room at both ends of an axis of this width, points.
+impl VisibleRange {
+    /// The range of all `frames` with margins, on an axis of this width in points.
     pub(super) fn all(frames: &RangeInclusive<i32>, width: f32) -> Self {
         let count = (f64::from(*frames.end()) - f64::from(*frames.start())).max(FEWEST);
         let room = (f64::from(width) - 2.0 * MARGIN).max(1.0);
@@ -106,7 +109,7 @@ impl Seen {
         }
     }
 
-    /// This part, moved so that it is not empty of `frames`.
+    /// The range moved so that it overlaps `frames`.
     pub(super) fn kept_near(self, frames: &RangeInclusive<i32>) -> Self {
         let (from, to) = (f64::from(*frames.start()), f64::from(*frames.end()));
         Self { first: self.first.clamp(from - 0.9 * self.frames, to - 0.1 * self.frames), ..self }
@@ -118,7 +121,7 @@ mod tests {
     use super::*;
 
     fn scale() -> Scale {
-        Scale::new(Rangef::new(100.0, 900.0), Seen { first: -3.5, frames: 160.0 })
+        Scale::new(Rangef::new(100.0, 900.0), VisibleRange { first: -3.5, frames: 160.0 })
     }
 
     #[test]
@@ -139,7 +142,7 @@ mod tests {
     #[test]
     fn numbers_on_the_ruler_never_touch() {
         for frames in [4.0, 30.0, 60.0, 240.0, 1e4, 2e6] {
-            let scale = Scale::new(Rangef::new(0.0, 800.0), Seen { first: 0.0, frames });
+            let scale = Scale::new(Rangef::new(0.0, 800.0), VisibleRange { first: 0.0, frames });
             let [step, tick] = scale.steps();
             assert!(step as f64 * f64::from(scale.per_frame()) >= LABEL * 0.999, "{frames}");
             assert_eq!(step % tick, 0);
@@ -148,7 +151,7 @@ mod tests {
 
     #[test]
     fn all_frames_fit_with_room_for_a_thumbnail() {
-        let scale = Scale::new(Rangef::new(0.0, 800.0), Seen::all(&(1..=60), 800.0));
+        let scale = Scale::new(Rangef::new(0.0, 800.0), VisibleRange::all(&(1..=60), 800.0));
         assert!(scale.x(1.0) >= 30.0 && scale.x(60.0) <= 770.0);
     }
 }

@@ -1,4 +1,4 @@
-//! The bars of constraints: from which frame to which each acts.
+//! The bars of constraints: their spans of frames.
 
 use egui::{
     Align2, CursorIcon, FontId, Id, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui,
@@ -9,36 +9,29 @@ use lightloom_core::project::Project;
 
 use super::commands::step;
 use super::drag::Drag;
-use super::moves::Part;
+use super::edits::BarPart;
+use super::lanes::{GUTTER, ROW, with_bar};
 use super::scale::Scale;
-use super::{GUTTER, Timeline, moves};
+use super::{Timeline, edits};
 use crate::editor::action::Action;
-use crate::editor::panels::{self, Desk};
+use crate::editor::context::EditorContext;
+use crate::editor::panels;
 use crate::editor::playback;
 use crate::editor::selection::Selection;
 use crate::editor::theme;
 
-/// Height of one bar with its distance to the next, points.
-pub(super) const ROW: f32 = 20.0;
-
-/// The constraints that have a bar: those with a span, and the selected.
-pub(super) fn shown(project: &Project, selection: &Selection) -> Vec<usize> {
-    let with_bar = |(i, c): &(usize, &Constraint)| c.span().is_some() || selection.contains(*i);
-    project.constraints.iter().enumerate().filter(with_bar).map(|(i, _)| i).collect()
-}
-
 impl Timeline {
-    /// Shows the bars below each other in `area`, which includes the gutter of names.
-    pub(super) fn spans(&mut self, ui: &mut Ui, area: Rect, scale: &Scale, desk: &mut Desk) {
-        let project = desk.document.project().clone();
-        let rows = shown(&project, &desk.session.selection);
+    /// Shows the bars in `area`, which includes the gutter of titles.
+    pub(super) fn spans(&mut self, ui: &mut Ui, area: Rect, scale: &Scale, editor: &mut EditorContext) {
+        let project = editor.document.project().clone();
+        let rows = with_bar(&project, &editor.session.selection);
         let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(area).id_salt("spans"));
         let list = ScrollArea::vertical().auto_shrink(false);
         list.show_rows(&mut ui, ROW, rows.len(), |ui, visible| {
             ui.spacing_mut().item_spacing = egui::Vec2::ZERO;
             for &index in &rows[visible] {
                 let (_, row) = ui.allocate_space(vec2(area.width(), ROW));
-                self.bar(ui, row, scale, index, desk, &project);
+                self.bar(ui, row, scale, index, editor, &project);
             }
         });
     }
@@ -49,14 +42,14 @@ impl Timeline {
         row: Rect,
         scale: &Scale,
         index: usize,
-        desk: &mut Desk,
+        editor: &mut EditorContext,
         project: &Project,
     ) {
         let constraint = &project.constraints[index];
         let name = panels::title(constraint, index);
         let track = row.with_min_x(row.left() + GUTTER);
         let label = Rect::from_min_max(row.left_top(), pos2(track.left() - 6.0, row.bottom()));
-        let strong = desk.session.selection.contains(index);
+        let strong = editor.session.selection.contains(index);
         let colour = if strong { ui.visuals().strong_text_color() } else { ui.visuals().text_color() };
         let font = FontId::proportional(11.5);
         ui.painter_at(label).text(label.right_center(), Align2::RIGHT_CENTER, &name, font, colour);
@@ -78,14 +71,15 @@ impl Timeline {
                 ui.interact(grip, Id::unique(("span", index, part as u8)), Sense::click_and_drag());
             let info = format!("{name}, {}", words(part, &span, own.is_some()));
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &info));
-            self.drag_bar(ui, &response, index, part, span, scale, desk);
+            self.drag_bar(ui, &response, index, part, span, scale, editor);
             if response.clicked() {
-                desk.ask(Action::Select(Selection::one(index)));
+                editor.ask(Action::Select(Selection::one(index)));
             }
-            menu(&response, index, own, desk, project);
-            let cursor = if part == Part::Middle { CursorIcon::Grab } else { CursorIcon::ResizeHorizontal };
+            menu(&response, index, own, editor, project);
+            let cursor =
+                if part == BarPart::Middle { CursorIcon::Grab } else { CursorIcon::ResizeHorizontal };
             response.on_hover_cursor(cursor).on_hover_text(format!(
-                "{info}. Drag the ends or the middle to retime; right click to let it act always."
+                "{info}. Drag the ends or the middle to retime; right click to keep it always active."
             ));
         }
     }
@@ -96,41 +90,41 @@ impl Timeline {
         ui: &Ui,
         response: &Response,
         index: usize,
-        part: Part,
+        part: BarPart,
         span: Span,
         scale: &Scale,
-        desk: &mut Desk,
+        editor: &mut EditorContext,
     ) {
         let what = Drag::Bar(index, part);
         if response.drag_started() {
-            self.drag.begin_bar(desk, what, span, scale, ui);
+            self.drag.begin_bar(editor, what, span, scale, ui);
         }
         let before = self.drag.span();
-        if let Some(by) = self.drag.frames(ui, response, what, scale, desk)
+        if let Some(by) = self.drag.frames(ui, response, what, scale, editor)
             && let Some(before) = before
         {
-            // A bar without a span gets one when it is really moved.
+            // A bar without a span gets one once it is moved.
             let after = part.dragged(before, by);
-            let edit = moves::span(desk.document.project(), index, Some(after));
+            let edit = edits::span(editor.document.project(), index, Some(after));
             if let Some(edit) = edit.filter(|_| by != 0 || span != before) {
-                desk.ask(edit);
+                editor.ask(edit);
             }
         }
     }
 }
 
-/// The parts of a bar that can be taken hold of; ends lie over the middle.
-fn grips(bar: Rect) -> [(Part, Rect); 3] {
+/// The draggable parts of a bar; its ends are above the middle.
+fn grips(bar: Rect) -> [(BarPart, Rect); 3] {
     let end = |x: f32| Rect::from_center_size(pos2(x, bar.center().y), vec2(10.0, bar.height() + 4.0));
-    [(Part::Middle, bar), (Part::From, end(bar.left())), (Part::To, end(bar.right()))]
+    [(BarPart::Middle, bar), (BarPart::From, end(bar.left())), (BarPart::To, end(bar.right()))]
 }
 
-fn words(part: Part, span: &Span, own: bool) -> String {
+fn words(part: BarPart, span: &Span, own: bool) -> String {
     match part {
-        Part::Middle if !own => "acts always".into(),
-        Part::Middle => format!("acts from frame {} to {}", span.from, span.to),
-        Part::From => format!("first frame {}", span.from),
-        Part::To => format!("last frame {}", span.to),
+        BarPart::Middle if !own => "always active".into(),
+        BarPart::Middle => format!("active from frame {} to {}", span.from, span.to),
+        BarPart::From => format!("first frame {}", span.from),
+        BarPart::To => format!("last frame {}", span.to),
     }
 }
 
@@ -148,14 +142,14 @@ fn paint(ui: &Ui, track: Rect, bar: Rect, constraint: &Constraint, span: &Span, 
         return;
     }
     painter.rect_filled(bar, 4.0, colour.gamma_multiply(if strong { 0.85 } else { 0.55 }));
-    // A wall stands or does not.
+    // Walls do not fade.
     if matches!(constraint, Constraint::DirectedLine(_)) {
         fades(&painter, bar, span, ui.visuals().panel_fill);
     }
     painter.rect_stroke(bar, 4.0, Stroke::new(if strong { 1.8 } else { 1.0 }, colour), StrokeKind::Inside);
 }
 
-/// The corners are cut where a line sets in and fades out.
+/// Corners are cut where a line fades in and out.
 fn fades(painter: &egui::Painter, bar: Rect, span: &Span, behind: egui::Color32) {
     let frames = (f64::from(span.to) - f64::from(span.from) + 1.0) as f32;
     let width = bar.width() * (span.fade as f32 / frames).min(0.5);
@@ -167,22 +161,22 @@ fn fades(painter: &egui::Painter, bar: Rect, span: &Span, behind: egui::Color32)
     }
 }
 
-fn menu(response: &Response, index: usize, own: Option<Span>, desk: &mut Desk, project: &Project) {
+fn menu(response: &Response, index: usize, own: Option<Span>, editor: &mut EditorContext, project: &Project) {
     response.context_menu(|ui| {
         let whole = playback::whole(project);
         let span = own.unwrap_or(Span { from: *whole.start(), to: *whole.end(), fade: 0 });
-        let at = desk.session.playhead;
+        let at = editor.session.playhead;
         let choices = [
-            ("Begin at the playhead", Some(Span { from: at, to: span.to.max(at), ..span })),
+            ("Start at the playhead", Some(Span { from: at, to: span.to.max(at), ..span })),
             ("End at the playhead", Some(Span { from: span.from.min(at), to: at, ..span })),
-            ("Act always", None),
+            ("Always active", None),
         ];
         for (name, wanted) in choices {
-            let edit = moves::span(project, index, wanted);
+            let edit = edits::span(project, index, wanted);
             if ui.add_enabled(edit.is_some(), egui::Button::new(name)).clicked()
                 && let Some(edit) = edit
             {
-                step(desk, edit);
+                step(editor, edit);
             }
         }
     });

@@ -1,7 +1,7 @@
-//! Small pictures of what the key frames show, made by a thread of their own.
+//! Thumbnails of the key frames' targets, made on a thread of their own.
 //!
-//! A picture is made of points drawn from the target, as the light will be: what stands where on the plane is seen, and
-//! a file of points looks as it is.
+//! A thumbnail shows points sampled from the target, as the light will be: placement on the plane is visible, and
+//! files of points look as they are.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -15,10 +15,10 @@ use lightloom_core::targets::{PictureSampler, Points, load_points};
 
 /// Pixels along the longer side.
 const SIDE: f32 = 96.0;
-/// Points of one picture: some ten for each pixel that light falls on.
+/// Points per thumbnail: about ten per lit pixel.
 const POINTS: usize = 60_000;
 
-/// The pictures that were made so far, and the thread that makes more.
+/// The thumbnails made so far, and the thread that makes more.
 pub(super) struct Thumbnails {
     made: Vec<(Request, Made)>,
     /// The thread ends when the sender is gone.
@@ -26,7 +26,7 @@ pub(super) struct Thumbnails {
     results: Option<Receiver<(Request, Result<ColorImage>)>>,
 }
 
-/// What to make a picture of.
+/// The subject of a thumbnail.
 #[derive(Clone, Debug, PartialEq)]
 struct Request {
     shows: Shows,
@@ -42,14 +42,14 @@ enum Made {
     Failed(String),
 }
 
-/// What is there to show of a key.
+/// The state of a key frame's thumbnail.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Thumbnail {
-    /// The physical caustic, which has no picture but a sign.
+    /// The physical caustic, shown as an icon.
     Physical,
-    /// Its picture.
+    /// Its texture.
     Picture(TextureId),
-    /// The picture is being made.
+    /// It is being made.
     Waiting,
     /// It cannot be made, and why.
     Failed(String),
@@ -73,8 +73,8 @@ impl Default for Thumbnails {
 }
 
 impl Thumbnails {
-    /// What is there of a key that shows `shows` in the project file `project`, which may read files from anywhere where
-    /// it is `external`, on a plane of `extent`.
+    /// The thumbnail of the target `shows` in the project file `project`, on a plane of `extent`. With `external` it may
+    /// read files outside of the project's folder.
     pub(super) fn of(
         &mut self,
         ctx: &Context,

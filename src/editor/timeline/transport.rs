@@ -1,4 +1,4 @@
-//! The transport: buttons, the number of the frame, the frame rate.
+//! The transport: playback buttons, frame number, frame rate.
 
 use egui::{Align, ComboBox, DragValue, Layout, Rect, RichText, Ui};
 use lightloom_core::project::OutputSettings;
@@ -7,11 +7,11 @@ use super::Timeline;
 use super::commands::{carry_out, go, step};
 use super::icons::{self, Icon};
 use crate::editor::command::Command;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::panels::Desk;
 use crate::editor::{playback, shortcuts};
 
-/// Frame rates in use, as fractions.
+/// Common frame rates, as fractions.
 const RATES: [[u32; 2]; 10] = [
     [12, 1],
     [24_000, 1001],
@@ -26,70 +26,67 @@ const RATES: [[u32; 2]; 10] = [
 ];
 
 impl Timeline {
-    /// Shows the row of the transport; returns where the play button is.
-    pub(super) fn transport(&mut self, ui: &mut Ui, desk: &mut Desk) -> Rect {
+    /// Shows the transport; returns the rectangle of the play button.
+    pub(super) fn transport(&mut self, ui: &mut Ui, editor: &mut EditorContext) -> Rect {
         let mut play = Rect::NOTHING;
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            command(ui, desk, Icon::First, Command::FirstFrame, false);
-            command(ui, desk, Icon::PreviousKey, Command::PreviousKey, false);
-            command(ui, desk, Icon::Back, Command::PreviousFrame, false);
-            let icon = if desk.session.playing { Icon::Pause } else { Icon::Play };
-            let playing = desk.session.playing;
-            play = command(ui, desk, icon, Command::PlayPause, playing);
-            command(ui, desk, Icon::Forward, Command::NextFrame, false);
-            command(ui, desk, Icon::NextKey, Command::NextKey, false);
-            command(ui, desk, Icon::Last, Command::LastFrame, false);
-            let looping = desk.session.looping;
-            command(ui, desk, Icon::Loop, Command::ToggleLoop, looping);
+            command(ui, editor, Icon::First, Command::FirstFrame, false);
+            command(ui, editor, Icon::PreviousKey, Command::PreviousKey, false);
+            command(ui, editor, Icon::Back, Command::PreviousFrame, false);
+            let icon = if editor.session.playing { Icon::Pause } else { Icon::Play };
+            let playing = editor.session.playing;
+            play = command(ui, editor, icon, Command::PlayPause, playing);
+            command(ui, editor, Icon::Forward, Command::NextFrame, false);
+            command(ui, editor, Icon::NextKey, Command::NextKey, false);
+            command(ui, editor, Icon::Last, Command::LastFrame, false);
+            let looping = editor.session.looping;
+            command(ui, editor, Icon::Loop, Command::ToggleLoop, looping);
             ui.add_space(10.0);
-            number(ui, desk);
+            number(ui, editor);
             ui.add_space(10.0);
-            command(ui, desk, Icon::AddKey, Command::AddKey, false);
+            command(ui, editor, Icon::AddKey, Command::AddKey, false);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let fit = icons::button(ui, Icon::Fit, "Show all frames", false);
-                if fit
-                    .on_hover_text("Show all frames: wheel zooms, dragging with the middle button moves.")
-                    .clicked()
-                {
+                if fit.on_hover_text("Show all frames. The wheel zooms, the middle button pans.").clicked() {
                     self.seen = None;
                 }
                 ui.add_space(8.0);
-                rate(ui, desk);
+                rate(ui, editor);
             });
         });
         play
     }
 }
 
-fn command(ui: &mut Ui, desk: &mut Desk, icon: Icon, command: Command, on: bool) -> Rect {
-    let Some(entry) = command.entry() else { return Rect::NOTHING };
+fn command(ui: &mut Ui, editor: &mut EditorContext, icon: Icon, command: Command, on: bool) -> Rect {
+    let Some(entry) = command.info() else { return Rect::NOTHING };
     let response = icons::button(ui, icon, entry.name, on).on_hover_text(shortcuts::with_key(entry));
     if response.clicked() {
-        carry_out(command, desk);
+        carry_out(command, editor);
     }
     response.rect
 }
 
-fn number(ui: &mut Ui, desk: &mut Desk) {
-    let project = desk.document.project().clone();
+fn number(ui: &mut Ui, editor: &mut EditorContext) {
+    let project = editor.document.project().clone();
     let (whole, fps) = (playback::whole(&project), playback::fps(&project));
-    let mut frame = desk.session.playhead;
+    let mut frame = editor.session.playhead;
     let field =
         DragValue::new(&mut frame).speed(0.1).range(-1_000_000..=1_000_000).update_while_editing(false);
-    let shown = ui.add_sized([58.0, 22.0], field).accessible_name("Frame under the playhead");
-    if shown.on_hover_text("The frame that is shown. Drag, or click and type.").changed() {
-        go(desk, frame);
+    let shown = ui.add_sized([58.0, 22.0], field).accessible_name("Current frame");
+    if shown.on_hover_text("The current frame. Drag, or click and type.").changed() {
+        go(editor, frame);
     }
-    let seconds = f64::from(desk.session.playhead - whole.start()) / fps;
+    let seconds = f64::from(editor.session.playhead - whole.start()) / fps;
     ui.add_space(4.0);
     ui.label(RichText::new(format!("of {}", whole.end())).weak());
     ui.add_space(6.0);
     ui.label(RichText::new(format!("{seconds:.2} s")).weak());
 }
 
-fn rate(ui: &mut Ui, desk: &mut Desk) {
-    let output = desk.document.project().output.clone();
+fn rate(ui: &mut Ui, editor: &mut EditorContext) {
+    let output = editor.document.project().output.clone();
     let name = |[count, seconds]: [u32; 2]| {
         let text = format!("{:.3}", f64::from(count) / f64::from(seconds));
         format!("{} fps", text.trim_end_matches('0').trim_end_matches('.'))
@@ -98,7 +95,7 @@ fn rate(ui: &mut Ui, desk: &mut Desk) {
     let shown = combo.show_ui(ui, |ui| {
         for fps in RATES {
             if ui.selectable_label(fps == output.fps, name(fps)).clicked() && fps != output.fps {
-                step(desk, Edit::Output(OutputSettings { fps, ..output.clone() }));
+                step(editor, Edit::Output(OutputSettings { fps, ..output.clone() }));
             }
         }
     });

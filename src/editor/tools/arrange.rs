@@ -1,4 +1,4 @@
-//! What can be done to a selection: reverse, join, split, delete, move. Locked constraints stay as they are.
+//! Operations on a selection: reverse, join, split, delete, move. Locked constraints are unchanged.
 
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
@@ -7,12 +7,12 @@ use lightloom_core::project::Project;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// A change, and what is selected after it; none where there is nothing to do.
+/// An edit and the selection after it; none where there is nothing to do.
 pub type Arranged = Option<(Edit, Selection)>;
 
-/// Farthest place of a point, plane units.
+/// Maximum coordinate of a point, plane units.
 const FARTHEST: f32 = 10.0;
-/// Ends nearer than this are one point, plane units: less than any picture shows.
+/// Ends closer than this coincide, plane units: less than any picture shows.
 const SAME: f32 = 1e-5;
 
 /// The points of a constraint, plane units.
@@ -20,7 +20,7 @@ pub(super) fn points(constraint: &Constraint) -> Vec<Vec2> {
     constraint.points().iter().map(|&p| p.into()).collect()
 }
 
-/// The same constraint through other points.
+/// The constraint with other points.
 pub(super) fn through(constraint: &Constraint, points: &[Vec2]) -> Constraint {
     let mut constraint = constraint.clone();
     let own = match &mut constraint {
@@ -31,12 +31,12 @@ pub(super) fn through(constraint: &Constraint, points: &[Vec2]) -> Constraint {
     constraint
 }
 
-/// Whether it ends where it begins.
+/// Whether a polyline is closed.
 pub(super) fn is_loop(points: &[Vec2]) -> bool {
     matches!(points, [first, _, _, .., last] if first.distance(*last) < SAME)
 }
 
-/// What is selected and not locked.
+/// The selected constraints that are not locked.
 pub(super) fn chosen<'a>(
     project: &'a Project,
     selection: &'a Selection,
@@ -45,7 +45,7 @@ pub(super) fn chosen<'a>(
     all.filter(|(i, constraint)| selection.contains(*i) && !constraint.is_locked())
 }
 
-/// Turns the selected lines around: the light flows the other way along them.
+/// Reverses the direction of the selected lines.
 pub fn reverse(project: &Project, selection: &Selection) -> Arranged {
     let (mut changes, mut after) = (Vec::new(), selection.clone());
     for (i, constraint) in chosen(project, selection) {
@@ -59,7 +59,7 @@ pub fn reverse(project: &Project, selection: &Selection) -> Arranged {
     if changes.is_empty() { None } else { Some((Edit::Change(changes), after)) }
 }
 
-/// Joins the selected lines of the kind of the first into one, nearest ends first; a wall alone closes to a loop.
+/// Joins the selected constraints of the kind of the first, nearest ends first; a single wall closes to a loop.
 pub fn join(project: &Project, selection: &Selection) -> Arranged {
     let (first, constraint) = chosen(project, selection).next()?;
     let alike = |c: &Constraint| std::mem::discriminant(c) == std::mem::discriminant(constraint);
@@ -89,11 +89,11 @@ pub fn join(project: &Project, selection: &Selection) -> Arranged {
     Some((Edit::Constraints(constraints), Selection::one(first)))
 }
 
-/// How another line is joined to a chain.
+/// How a line is joined to a chain.
 struct Link {
-    /// Before its begin, not after its end.
+    /// Before its start rather than after its end.
     before: bool,
-    /// The other way around.
+    /// Reversed.
     turned: bool,
 }
 
@@ -102,7 +102,7 @@ fn nearest_link(chain: &[Vec2], rest: &[(usize, Vec<Vec2>)]) -> Option<(usize, L
     let links = rest.iter().enumerate().flat_map(|(at, (_, other))| {
         let ends = other.first().copied().zip(other.last().copied());
         ends.into_iter().flat_map(move |(first, last)| {
-            // The kinder ways first: of equal distances they win.
+            // Those without reversal first: they win ties.
             [
                 (end.distance(first), at, Link { before: false, turned: false }),
                 (begin.distance(last), at, Link { before: true, turned: false }),
@@ -114,7 +114,7 @@ fn nearest_link(chain: &[Vec2], rest: &[(usize, Vec<Vec2>)]) -> Option<(usize, L
     links.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at, link)| (at, link))
 }
 
-/// Splits the selected lines at their selected points; a loop opens at the first of them.
+/// Splits the selected constraints at their selected points; a loop opens at the first of them.
 pub fn split(project: &Project, selection: &Selection) -> Arranged {
     let (mut constraints, mut pieces, mut any) = (Vec::new(), Vec::new(), false);
     for (i, constraint) in project.constraints.iter().enumerate() {
@@ -131,7 +131,7 @@ pub fn split(project: &Project, selection: &Selection) -> Arranged {
     any.then(|| (Edit::Constraints(constraints), Selection::all(pieces)))
 }
 
-/// The parts between the points `cuts` (rising); none where nothing is cut.
+/// The parts between the points `cuts` (ascending); none where nothing is cut.
 fn cut_at(points: &[Vec2], cuts: &[usize]) -> Vec<Vec<Vec2>> {
     let last = points.len().saturating_sub(1);
     if is_loop(points) {
@@ -154,7 +154,7 @@ fn between(points: &[Vec2], cuts: &[usize]) -> Vec<Vec<Vec2>> {
     ends.windows(2).map(|pair| points[pair[0]..=pair[1]].to_vec()).collect()
 }
 
-/// Removes the selected points, and lines of which less than two points are left.
+/// Deletes the selected points, and constraints with fewer than two points left.
 pub fn delete(project: &Project, selection: &Selection) -> Arranged {
     let mut constraints = Vec::new();
     for (i, constraint) in project.constraints.iter().enumerate() {
@@ -179,13 +179,13 @@ pub fn delete(project: &Project, selection: &Selection) -> Arranged {
     Some((edit, Selection::default()))
 }
 
-/// Moves what is selected by so much, plane units.
+/// Moves the selection by a vector, plane units.
 pub fn nudge(project: &Project, selection: &Selection, by: Vec2) -> Arranged {
     let base: Vec<(usize, Constraint)> = chosen(project, selection).map(|(i, c)| (i, c.clone())).collect();
     (!base.is_empty()).then(|| (moved(&base, selection, by), selection.clone()))
 }
 
-/// The constraints as they were, with what is selected of them moved by so much, as far as the drawing goes.
+/// The edit that moves the selected points of `base` by a vector, limited to the drawing range.
 pub(super) fn moved(base: &[(usize, Constraint)], selection: &Selection, by: Vec2) -> Edit {
     let by = reach(
         by,
@@ -204,14 +204,14 @@ pub(super) fn moved(base: &[(usize, Constraint)], selection: &Selection, by: Vec
     Edit::Change(base.iter().map(change).collect())
 }
 
-/// Constraints moved as wholes by so much, as far as the drawing goes.
+/// Whole constraints moved by a vector, limited to the drawing range.
 pub(in crate::editor) fn shifted(constraints: &[Constraint], by: Vec2) -> Vec<Constraint> {
     let by = reach(by, constraints.iter().flat_map(points));
     let moved = |constraint: &Constraint| points(constraint).into_iter().map(|p| p + by).collect::<Vec<_>>();
     constraints.iter().map(|constraint| through(constraint, &moved(constraint))).collect()
 }
 
-/// So much of a movement as keeps all points within the drawing.
+/// A move limited so that all points stay within the drawing range.
 fn reach(by: Vec2, points: impl Iterator<Item = Vec2>) -> Vec2 {
     let far = Vec2::splat(FARTHEST);
     points.fold(by, |by, p| (p + by).clamp(-far, far) - p)

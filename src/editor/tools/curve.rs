@@ -1,20 +1,16 @@
-//! Freehand strokes become few points: cubic curves are fitted to them, and drawn as polylines again.
-//!
-//! Schneider, "An algorithm for automatically fitting digitized curves", Graphics Gems (1990); corners, which it would
-//! round, are kept apart before.
+//! Freehand strokes as polylines of few points: smoothed between corners, joined by a spline, and simplified.
 
-use glam::Vec2;
+use glam::{Vec2, vec2};
+use kurbo::{BezPath, PathEl, Point};
 use lightloom_core::constraint::stroke;
 
-/// Most steps of Newton's method that bring the parameters nearer to the points.
-const REFINEMENTS: usize = 4;
 /// Cosine of the turn that makes a corner: 60 degrees.
 const CORNER: f32 = 0.5;
+/// Standard deviation of the Gaussian that smooths, tolerances along the stroke.
+const SIGMA: f32 = 4.0;
 
-type Cubic = [Vec2; 4];
-
-/// Fewer points for the stroke through `points`: all of the stroke lies within twice `tolerance` (plane units) of the
-/// polyline through them, and both of its ends among them.
+/// A polyline of few points along a stroke, with both of its ends. Every point of the stroke lies within twice
+/// `tolerance` (plane units) of it: dropping close points adds a quarter, smoothing one, simplification 0.7.
 pub(super) fn fit(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
     let mut apart: Vec<Vec2> = Vec::with_capacity(points.len());
     for &point in points {
@@ -29,22 +25,15 @@ pub(super) fn fit(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
         return apart;
     }
     let mut fitted = vec![apart[0]];
-    let corners = corners(&apart, 5.0 * tolerance);
-    for span in corners.windows(2) {
-        let span = &apart[span[0]..=span[1]];
-        let mut cubics = Vec::new();
-        fit_span(
-            span,
-            tangent(span.iter(), tolerance),
-            tangent(span.iter().rev(), tolerance),
-            tolerance,
-            &mut cubics,
-        );
-        for cubic in cubics {
-            flatten(&cubic, 0.5 * tolerance, &mut fitted);
-        }
+    for span in corners(&apart, 5.0 * tolerance).windows(2) {
+        let smooth = smoothed(&apart[span[0]..=span[1]], tolerance);
+        kurbo::flatten(spline(&smooth), f64::from(0.2 * tolerance), |element| {
+            if let PathEl::LineTo(p) = element {
+                fitted.push(vec2(p.x as f32, p.y as f32));
+            }
+        });
     }
-    stroke::simplify(&fitted, 0.4 * tolerance)
+    stroke::simplify(&fitted, 0.7 * tolerance)
 }
 
 /// Indices of both ends and of the corners between: where the stroke turns by more than 60 degrees within `reach`.
@@ -72,119 +61,48 @@ fn corners(points: &[Vec2], reach: f32) -> Vec<usize> {
     corners
 }
 
-/// The direction in which a stroke sets out: towards its first point that is some way off.
-fn tangent<'a>(mut points: impl DoubleEndedIterator<Item = &'a Vec2> + Clone, tolerance: f32) -> Vec2 {
-    let Some(&from) = points.next() else { return Vec2::X };
-    let far = points.clone().find(|p| p.distance(from) > 2.0 * tolerance).or_else(|| points.next_back());
-    far.map_or(Vec2::X, |&p| (p - from).normalize_or(Vec2::X))
-}
-
-fn fit_span(points: &[Vec2], start: Vec2, end: Vec2, tolerance: f32, out: &mut Vec<Cubic>) {
-    let (first, last) = (points[0], points[points.len() - 1]);
-    if points.len() < 3 {
-        out.push(arc(first, last, start, end, [first.distance(last) / 3.0; 2]));
-        return;
-    }
-    let mut parameters = chord_parameters(points);
-    let mut worst = 1;
-    for _ in 0..=REFINEMENTS {
-        let cubic = least_squares(points, &parameters, start, end);
-        let (at, error) = farthest(points, &parameters, &cubic);
-        if error <= tolerance {
-            out.push(cubic);
-            return;
-        }
-        worst = at;
-        if error > 4.0 * tolerance {
-            break;
-        }
-        for (parameter, &point) in parameters.iter_mut().zip(points) {
-            *parameter = newton(&cubic, point, *parameter);
-        }
-    }
-    let middle = (points[worst - 1] - points[worst + 1]).normalize_or((first - last).normalize_or(Vec2::X));
-    fit_span(&points[..=worst], start, middle, tolerance, out);
-    fit_span(&points[worst..], -middle, end, tolerance, out);
-}
-
-fn arc(first: Vec2, last: Vec2, start: Vec2, end: Vec2, reach: [f32; 2]) -> Cubic {
-    [first, first + start * reach[0], last + end * reach[1], last]
-}
-
-/// Shares of the length at each point, 0..=1.
-fn chord_parameters(points: &[Vec2]) -> Vec<f32> {
-    let total = stroke::length(points).max(f32::MIN_POSITIVE);
+/// The points after a Gaussian along the stroke, each moved by `tolerance` at most. The window shrinks towards the ends,
+/// which stay where they are.
+fn smoothed(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
+    let sigma = SIGMA * tolerance;
     let mut walked = 0.0;
-    let lengths = points.windows(2).map(|pair| {
+    let steps = points.windows(2).map(|pair| {
         walked += pair[0].distance(pair[1]);
-        walked / total
+        walked
     });
-    std::iter::once(0.0).chain(lengths).collect()
+    let at: Vec<f32> = std::iter::once(0.0).chain(steps).collect();
+    let total = at[at.len() - 1];
+    let smooth = |i: usize| {
+        let reach = (3.0 * sigma).min(at[i]).min(total - at[i]);
+        let window = at.partition_point(|s| *s < at[i] - reach)..at.partition_point(|s| *s <= at[i] + reach);
+        let (mut sum, mut weights) = (points[i], 1.0);
+        for k in window.filter(|k| *k != i) {
+            let weight = (-0.5 * ((at[k] - at[i]) / sigma).powi(2)).exp();
+            sum += points[k] * weight;
+            weights += weight;
+        }
+        points[i] + (sum / weights - points[i]).clamp_length_max(tolerance)
+    };
+    (0..points.len()).map(|i| if i == 0 || i + 1 == points.len() { points[i] } else { smooth(i) }).collect()
 }
 
-fn weights(t: f32) -> [f32; 4] {
-    let s = 1.0 - t;
-    [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
-}
-
-fn point(cubic: &Cubic, t: f32) -> Vec2 {
-    weights(t).iter().zip(cubic).map(|(w, p)| *p * *w).sum()
-}
-
-/// The curve of given end tangents that is nearest to the points at their parameters.
-fn least_squares(points: &[Vec2], parameters: &[f32], start: Vec2, end: Vec2) -> Cubic {
-    let (first, last) = (points[0], points[points.len() - 1]);
-    let (mut c, mut x) = ([[0.0f32; 2]; 2], [0.0f32; 2]);
-    for (&p, &t) in points.iter().zip(parameters) {
-        let w = weights(t);
-        let (a, b) = (start * w[1], end * w[2]);
-        let rest = p - first * (w[0] + w[1]) - last * (w[2] + w[3]);
-        c[0][0] += a.dot(a);
-        c[0][1] += a.dot(b);
-        c[1][1] += b.dot(b);
-        x[0] += a.dot(rest);
-        x[1] += b.dot(rest);
+/// The Catmull-Rom spline through the points.
+fn spline(points: &[Vec2]) -> BezPath {
+    let point = |p: Vec2| Point::new(p.x.into(), p.y.into());
+    let last = points.len() - 1;
+    let slope = |i: usize| (points[(i + 1).min(last)] - points[i.saturating_sub(1)]) / 6.0;
+    let mut path = BezPath::new();
+    path.move_to(point(points[0]));
+    for i in 0..last {
+        let (from, to) = (points[i] + slope(i), points[i + 1] - slope(i + 1));
+        path.curve_to(point(from), point(to), point(points[i + 1]));
     }
-    let determinant = c[0][0] * c[1][1] - c[0][1] * c[0][1];
-    let chord = first.distance(last);
-    let reach =
-        [(x[0] * c[1][1] - x[1] * c[0][1]) / determinant, (c[0][0] * x[1] - c[0][1] * x[0]) / determinant];
-    // Handles that point back, or far beyond the stroke, make loops; a third of the chord never does.
-    let longest = 2.0 * stroke::length(points);
-    let sound = reach.iter().all(|r| (1e-3 * chord..=longest).contains(r) && *r > 0.0);
-    arc(first, last, start, end, if sound { reach } else { [chord / 3.0; 2] })
-}
-
-/// The inner point that is farthest from the curve, and its distance.
-fn farthest(points: &[Vec2], parameters: &[f32], cubic: &Cubic) -> (usize, f32) {
-    let distances = (1..points.len() - 1).map(|i| (i, points[i].distance(point(cubic, parameters[i]))));
-    distances.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((1, 0.0))
-}
-
-/// A parameter at which the curve is nearer to `p`.
-fn newton(cubic: &Cubic, p: Vec2, t: f32) -> f32 {
-    let s = 1.0 - t;
-    let [a, b, c] = [cubic[1] - cubic[0], cubic[2] - cubic[1], cubic[3] - cubic[2]];
-    let first = (a * (s * s) + b * (2.0 * s * t) + c * (t * t)) * 3.0;
-    let second = ((b - a) * s + (c - b) * t) * 6.0;
-    let off = point(cubic, t) - p;
-    let slope = first.dot(first) + off.dot(second);
-    if slope.abs() < f32::MIN_POSITIVE { t } else { (t - off.dot(first) / slope).clamp(0.0, 1.0) }
-}
-
-/// Appends points of the curve after its first, so dense that the polyline strays by less than `tolerance`.
-fn flatten(cubic: &Cubic, tolerance: f32, out: &mut Vec<Vec2>) {
-    let bend =
-        (cubic[0] - 2.0 * cubic[1] + cubic[2]).length().max((cubic[1] - 2.0 * cubic[2] + cubic[3]).length());
-    let steps = (0.75 * bend / tolerance).sqrt().ceil().clamp(1.0, 200.0) as usize;
-    out.extend((1..=steps).map(|i| point(cubic, i as f32 / steps as f32)));
+    path
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use glam::vec2;
-
     use super::*;
 
     const TOLERANCE: f32 = 0.002;
@@ -221,6 +139,19 @@ mod tests {
         assert!(line.len() <= 5, "{line:?}");
         // The points next to the corner lie 0.008 apart.
         assert!(line.iter().any(|p| p.distance(b) < 0.004), "{line:?}");
+    }
+
+    #[test]
+    fn the_noise_of_a_hand_leaves_few_points_on_a_straight_line() {
+        // Off by up to 0.7 of the tolerance, on pixels of half a tolerance.
+        let noise = |i: usize| 0.7 * TOLERANCE * ((i * i * 7919 % 1013) as f32 / 506.0 - 1.0);
+        let pixel = |x: f32| (x / (0.5 * TOLERANCE)).round() * 0.5 * TOLERANCE;
+        let drawn: Vec<Vec2> = (0..200)
+            .map(|i| vec2(pixel(0.1 + 0.004 * i as f32), pixel(0.2 + 0.001 * i as f32 + noise(i))))
+            .collect();
+        let line = fit(&drawn, TOLERANCE);
+        assert!(line.len() <= 30, "{}", line.len());
+        assert!(stray(&drawn, &line) <= 2.0 * TOLERANCE);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use glam::Vec2;
 
 use super::arrange::is_loop;
 
-/// What is left of a polyline outside of a disc; all as it was where the disc does not touch it.
+/// The parts of a polyline outside of a disc; the whole polyline where the disc does not touch it.
 pub(super) fn cut(points: &[Vec2], centre: Vec2, radius: f32) -> Vec<Vec<Vec2>> {
     let mut parts: Vec<Vec<Vec2>> = Vec::new();
     let mut part: Vec<Vec2> = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn cut(points: &[Vec2], centre: Vec2, radius: f32) -> Vec<Vec<Vec2>> 
         }
     }
     parts.push(part);
-    // A loop that was cut elsewhere runs on through its begin.
+    // A loop that was cut elsewhere continues through its start.
     let untouched = |p: Option<&Vec2>| p.is_some_and(|p| p.distance(centre) > radius);
     if parts.len() > 1 && is_loop(points) && untouched(points.first()) {
         let begin = parts.remove(0);
@@ -41,7 +41,7 @@ pub(super) fn cut(points: &[Vec2], centre: Vec2, radius: f32) -> Vec<Vec<Vec2>> 
     parts
 }
 
-/// The shares of the way from `a` to `b` between which it runs through the disc.
+/// The parameters in 0..=1 between which the segment from `a` to `b` is inside the disc.
 fn inside(a: Vec2, b: Vec2, centre: Vec2, radius: f32) -> Option<[f32; 2]> {
     let (way, off) = (b - a, a - centre);
     let squared = way.length_squared();

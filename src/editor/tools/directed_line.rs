@@ -1,13 +1,14 @@
-//! Draws directed lines.
+//! The tool that draws directed lines.
 
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, DirectedLine};
 
+use super::icon;
 use super::pen::{Pen, add};
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// Draws directed lines: flow here, this way.
+/// The tool that draws directed lines.
 #[derive(Default)]
 pub(super) struct DrawLine {
     pen: Pen,
@@ -23,7 +24,7 @@ impl Tool for DrawLine {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point: Enter ends, Backspace takes back, Esc cancels, Shift is straight"
+        "Drag to draw freehand, or click point by point: Enter finishes, Backspace removes a point, Esc cancels, Shift draws straight"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -31,13 +32,13 @@ impl Tool for DrawLine {
         icon::filled(painter, square, stroke, [[0.97, 0.17], [0.7, 0.02], [0.74, 0.42]].as_slice());
     }
 
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        let Some(points) = self.pen.gesture(gesture, look) else { return Vec::new() };
+    fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        let Some(points) = self.pen.gesture(gesture, context) else { return Vec::new() };
         let points = points.into_iter().map(Into::into).collect();
-        add(Constraint::DirectedLine(DirectedLine::new(points)), look)
+        add(Constraint::DirectedLine(DirectedLine::new(points)), context)
     }
 
-    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+    fn ghosts(&self, _look: &ToolContext) -> Vec<Ghost> {
         std::iter::once(Ghost::Line(self.pen.points())).chain(self.pen.marks()).collect()
     }
 

@@ -1,40 +1,41 @@
-//! Erases what it touches of lines and walls.
+//! The eraser of lines and walls.
 
 use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::{Gesture, Ghost, Look, Tool, arrange, cut, icon};
+use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::{arrange, cut, icon};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// How far it reaches, points of the screen.
+/// Radius, screen points.
 const RADIUS: f32 = 9.0;
-/// Pieces shorter than this go as well, points of the screen.
+/// Pieces shorter than this are removed too, screen points.
 const CRUMB: f32 = 3.0;
 
-/// Erases what it touches of lines and walls, and splits them there.
+/// The eraser: removes the touched parts of lines and walls.
 #[derive(Default)]
 pub(super) struct Erase {
-    /// Where the pointer is.
+    /// Position of the pointer.
     at: Option<Vec2>,
-    /// What is left so far, while the button is down.
+    /// The remaining constraints, while the button is down.
     left: Option<Vec<Constraint>>,
 }
 
 impl Erase {
-    /// Erases on the way from where it was to `to`.
-    fn sweep(&mut self, to: Vec2, look: &Look) -> Vec<Action> {
+    /// Erases from the last position to `to`.
+    fn sweep(&mut self, to: Vec2, context: &ToolContext) -> Vec<Action> {
         let from = self.at.replace(to).unwrap_or(to);
         let Some(left) = &mut self.left else { return Vec::new() };
-        let radius = look.points(RADIUS);
-        // So dense that the swept outline strays by less than a tenth of the radius.
+        let radius = context.points(RADIUS);
+        // Dense enough that the swept outline deviates by less than a tenth of the radius.
         let steps = (from.distance(to) / (0.8 * radius)).ceil().clamp(1.0, 1000.0) as usize;
         let before = left.clone();
         for i in 1..=steps {
             let centre = from.lerp(to, i as f32 / steps as f32);
-            *left = left.iter().flat_map(|constraint| rub(constraint, centre, radius, look)).collect();
+            *left = left.iter().flat_map(|constraint| rub(constraint, centre, radius, context)).collect();
         }
         if *left == before {
             return Vec::new();
@@ -43,7 +44,7 @@ impl Erase {
     }
 }
 
-fn rub(constraint: &Constraint, centre: Vec2, radius: f32, look: &Look) -> Vec<Constraint> {
+fn rub(constraint: &Constraint, centre: Vec2, radius: f32, context: &ToolContext) -> Vec<Constraint> {
     let radius = match constraint {
         Constraint::Wall(wall) => radius.max(0.5 * wall.thickness),
         Constraint::DirectedLine(_) => radius,
@@ -54,7 +55,7 @@ fn rub(constraint: &Constraint, centre: Vec2, radius: f32, look: &Look) -> Vec<C
         return vec![constraint.clone()];
     }
     let parts = cut::cut(&points, centre, radius).into_iter();
-    let whole = parts.filter(|part| stroke::length(part) > look.points(CRUMB));
+    let whole = parts.filter(|part| stroke::length(part) > context.points(CRUMB));
     whole.map(|part| arrange::through(constraint, &part)).collect()
 }
 
@@ -68,7 +69,7 @@ impl Tool for Erase {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag over lines and walls: what is touched goes, the rest stays"
+        "Drag over lines and walls to remove the touched parts"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -84,7 +85,7 @@ impl Tool for Erase {
         egui::CursorIcon::None
     }
 
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+    fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
         match gesture {
             Gesture::Hover(p) => {
                 self.at = Some(p);
@@ -92,10 +93,11 @@ impl Tool for Erase {
             }
             Gesture::Press(p) => {
                 self.at = Some(p);
-                self.left = Some(look.project.constraints.clone()).filter(|_| look.session.show.drawn);
-                self.sweep(p, look)
+                self.left =
+                    Some(context.project.constraints.clone()).filter(|_| context.session.overlays.drawn);
+                self.sweep(p, context)
             }
-            Gesture::Drag(p) => self.sweep(p, look),
+            Gesture::Drag(p) => self.sweep(p, context),
             Gesture::Release(_) => {
                 if self.left.take().is_some() {
                     vec![Action::Settle]
@@ -114,8 +116,8 @@ impl Tool for Erase {
         }
     }
 
-    fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        self.at.map(|at| Ghost::Eraser(at, look.points(RADIUS))).into_iter().collect()
+    fn ghosts(&self, context: &ToolContext) -> Vec<Ghost> {
+        self.at.map(|at| Ghost::Eraser(at, context.points(RADIUS))).into_iter().collect()
     }
 
     fn put_down(&mut self) {

@@ -2,7 +2,7 @@
 
 use egui::{Painter, Pos2, Rect, Shape, Stroke, lerp, pos2};
 
-/// The place of a point of the unit square.
+/// Screen position of a point of the unit square.
 pub(super) fn at(square: Rect, [x, y]: [f32; 2]) -> Pos2 {
     pos2(lerp(square.x_range(), x), lerp(square.y_range(), y))
 }

@@ -1,10 +1,11 @@
-//! Moves the view.
+//! The pan tool.
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{PointerMode, Tool};
 
-/// Moves the view; so does the middle button, and Space, with any tool.
+/// The pan tool; the middle button and Space pan with any tool.
 pub(super) struct Pan;
 
 impl Tool for Pan {
@@ -17,7 +18,7 @@ impl Tool for Pan {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag to move the view; the middle button, or Space and drag, does so with any tool"
+        "Drag to move the view; the middle button, or Space and drag, pans with any tool"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -36,7 +37,7 @@ impl Tool for Pan {
         CursorIcon::Grab
     }
 
-    fn grip(&self) -> Grip {
-        Grip::Pan
+    fn pointer_mode(&self) -> PointerMode {
+        PointerMode::Pan
     }
 }

@@ -1,34 +1,35 @@
-//! How lines are drawn, freehand or point by point; directed lines and walls share it.
+//! Drawing of polylines, freehand or point by point, for directed lines and walls.
 
 use egui::Key;
 use glam::Vec2;
 use lightloom_core::constraint::Constraint;
 
+use super::curve;
 use super::snap::Snap;
-use super::{Gesture, Ghost, Look, curve};
+use super::tool::{Gesture, Ghost, ToolContext};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
 
-/// A drag shorter than this is a click, points of the screen.
+/// A drag shorter than this is a click, screen points.
 const CLICK: f32 = 4.0;
-/// How near to its begin a loop closes, points of the screen.
+/// Distance to the start at which a loop closes, screen points.
 const CLOSES: f32 = 8.0;
-/// How far a freehand curve may stray from the hand, points of the screen.
+/// Tolerance of a freehand curve, screen points.
 const STRAY: f32 = 1.0;
-/// Farthest place that can be drawn on, plane units.
+/// Maximum coordinate of a point, plane units.
 const FARTHEST: f32 = 10.0;
 
-/// A line in the making.
+/// An unfinished polyline.
 #[derive(Default)]
 pub(super) struct Pen {
-    /// Whether it closes where it comes back to its begin.
+    /// Whether it closes where it returns to its start.
     loops: bool,
-    /// The points that are set.
+    /// The placed points.
     placed: Vec<Vec2>,
-    /// The way of the pointer since its button went down.
+    /// The path of the pointer since its button went down.
     trail: Vec<Vec2>,
-    /// Where the next point would be, and whether something caught it there.
+    /// Position of the next point, and whether it snapped.
     next: Option<(Vec2, bool)>,
 }
 
@@ -38,16 +39,16 @@ impl Pen {
         Self { loops: true, ..Self::default() }
     }
 
-    /// Answers a gesture: with the points, at least two, when the line is done.
-    pub(super) fn gesture(&mut self, gesture: Gesture, look: &Look) -> Option<Vec<Vec2>> {
+    /// Handles a gesture; returns at least two points when the line is finished.
+    pub(super) fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Option<Vec<Vec2>> {
         match gesture {
-            Gesture::Hover(p) => self.aim(p, look),
+            Gesture::Hover(p) => self.aim(p, context),
             Gesture::Press(p) => {
-                self.aim(p, look);
+                self.aim(p, context);
                 self.trail = self.next.map(|(at, _)| at).into_iter().collect();
             }
-            Gesture::Drag(p) => self.drag(p, look),
-            Gesture::Release(p) => return self.release(p, look),
+            Gesture::Drag(p) => self.drag(p, context),
+            Gesture::Release(p) => return self.release(p, context),
             Gesture::DoubleClick(_) | Gesture::Key(Key::Enter) => return self.finish(),
             Gesture::Key(Key::Backspace) => {
                 self.placed.pop();
@@ -58,89 +59,89 @@ impl Pen {
         None
     }
 
-    /// Whether something is begun.
+    /// Whether a line was begun.
     pub(super) fn is_busy(&self) -> bool {
         !self.placed.is_empty() || !self.trail.is_empty()
     }
 
-    /// Forgets what was begun.
+    /// Discards the line.
     pub(super) fn clear(&mut self) {
         *self = Self { loops: self.loops, ..Self::default() };
     }
 
-    /// The line as it would be now.
+    /// The line up to the pointer.
     pub(super) fn points(&self) -> Vec<Vec2> {
         let ahead = if self.trail.len() > 1 { &self.trail[..] } else { &[] };
         let next = self.next.filter(|_| ahead.is_empty() && !self.placed.is_empty()).map(|(at, _)| at);
         self.placed.iter().chain(ahead).copied().chain(next).collect()
     }
 
-    /// The points that are set, and the place that caught the pointer.
+    /// Markers of the placed points and of the snapping point.
     pub(super) fn marks(&self) -> Vec<Ghost> {
         let caught = self.next.filter(|(_, caught)| *caught).map(|(at, _)| Ghost::Snap(at));
         self.placed.iter().map(|&p| Ghost::Pin(p)).chain(caught).collect()
     }
 
-    fn aim(&mut self, p: Vec2, look: &Look) {
+    fn aim(&mut self, p: Vec2, context: &ToolContext) {
         let snap = Snap { from: self.placed.last().copied(), own: &self.placed, ..Snap::ALL };
-        let snapped = snap.find(p, look);
+        let snapped = snap.find(p, context);
         let inside = snapped.at.clamp(Vec2::splat(-FARTHEST), Vec2::splat(FARTHEST));
         self.next = Some((inside, snapped.caught));
     }
 
-    fn drag(&mut self, p: Vec2, look: &Look) {
+    fn drag(&mut self, p: Vec2, context: &ToolContext) {
         let Some(&from) = self.trail.first() else { return };
-        if self.trail.len() == 1 && from.distance(p) < look.points(CLICK) {
+        if self.trail.len() == 1 && from.distance(p) < context.points(CLICK) {
             return;
         }
         let inside = p.clamp(Vec2::splat(-FARTHEST), Vec2::splat(FARTHEST));
-        if look.held.shift {
-            self.trail = vec![from, Snap { from: Some(from), ..Snap::ALL }.find(inside, look).at];
+        if context.held.shift {
+            self.trail = vec![from, Snap { from: Some(from), ..Snap::ALL }.find(inside, context).at];
         } else {
             self.trail.push(inside);
         }
         self.next = None;
     }
 
-    fn release(&mut self, p: Vec2, look: &Look) -> Option<Vec<Vec2>> {
+    fn release(&mut self, p: Vec2, context: &ToolContext) -> Option<Vec<Vec2>> {
         let trail = std::mem::take(&mut self.trail);
         if trail.len() < 2 {
-            return self.set(*trail.first()?, look);
+            return self.set(*trail.first()?, context);
         }
         let mut stroke = trail;
-        self.end(&mut stroke, p, look);
-        let fitted = curve::fit(&stroke, look.points(STRAY));
+        self.end(&mut stroke, p, context);
+        let fitted = curve::fit(&stroke, context.points(STRAY));
         let alone = self.placed.is_empty();
         self.placed.extend(fitted);
         if alone { self.finish() } else { None }
     }
 
-    /// The end of a freehand stroke: closed where it came back, else where something catches it.
-    fn end(&self, stroke: &mut [Vec2], p: Vec2, look: &Look) {
+    /// Places the end of a freehand stroke: on its start if it closes, else snapped.
+    fn end(&self, stroke: &mut [Vec2], p: Vec2, context: &ToolContext) {
         let long = stroke.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>();
-        let (first, near) = (stroke[0], look.points(CLOSES));
-        let Some(last) = stroke.last_mut().filter(|_| !look.held.shift) else { return };
+        let (first, near) = (stroke[0], context.points(CLOSES));
+        let Some(last) = stroke.last_mut().filter(|_| !context.held.shift) else { return };
         if self.loops && first.distance(p) < near && long > 6.0 * near {
             *last = first;
         } else {
-            let snapped = Snap::ALL.find(p, look);
+            let snapped = Snap::ALL.find(p, context);
             *last = if snapped.caught { snapped.at } else { *last };
         }
     }
 
-    /// Sets a point; on the first one a loop closes.
-    fn set(&mut self, at: Vec2, look: &Look) -> Option<Vec<Vec2>> {
+    /// Places a point; on the first one a loop closes.
+    fn set(&mut self, at: Vec2, context: &ToolContext) -> Option<Vec<Vec2>> {
         let first = self.placed.first().copied();
         if let Some(first) = first
             && self.loops
             && self.placed.len() > 2
-            && first.distance(at) < look.points(CLOSES)
+            && first.distance(at) < context.points(CLOSES)
         {
             self.placed.push(first);
             return self.finish();
         }
-        // The second half of a double click sets no second point.
-        if self.placed.last().is_none_or(|last| last.distance(at) > look.points(1.0)) {
+        // The second click of a double click places no second point.
+        if self.placed.last().is_none_or(|last| last.distance(at) > context.points(1.0)) {
             self.placed.push(at);
         }
         None
@@ -154,8 +155,8 @@ impl Pen {
     }
 }
 
-/// What adds a constraint that is drawn, and selects it.
-pub(super) fn add(constraint: Constraint, look: &Look) -> Vec<Action> {
-    let selected = Selection::one(look.project.constraints.len());
+/// The actions that add a drawn constraint and select it.
+pub(super) fn add(constraint: Constraint, context: &ToolContext) -> Vec<Action> {
+    let selected = Selection::one(context.project.constraints.len());
     vec![Edit::Add(vec![constraint]).into(), Action::Settle, Action::Select(selected)]
 }

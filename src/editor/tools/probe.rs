@@ -1,15 +1,16 @@
-//! Follows one photon.
+//! The tool that follows one photon.
 
 use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 
-use super::{Gesture, Look, Tool, icon};
+use super::icon;
+use super::tool::{Gesture, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// How far from the pointer the photon may be, points of the screen.
+/// Maximum distance of the photon from the pointer, screen points.
 const REACH: f32 = 40.0;
 
-/// Follows the photon that is nearest to a click: its way, its target and its detour appear.
+/// The probe: follows the photon nearest to a click.
 #[derive(Default)]
 pub(super) struct Probe {
     down: bool,
@@ -25,7 +26,7 @@ impl Tool for Probe {
     }
 
     fn hint(&self) -> &'static str {
-        "Click light to follow its photon: the way it takes, its target, its detour around walls. Esc ends"
+        "Click light to follow its photon: its path, its target, the way around walls. Esc ends"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -39,13 +40,13 @@ impl Tool for Probe {
         icon::lines(painter, square, stroke, lines);
     }
 
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
+    fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
         match gesture {
             Gesture::Press(p) => {
                 self.down = true;
-                vec![Action::Probe(nearest(p, look))]
+                vec![Action::Probe(nearest(p, context))]
             }
-            Gesture::Drag(p) if self.down => vec![Action::Probe(nearest(p, look))],
+            Gesture::Drag(p) if self.down => vec![Action::Probe(nearest(p, context))],
             Gesture::Key(Key::Escape) => vec![Action::Probe(None)],
             Gesture::Release(_) => {
                 self.down = false;
@@ -60,8 +61,8 @@ impl Tool for Probe {
     }
 }
 
-fn nearest(p: Vec2, look: &Look) -> Option<usize> {
-    let distances = look.photons.iter().enumerate().map(|(row, photon)| (row, photon.distance_squared(p)));
+fn nearest(p: Vec2, context: &ToolContext) -> Option<usize> {
+    let distances = context.photons.iter().enumerate().map(|(row, photon)| (row, photon.distance_squared(p)));
     let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
-    nearest.filter(|(_, squared)| squared.sqrt() <= look.points(REACH)).map(|(row, _)| row)
+    nearest.filter(|(_, squared)| squared.sqrt() <= context.points(REACH)).map(|(row, _)| row)
 }

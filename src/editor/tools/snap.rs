@@ -1,61 +1,62 @@
-//! Snapping: the pointer is caught by points, lines, directions and the grid that lie near.
+//! Snapping of the pointer to points, lines, directions and the grid.
 
 use glam::{Vec2, vec2};
 use lightloom_core::constraint::stroke;
 
-use super::Look;
+use super::tool::ToolContext;
 
-/// How near catches, points of the screen.
+/// Snapping distance, screen points.
 const REACH: f32 = 5.0;
-/// Directions that catch: multiples of this, radians.
+/// Step of the snapping directions, radians.
 const STEP: f32 = std::f32::consts::PI / 12.0;
-/// How near to such a direction, radians: close to where the way begins all directions are near in points.
+/// Snapping angle, radians: close to the start all directions are within the snapping distance.
 const NEAR: f32 = 0.05;
 
-/// Where the pointer counts as being.
+/// A snapped position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Snapped {
-    /// The place, plane units.
+    /// The position, plane units.
     pub(super) at: Vec2,
-    /// Whether something caught it.
+    /// Whether it snapped.
     pub(super) caught: bool,
 }
 
-/// What may catch the pointer.
+/// The candidates for snapping.
 pub(super) struct Snap<'a> {
-    /// Where the way to the pointer begins: directions from there catch.
+    /// Origin of the snapping directions.
     pub(super) from: Option<Vec2>,
-    /// Points besides those of the document.
+    /// Further points.
     pub(super) own: &'a [Vec2],
-    /// Points of the document that do not count: constraint and point.
+    /// Points of the document that are skipped: indices of constraint and point.
     pub(super) skip: &'a dyn Fn(usize, usize) -> bool,
 }
 
 impl Snap<'_> {
-    /// Everything of the document catches.
+    /// Snapping to everything in the document.
     pub(super) const ALL: Self = Self { from: None, own: &[], skip: &|_, _| false };
 
-    /// Where the pointer at `p` counts as being. Shift allows nothing but straight ways.
-    pub(super) fn find(&self, p: Vec2, look: &Look) -> Snapped {
-        if let Some(from) = self.from.filter(|_| look.held.shift) {
+    /// The snapped position of the pointer at `p`. Shift restricts it to the snapping directions.
+    pub(super) fn find(&self, p: Vec2, context: &ToolContext) -> Snapped {
+        if let Some(from) = self.from.filter(|_| context.held.shift) {
             return Snapped { at: straight(p, from), caught: false };
         }
-        let off = look.held.ctrl || !look.session.snapping;
-        let caught = if off { None } else { self.to_point(p, look).or_else(|| self.to_others(p, look)) };
+        let off = context.held.ctrl || !context.session.snapping;
+        let caught =
+            if off { None } else { self.to_point(p, context).or_else(|| self.to_others(p, context)) };
         Snapped { at: caught.unwrap_or(p), caught: caught.is_some() }
     }
 
-    fn to_point(&self, p: Vec2, look: &Look) -> Option<Vec2> {
-        let drawn = look.project.constraints.iter().enumerate().filter(|_| look.session.show.drawn);
+    fn to_point(&self, p: Vec2, context: &ToolContext) -> Option<Vec2> {
+        let drawn = context.project.constraints.iter().enumerate().filter(|_| context.session.overlays.drawn);
         let points = drawn.flat_map(|(i, constraint)| {
             let points = constraint.points().iter().enumerate();
             points.filter(move |(k, _)| !(self.skip)(i, *k)).map(|(_, &point)| Vec2::from(point))
         });
-        nearest(p, points.chain(self.own.iter().copied()), look.points(REACH))
+        nearest(p, points.chain(self.own.iter().copied()), context.points(REACH))
     }
 
-    fn to_others(&self, p: Vec2, look: &Look) -> Option<Vec2> {
-        let drawn = look.project.constraints.iter().enumerate().filter(|_| look.session.show.drawn);
+    fn to_others(&self, p: Vec2, context: &ToolContext) -> Option<Vec2> {
+        let drawn = context.project.constraints.iter().enumerate().filter(|_| context.session.overlays.drawn);
         let along = drawn.flat_map(|(i, constraint)| {
             let pieces = constraint.points().windows(2).enumerate();
             pieces
@@ -64,12 +65,12 @@ impl Snap<'_> {
         });
         let turned = self.from.map(|from| (from, straight(p, from)));
         let turned = turned.filter(|(from, to)| p.distance(*to) < NEAR * p.distance(*from)).map(|(_, to)| to);
-        let node = look.session.show.grid.then(|| grid_node(p, look));
-        nearest(p, along.chain(turned).chain(node), look.points(REACH))
+        let node = context.session.overlays.grid.then(|| grid_node(p, context));
+        nearest(p, along.chain(turned).chain(node), context.points(REACH))
     }
 }
 
-/// The point on the nearest straight way from `from`: a multiple of 15 degrees.
+/// The projection of `p` on the nearest snapping direction from `from`.
 pub(super) fn straight(p: Vec2, from: Vec2) -> Vec2 {
     let way = p - from;
     if way == Vec2::ZERO {
@@ -79,9 +80,9 @@ pub(super) fn straight(p: Vec2, from: Vec2) -> Vec2 {
     from + direction * way.dot(direction)
 }
 
-fn grid_node(p: Vec2, look: &Look) -> Vec2 {
-    let [x, y] = look.project.flow.grid.cells(look.extent);
-    let cells = vec2(x as f32, y as f32) / look.extent;
+fn grid_node(p: Vec2, context: &ToolContext) -> Vec2 {
+    let [x, y] = context.project.flow.grid.cells(context.extent);
+    let cells = vec2(x as f32, y as f32) / context.extent;
     (p * cells).round() / cells
 }
 

@@ -1,86 +1,48 @@
-//! Places the target's picture: moves, turns and scales it.
+//! The tool that moves, rotates and scales the target picture.
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 use glam::Vec2;
-use lightloom_core::project::{KeyFrame, Project, Shows};
-use lightloom_core::targets::{ImageTarget, Placement};
+use lightloom_core::targets::Placement;
 
+use super::icon;
 use super::snap::Snap;
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Tool, ToolContext};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
-use crate::editor::session::Session;
+use crate::editor::target_image::TargetImage;
 
-/// How near a handle catches, points of the screen.
+/// Hit distance of a handle, screen points.
 const HANDLE: f32 = 9.0;
-/// How far the handle that turns stands off the picture, points of the screen.
+/// Distance of the rotation handle from the picture, screen points.
 const STALK: f32 = 28.0;
-/// How near to multiples of 15 degrees a turn catches, degrees.
+/// Snapping angle about multiples of 15 degrees, degrees.
 const NEAR: f32 = 2.0;
-/// Smallest and largest width of a picture, plane units.
+/// Range of the width of a picture, plane units.
 const WIDTH: [f32; 2] = [0.005, 10.0];
 
-/// The picture that is placed: whose it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown<'a> {
-    /// Its key frame, by index.
-    pub key: usize,
-    /// The caustic that shows it alone; none where the key does.
-    pub caustic: Option<&'a str>,
-    /// The picture.
-    pub image: &'a ImageTarget,
+/// Corners of the target picture at the playhead: lower left, lower right, upper right, upper left.
+pub fn target_corners(context: &ToolContext) -> Option<[Vec2; 4]> {
+    Some(
+        Frame::new(&TargetImage::at_playhead(context.project, context.session)?.image.placement, context)
+            .corners(),
+    )
 }
 
-/// The picture towards which the light flows at the playhead: of the first key that is not before it, and there of the
-/// caustic in focus if it shows one of its own.
-pub fn shown<'a>(project: &'a Project, session: &Session) -> Option<Shown<'a>> {
-    let after = project.keys.iter().position(|key| key.frame >= session.playhead);
-    let key = after.or_else(|| project.keys.len().checked_sub(1))?;
-    let name =
-        session.focus.caustic.and_then(|i| project.caustics.get(i)).map(|caustic| caustic.name.as_str());
-    let own =
-        name.filter(|name| project.keys[key].caustics.get(*name).is_some_and(|own| own.shows.is_some()));
-    match project.keys[key].shown_by(own) {
-        Shows::Image(image) => Some(Shown { key, caustic: own, image }),
-        Shows::PhysicalCaustic | Shows::Points(_) => None,
-    }
-}
-
-/// The corners of that picture on the plane: lower left, lower right, upper right, upper left.
-pub fn target_corners(look: &Look) -> Option<[Vec2; 4]> {
-    Some(Frame::new(&shown(look.project, look.session)?.image.placement, look).corners())
-}
-
-impl Shown<'_> {
-    /// The keys of the project with this picture placed otherwise.
-    fn placed(&self, project: &Project, placement: &Placement) -> Vec<KeyFrame> {
-        let mut keys = project.keys.clone();
-        let shows = match self.caustic {
-            Some(name) => keys[self.key].caustics.get_mut(name).and_then(|own| own.shows.as_mut()),
-            None => Some(&mut keys[self.key].shows),
-        };
-        if let Some(Shows::Image(image)) = shows {
-            image.placement = placement.clone();
-        }
-        keys
-    }
-}
-
-/// A picture on the plane.
+/// The frame of a picture on the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     centre: Vec2,
-    /// Half of its width, with its direction.
+    /// Half of its width, as a vector.
     right: Vec2,
-    /// Half of its height, with its direction.
+    /// Half of its height, as a vector.
     up: Vec2,
 }
 
 impl Frame {
-    /// A picture whose size is not known yet counts as a square.
-    fn new(placement: &Placement, look: &Look) -> Self {
-        let size = look.picture.unwrap_or(Vec2::splat(100.0));
-        let (centre, x, y) = placement.frame(size, look.extent);
+    /// The frame of a placement; a picture of unknown size counts as a square.
+    fn new(placement: &Placement, context: &ToolContext) -> Self {
+        let size = context.picture.unwrap_or(Vec2::splat(100.0));
+        let (centre, x, y) = placement.frame(size, context.extent);
         Self { centre, right: x * (0.5 * size.x), up: y * (0.5 * size.y) }
     }
 
@@ -89,8 +51,8 @@ impl Frame {
         [centre - right - up, centre + right - up, centre + right + up, centre - right + up]
     }
 
-    fn stalk(&self, look: &Look) -> Vec2 {
-        self.centre + self.up + self.up.normalize_or(Vec2::Y) * look.points(STALK)
+    fn stalk(&self, context: &ToolContext) -> Vec2 {
+        self.centre + self.up + self.up.normalize_or(Vec2::Y) * context.points(STALK)
     }
 
     fn contains(&self, p: Vec2) -> bool {
@@ -111,7 +73,7 @@ impl Frame {
     }
 }
 
-/// Which handle was taken.
+/// A handle of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Handle {
     Inside,
@@ -119,42 +81,42 @@ enum Handle {
     Turn,
 }
 
-/// Places the picture of the key frame that follows the playhead.
+/// The tool that places the target picture at the playhead.
 #[derive(Default)]
 pub(super) struct Place {
-    /// What was taken: the handle, where, and the picture as it was.
+    /// The dragged handle, where it was grabbed, and the initial frame.
     taken: Option<(Handle, Vec2, Frame)>,
     over: Option<Handle>,
 }
 
 impl Place {
-    fn handle(p: Vec2, frame: &Frame, look: &Look) -> Option<Handle> {
-        let near = |q: Vec2| p.distance(q) <= look.points(HANDLE);
+    fn handle(p: Vec2, frame: &Frame, context: &ToolContext) -> Option<Handle> {
+        let near = |q: Vec2| p.distance(q) <= context.points(HANDLE);
         let corner = frame.corners().into_iter().position(near).map(Handle::Corner);
-        let turn = near(frame.stalk(look)).then_some(Handle::Turn);
+        let turn = near(frame.stalk(context)).then_some(Handle::Turn);
         corner.or(turn).or_else(|| frame.contains(p).then_some(Handle::Inside))
     }
 
-    fn drag(&self, p: Vec2, look: &Look) -> Option<Frame> {
+    fn drag(&self, p: Vec2, context: &ToolContext) -> Option<Frame> {
         let (handle, from, frame) = self.taken?;
         Some(match handle {
-            Handle::Inside => moved(frame, from, p, look),
-            Handle::Corner(corner) => scaled(frame, corner, p, look),
-            Handle::Turn => turned(frame, from, p, look),
+            Handle::Inside => moved(frame, from, p, context),
+            Handle::Corner(corner) => scaled(frame, corner, p, context),
+            Handle::Turn => turned(frame, from, p, context),
         })
     }
 }
 
-fn moved(frame: Frame, from: Vec2, p: Vec2, look: &Look) -> Frame {
-    let middle = [look.extent / 2.0];
+fn moved(frame: Frame, from: Vec2, p: Vec2, context: &ToolContext) -> Frame {
+    let middle = [context.extent / 2.0];
     let snap = Snap { from: Some(frame.centre), own: &middle, ..Snap::ALL };
-    Frame { centre: snap.find(frame.centre + p - from, look).at, ..frame }
+    Frame { centre: snap.find(frame.centre + p - from, context).at, ..frame }
 }
 
-/// About the opposite corner; with Alt about the centre.
-fn scaled(frame: Frame, corner: usize, p: Vec2, look: &Look) -> Frame {
+/// Scales about the opposite corner; with Alt about the centre.
+fn scaled(frame: Frame, corner: usize, p: Vec2, context: &ToolContext) -> Frame {
     let corners = frame.corners();
-    let fixed = if look.held.alt { frame.centre } else { corners[(corner + 2) % 4] };
+    let fixed = if context.held.alt { frame.centre } else { corners[(corner + 2) % 4] };
     let diagonal = corners[corner] - fixed;
     let width = 2.0 * frame.right.length();
     let factor = (p - fixed).dot(diagonal) / diagonal.length_squared();
@@ -166,13 +128,13 @@ fn scaled(frame: Frame, corner: usize, p: Vec2, look: &Look) -> Frame {
     Frame { centre, right: frame.right * factor, up: frame.up * factor }
 }
 
-/// About the centre; near multiples of 15 degrees it catches, with Shift there is nothing else.
-fn turned(frame: Frame, from: Vec2, p: Vec2, look: &Look) -> Frame {
+/// Rotates about the centre; snaps near multiples of 15 degrees, and to them only with Shift.
+fn turned(frame: Frame, from: Vec2, p: Vec2, context: &ToolContext) -> Frame {
     let by = (p - frame.centre).to_angle() - (from - frame.centre).to_angle();
     let angle = (frame.right.to_angle() + by).to_degrees();
     let even = (angle / 15.0).round() * 15.0;
-    let catches = look.session.snapping && !look.held.ctrl && (angle - even).abs() < NEAR;
-    let angle = if catches || look.held.shift { even } else { angle };
+    let catches = context.session.snapping && !context.held.ctrl && (angle - even).abs() < NEAR;
+    let angle = if catches || context.held.shift { even } else { angle };
     let turn = Vec2::from_angle(angle.to_radians());
     Frame { right: turn * frame.right.length(), up: turn.perp() * frame.up.length(), ..frame }
 }
@@ -187,7 +149,7 @@ impl Tool for Place {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag the picture to move it, a corner to scale it (Alt: about the middle), the knob to turn it; double click fits it"
+        "Drag the picture to move it, a corner to scale it (Alt: about the centre), the knob to rotate it; double click resets it"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -210,26 +172,30 @@ impl Tool for Place {
         }
     }
 
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        let Some(shown) = shown(look.project, look.session) else {
+    fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        let Some(target) = TargetImage::at_playhead(context.project, context.session) else {
             self.put_down();
             let here = matches!(gesture, Gesture::Press(_));
-            let say = "The next key frame shows no picture that could be placed".to_owned();
+            let say = "The next key frame has no target picture to place".to_owned();
             return if here { vec![Action::Say(say)] } else { Vec::new() };
         };
-        let frame = Frame::new(&shown.image.placement, look);
-        let ask = |placement: Placement| Action::from(Edit::Keys(shown.placed(look.project, &placement)));
+        let frame = Frame::new(&target.image.placement, context);
+        let ask = |placement: Placement| Action::from(Edit::Keys(target.placed(context.project, &placement)));
         match gesture {
-            Gesture::Hover(p) => self.over = Self::handle(p, &frame, look),
-            Gesture::Press(p) => self.taken = Self::handle(p, &frame, look).map(|handle| (handle, p, frame)),
-            Gesture::Drag(p) => return self.drag(p, look).map(|f| ask(f.placement())).into_iter().collect(),
+            Gesture::Hover(p) => self.over = Self::handle(p, &frame, context),
+            Gesture::Press(p) => {
+                self.taken = Self::handle(p, &frame, context).map(|handle| (handle, p, frame))
+            }
+            Gesture::Drag(p) => {
+                return self.drag(p, context).map(|f| ask(f.placement())).into_iter().collect();
+            }
             Gesture::Release(_) if self.taken.take().is_some() => return vec![Action::Settle],
             Gesture::Key(Key::Escape) if self.taken.take().is_some() => return vec![Action::Abort],
             Gesture::DoubleClick(p) if frame.contains(p) => {
                 return vec![ask(Placement::default()), Action::Settle];
             }
             Gesture::Key(key) => {
-                let Some(step) = look.arrow(key) else { return Vec::new() };
+                let Some(step) = context.arrow(key) else { return Vec::new() };
                 let frame = Frame { centre: frame.centre + step, ..frame };
                 return vec![ask(frame.placement()), Action::Settle];
             }
@@ -238,10 +204,10 @@ impl Tool for Place {
         Vec::new()
     }
 
-    fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        let shown = shown(look.project, look.session);
-        let frame = shown.map(|shown| Frame::new(&shown.image.placement, look));
-        frame.map(|frame| Ghost::Frame(frame.corners(), frame.stalk(look))).into_iter().collect()
+    fn ghosts(&self, context: &ToolContext) -> Vec<Ghost> {
+        let target = TargetImage::at_playhead(context.project, context.session);
+        let frame = target.map(|target| Frame::new(&target.image.placement, context));
+        frame.map(|frame| Ghost::Frame(frame.corners(), frame.stalk(context))).into_iter().collect()
     }
 
     fn put_down(&mut self) {

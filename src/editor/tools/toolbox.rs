@@ -1,9 +1,24 @@
-//! The tools, and the one in hand.
+//! The tools and the active one.
 
-use super::{Gesture, Ghost, Grip, Look, Tool, all};
+use super::tool::{Gesture, Ghost, PointerMode, Tool, ToolContext};
+use super::{directed_line, erase, pan, probe, select, target, wall, zoom};
 use crate::editor::action::Action;
 
-/// The tools, and the one in hand.
+/// All tools in the order of the toolbar: a new one is a file and a line here.
+pub fn all() -> Vec<Box<dyn Tool>> {
+    vec![
+        Box::<select::Select>::default(),
+        Box::<directed_line::DrawLine>::default(),
+        Box::<wall::DrawWall>::default(),
+        Box::<erase::Erase>::default(),
+        Box::<target::Place>::default(),
+        Box::<probe::Probe>::default(),
+        Box::new(pan::Pan),
+        Box::new(zoom::Zoom),
+    ]
+}
+
+/// The tools and the active one.
 pub struct Toolbox {
     tools: Vec<Box<dyn Tool>>,
     in_hand: usize,
@@ -16,17 +31,17 @@ impl Default for Toolbox {
 }
 
 impl Toolbox {
-    /// The tools, as they stand in the bar.
+    /// The tools, in the order of the toolbar.
     pub fn tools(&self) -> impl Iterator<Item = &dyn Tool> {
         self.tools.iter().map(|tool| &**tool)
     }
 
-    /// The tool in hand.
+    /// The active tool.
     pub fn tool(&self) -> &dyn Tool {
         &*self.tools[self.in_hand]
     }
 
-    /// Takes the tool at this place in the list; what another had begun is forgotten, what it had changed is a step.
+    /// Activates a tool by index; an unfinished gesture of another is discarded, its edits become an undo step.
     pub fn take(&mut self, tool: usize) -> Vec<Action> {
         let tool = tool.min(self.tools.len() - 1);
         if tool == self.in_hand {
@@ -37,7 +52,7 @@ impl Toolbox {
         settle
     }
 
-    /// Forgets what the tool in hand had begun: the document is another.
+    /// Discards an unfinished gesture of the active tool.
     pub fn put_down(&mut self) -> Vec<Action> {
         let tool = &mut self.tools[self.in_hand];
         let busy = tool.is_busy();
@@ -45,25 +60,20 @@ impl Toolbox {
         if busy { vec![Action::Settle] } else { Vec::new() }
     }
 
-    /// Gives a gesture to the tool in hand.
-    pub fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        self.tools[self.in_hand].gesture(gesture, look)
+    /// Passes a gesture to the active tool.
+    pub fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        self.tools[self.in_hand].gesture(gesture, context)
     }
 
-    /// What the tool in hand shows.
-    pub fn ghosts(&self, look: &Look) -> Vec<Ghost> {
-        self.tool().ghosts(look)
+    /// The temporary shapes of the active tool.
+    pub fn ghosts(&self, context: &ToolContext) -> Vec<Ghost> {
+        self.tool().ghosts(context)
     }
 
-    /// Who answers the pointer now.
-    pub fn grip(&self) -> Grip {
-        self.tool().grip()
+    /// What handles the pointer.
+    pub fn pointer_mode(&self) -> PointerMode {
+        self.tool().pointer_mode()
     }
-}
-
-/// Whether a dialog or a menu is open, which keys belong to.
-pub(crate) fn is_covered(ctx: &egui::Context) -> bool {
-    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
-//! Draws walls.
+//! The tool that draws walls.
 
 use egui::{Key, Painter, Rect, Stroke};
 use lightloom_core::constraint::{Constraint, Wall};
 
+use super::icon;
 use super::pen::{Pen, add};
-use super::{Gesture, Ghost, Look, Tool, icon};
+use super::tool::{Gesture, Ghost, Tool, ToolContext};
 use crate::editor::action::Action;
 
-/// Draws walls: not through here.
+/// The tool that draws walls.
 pub(super) struct DrawWall {
     pen: Pen,
 }
@@ -28,7 +29,7 @@ impl Tool for DrawWall {
     }
 
     fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point; back at the first point the wall closes. Enter ends, Esc cancels"
+        "Drag to draw freehand, or click point by point; at the first point the wall closes. Enter finishes, Esc cancels"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -41,13 +42,13 @@ impl Tool for DrawWall {
         icon::lines(painter, square, stroke, lines);
     }
 
-    fn gesture(&mut self, gesture: Gesture, look: &Look) -> Vec<Action> {
-        let Some(points) = self.pen.gesture(gesture, look) else { return Vec::new() };
+    fn gesture(&mut self, gesture: Gesture, context: &ToolContext) -> Vec<Action> {
+        let Some(points) = self.pen.gesture(gesture, context) else { return Vec::new() };
         let points = points.into_iter().map(Into::into).collect();
-        add(Constraint::Wall(Wall::new(points)), look)
+        add(Constraint::Wall(Wall::new(points)), context)
     }
 
-    fn ghosts(&self, _look: &Look) -> Vec<Ghost> {
+    fn ghosts(&self, _look: &ToolContext) -> Vec<Ghost> {
         let thickness = Wall::new(Vec::new()).thickness;
         std::iter::once(Ghost::Wall(self.pen.points(), thickness)).chain(self.pen.marks()).collect()
     }

@@ -1,10 +1,11 @@
-//! Brings the view nearer.
+//! The zoom tool.
 
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
-use super::{Grip, Tool, icon};
+use super::icon;
+use super::tool::{PointerMode, Tool};
 
-/// Brings the view nearer; so does the wheel, with any tool.
+/// The zoom tool; the wheel zooms with any tool.
 pub(super) struct Zoom;
 
 impl Tool for Zoom {
@@ -17,7 +18,7 @@ impl Tool for Zoom {
     }
 
     fn hint(&self) -> &'static str {
-        "Click to come nearer, with Shift or Alt to step back, or drag; the wheel does so with any tool"
+        "Click to zoom in, with Shift or Alt to zoom out, or drag; the wheel zooms with any tool"
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {
@@ -31,7 +32,7 @@ impl Tool for Zoom {
         CursorIcon::ZoomIn
     }
 
-    fn grip(&self) -> Grip {
-        Grip::Zoom
+    fn pointer_mode(&self) -> PointerMode {
+        PointerMode::Zoom
     }
 }

@@ -1,7 +1,8 @@
-//! The views of one moment: the plane, the shot, the free look; side by side or alone.
+//! The views: plane, shot and orbit view, side by side or alone.
 
-mod look;
-mod orbit;
+mod fit;
+mod orbit_camera;
+mod orbit_view;
 mod pictures;
 mod plane;
 mod shot;
@@ -9,26 +10,26 @@ mod wipe;
 
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
-use super::canvas::space::Space;
-use super::panels::Desk;
+use super::canvas::plane_transform::PlaneTransform;
 use super::preview::{Plane, Wanted};
-use super::session::{Session, ShotEye, Views as Which};
+use super::session::{Session, ShotViewport, ViewLayout};
 use super::tools::Toolbox;
+use crate::editor::context::EditorContext;
 use lightloom_core::project::Project;
 use pictures::Pictures;
 
-/// Room between two views, points.
+/// Gap between two views, points.
 const GAP: f32 = 6.0;
-/// Least share of a view that stands beside another.
+/// Minimum share of a view beside another.
 const LEAST: f32 = 0.15;
 
 /// The views of the window.
 pub(super) struct Views {
     pictures: Pictures,
-    /// Share of the plane where the shot stands beside it.
+    /// Share of the plane view beside the shot.
     split: f32,
     wanted: Wanted,
-    /// Where the plane and the shot were shown last.
+    /// Rectangles of the plane view and the shot view when last shown.
     places: [Rect; 2],
 }
 
@@ -44,44 +45,44 @@ impl Default for Views {
 }
 
 impl Views {
-    /// What the workers shall paint for what was shown last.
+    /// The pictures that the visible views need.
     pub(super) fn wanted(&self) -> &Wanted {
         &self.wanted
     }
 
-    /// Where the plane is seen.
+    /// Rectangle of the plane view.
     pub(super) fn plane_rect(&self) -> Rect {
         self.places[0]
     }
 
-    /// One pixel of the rendered picture is one of the screen; the plane, as large as the picture is wide.
+    /// Zooms so that one rendered pixel is one screen point; the plane gets the width of the picture.
     pub(super) fn actual_size(&self, session: &mut Session, project: &Project) {
         let width = project.render.width as f32;
         let [plane, shot] = self.places;
         session.plane.zoom =
-            width / (Space::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
+            width / (PlaneTransform::new(plane, project.extent(), &Default::default()).scale()).max(1.0);
         session.shot =
-            ShotEye { zoom: width / shot::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
+            ShotViewport { zoom: width / fit::fitted(shot, project).width().max(1.0), offset: [0.0; 2] };
     }
 
-    /// Shows the views that the session asks for.
-    pub(super) fn show(&mut self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
-        self.pictures.take(ui.ctx(), desk.preview);
+    /// Shows the views of the session's layout.
+    pub(super) fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
+        self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
         let all = ui.available_rect_before_wrap();
-        match desk.session.views {
-            Which::Plane => self.plane(ui, all, desk, toolbox),
-            Which::Shot => self.shot(ui, all, desk, toolbox),
-            Which::Look => self.look(ui, all, desk),
-            Which::Both => {
+        match editor.session.layout {
+            ViewLayout::Plane => self.plane(ui, all, editor, toolbox),
+            ViewLayout::Shot => self.shot(ui, all, editor, toolbox),
+            ViewLayout::Orbit => self.look(ui, all, editor),
+            ViewLayout::PlaneAndShot => {
                 let [left, right] = self.halves(ui, all);
-                self.plane(ui, left, desk, toolbox);
-                self.shot(ui, right, desk, toolbox);
+                self.plane(ui, left, editor, toolbox);
+                self.shot(ui, right, editor, toolbox);
             }
         }
     }
 
-    /// The places of two views, and the handle between them.
+    /// The rectangles of two views, and the handle between them.
     fn halves(&mut self, ui: &mut Ui, all: Rect) -> [Rect; 2] {
         let middle = all.left() + all.width() * self.split;
         let handle = Rect::from_x_y_ranges(middle - GAP / 2.0..=middle + GAP / 2.0, all.y_range());
@@ -95,33 +96,33 @@ impl Views {
         [all.with_max_x(handle.left()), all.with_min_x(handle.right())]
     }
 
-    fn plane(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+    fn plane(&mut self, ui: &mut Ui, place: Rect, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.places[0] = place;
         let longer = place.size().max_elem() * ui.pixels_per_point();
-        self.wanted.plane = if desk.preview.draws_photons() {
+        self.wanted.plane = if editor.preview.draws_photons() {
             Plane::Photons
         } else {
             // While it plays, quick beats sharp.
-            let most = if desk.session.playing { 512.0 } else { 1024.0 };
+            let most = if editor.session.playing { 512.0 } else { 1024.0 };
             Plane::Picture(longer.clamp(64.0, most) as usize)
         };
         let mut ui = ui.new_child(UiBuilder::new().id_salt("plane view").max_rect(place));
-        self.plane_view(&mut ui, desk, toolbox);
+        self.plane_view(&mut ui, editor, toolbox);
         title(&ui, place, "Plane");
     }
 
-    fn shot(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk, toolbox: &mut Toolbox) {
+    fn shot(&mut self, ui: &mut Ui, place: Rect, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.places[1] = place;
         let mut ui = ui.new_child(UiBuilder::new().id_salt("shot view").max_rect(place));
-        self.wanted.shot = Some(shot::size(&ui, place, desk.document.project()));
-        self.shot_view(&mut ui, desk, toolbox);
+        self.wanted.shot = Some(fit::size(&ui, place, editor.document.project()));
+        self.shot_view(&mut ui, editor, toolbox);
         title(&ui, place, "Shot");
     }
 
-    fn look(&mut self, ui: &mut Ui, place: Rect, desk: &mut Desk) {
-        let mut ui = ui.new_child(UiBuilder::new().id_salt("free look").max_rect(place));
-        self.look_view(&mut ui, desk);
-        title(&ui, place, "Look around");
+    fn look(&mut self, ui: &mut Ui, place: Rect, editor: &mut EditorContext) {
+        let mut ui = ui.new_child(UiBuilder::new().id_salt("orbit view").max_rect(place));
+        self.orbit_view(&mut ui, editor);
+        title(&ui, place, "Orbit view");
     }
 }
 

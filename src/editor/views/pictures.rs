@@ -1,4 +1,4 @@
-//! The workers' pictures as textures. Each is uploaded once.
+//! The workers' pictures as textures, each uploaded once.
 
 use std::sync::Arc;
 
@@ -7,25 +7,25 @@ use glam::Vec2;
 
 use crate::editor::preview::LivePreview;
 
-/// The newest pictures on the card: this flow, and what it is compared with.
+/// The newest pictures as textures: of this flow, and of its comparison.
 #[derive(Default)]
 pub(super) struct Pictures {
-    pub(super) plane: [Slot; 2],
-    pub(super) shot: [Slot; 2],
-    pub(super) look: Slot,
-    target: Slot,
+    pub(super) plane: [TextureSlot; 2],
+    pub(super) shot: [TextureSlot; 2],
+    pub(super) look: TextureSlot,
+    target: TextureSlot,
     target_size: Option<Vec2>,
 }
 
-/// One texture, and the picture that is on it.
+/// One texture, and the picture it holds.
 #[derive(Default)]
-pub(super) struct Slot {
+pub(super) struct TextureSlot {
     of: Option<Arc<ColorImage>>,
     texture: Option<TextureHandle>,
 }
 
 impl Pictures {
-    /// Takes over what the workers painted since the last time.
+    /// Uploads what the workers painted since the last time.
     pub(super) fn take(&mut self, ctx: &Context, preview: &LivePreview) {
         let painted = preview.painted();
         for side in 0..2 {
@@ -35,17 +35,17 @@ impl Pictures {
         let target = preview.target();
         self.target.put(ctx, "target", target.as_ref().map(|target| &target.picture));
         self.target_size = target.map(|target| target.size);
-        self.look.put(ctx, "free look", preview.look().picture.as_ref());
+        self.look.put(ctx, "orbit view", preview.look().picture.as_ref());
     }
 
-    /// The picture towards which the light flows, with the size of its file in pixels.
+    /// The target picture, with the size of its file in pixels.
     pub(super) fn target(&self) -> Option<(TextureId, Vec2)> {
         Some((self.target.texture()?.id(), self.target_size?))
     }
 }
 
-impl Slot {
-    /// Keeps the last picture while there is no newer one.
+impl TextureSlot {
+    /// Uploads a picture; keeps the last one while there is none.
     fn put(&mut self, ctx: &Context, name: &str, picture: Option<&Arc<ColorImage>>) {
         let Some(picture) = picture else { return };
         if self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture)) {

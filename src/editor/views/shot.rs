@@ -1,74 +1,51 @@
-//! The shot: through the project's camera. What is drawn here falls on the plane.
+//! The shot view, through the project's camera. Strokes drawn here fall on the plane.
 
 use egui::{Color32, Pos2, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 use glam::Vec2;
-use lightloom_core::project::Project;
 use lightloom_core::render::PlaneView;
 
-use super::plane::WHOLE;
+use super::fit::{WHOLE, fitted};
 use super::{Views, wipe};
-use crate::editor::canvas::input::Move;
-use crate::editor::canvas::space::ZOOM;
-use crate::editor::canvas::{self, Glass};
-use crate::editor::panels::Desk;
-use crate::editor::session::ShotEye;
+use crate::editor::canvas::input::ViewMove;
+use crate::editor::canvas::{self, ProjectedPlane};
+use crate::editor::context::EditorContext;
+use crate::editor::session::{ShotViewport, ZOOM_RANGE};
 use crate::editor::theme;
 use crate::editor::tools::Toolbox;
 
-/// Room around the picture, points.
-const MARGIN: f32 = 14.0;
-/// Most pixels along the longer side: what the processor composites at the pace of a film.
-const MOST: f32 = 640.0;
-
-/// The picture where it fits the view, with the shape of the frames that are rendered.
-pub(super) fn fitted(view: Rect, project: &Project) -> Rect {
-    let (width, height) = (project.render.width.max(1) as f32, project.render.height.max(1) as f32);
-    let room = (view.size() - vec2(2.0 * MARGIN, 2.0 * MARGIN)).max(vec2(16.0, 16.0));
-    let scale = (room.x / width).min(room.y / height);
-    Rect::from_center_size(view.center(), vec2(width, height) * scale)
+/// Rectangle of the picture after pan and zoom.
+fn frame(fitted: Rect, viewport: ShotViewport) -> Rect {
+    let middle = fitted.center() + viewport.offset.into();
+    Rect::from_center_size(middle, fitted.size() * viewport.zoom)
 }
 
-/// The picture as the eye sees it.
-fn frame(fitted: Rect, eye: ShotEye) -> Rect {
-    let middle = fitted.center() + eye.offset.into();
-    Rect::from_center_size(middle, fitted.size() * eye.zoom)
-}
-
-/// The eye after a movement of the view.
-fn moved(eye: ShotEye, movement: &Move, fitted: Rect) -> ShotEye {
-    let offset = egui::Vec2::from(eye.offset);
+/// The viewport after a move of the view.
+fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewport {
+    let offset = egui::Vec2::from(viewport.offset);
     match *movement {
-        Move::Pan(by) => ShotEye { offset: (offset + by).into(), ..eye },
-        Move::Zoom(factor, about) => {
-            let zoom = (eye.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+        ViewMove::Pan(by) => ShotViewport { offset: (offset + by).into(), ..viewport },
+        ViewMove::Zoom(factor, about) => {
+            let zoom = (viewport.zoom * factor).clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
             let from_middle = about - fitted.center();
-            let offset = from_middle + (offset - from_middle) * (zoom / eye.zoom);
-            ShotEye { zoom, offset: offset.into() }
+            let offset = from_middle + (offset - from_middle) * (zoom / viewport.zoom);
+            ShotViewport { zoom, offset: offset.into() }
         }
     }
 }
 
-/// Pixels of the picture that the workers shall make for a view.
-pub(super) fn size(ui: &Ui, view: Rect, project: &Project) -> [u32; 2] {
-    let frame = fitted(view, project).size() * ui.pixels_per_point();
-    let shrink = (MOST / frame.max_elem()).min(1.0);
-    // In steps, so that a window that is resized does not begin anew with every pixel.
-    [frame.x, frame.y].map(|n| ((n * shrink / 16.0).round() * 16.0).max(16.0) as u32)
-}
-
 impl Views {
-    /// The shot view: the picture without caustics, the light in it, what was drawn, and the tool in hand.
-    pub(super) fn shot_view(&self, ui: &mut Ui, desk: &mut Desk, toolbox: &mut Toolbox) {
+    /// Shows the shot view: picture with caustics, overlays and active tool.
+    pub(super) fn shot_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
-        let project = desk.document.project().clone();
+        let project = editor.document.project().clone();
         let fitted = fitted(view, &project);
-        let frame = frame(fitted, desk.session.shot);
+        let frame = frame(fitted, editor.session.shot);
         let response = ui.allocate_rect(view, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Shot"));
         let painter = ui.painter_at(view);
         painter.rect_filled(view, 0.0, theme::SURROUND);
         painter.rect_filled(frame, 0.0, Color32::BLACK);
-        let sides = wipe::sides(view, desk.session.compare).into_iter().enumerate();
+        let sides = wipe::sides(view, editor.session.compare).into_iter().enumerate();
         for (side, clip) in sides.filter_map(|(side, clip)| Some((side, clip?))) {
             if let Some(texture) = self.pictures.shot[side].texture() {
                 painter.with_clip_rect(clip).image(texture.id(), frame, WHOLE, Color32::WHITE);
@@ -85,12 +62,17 @@ impl Views {
                 let pixel = (p - frame.min) / scale;
                 plane.plane_from_pixel(Vec2::new(pixel.x, pixel.y), size)
             };
-            let glass =
-                Glass { view: frame, screen: &screen, plane: &from_screen, target: self.pictures.target() };
-            let moves = canvas::over(ui, &response, desk, toolbox, &glass);
-            desk.session.shot = moves.iter().fold(desk.session.shot, |eye, by| moved(eye, by, fitted));
+            let projected = ProjectedPlane {
+                view: frame,
+                screen: &screen,
+                plane: &from_screen,
+                target: self.pictures.target(),
+            };
+            let moves = canvas::show_projected(ui, &response, editor, toolbox, &projected);
+            editor.session.shot =
+                moves.iter().fold(editor.session.shot, |viewport, by| moved(viewport, by, fitted));
         }
-        if let Some(wipe) = &mut desk.session.compare {
+        if let Some(wipe) = &mut editor.session.compare {
             wipe::handle(ui, view, wipe);
         }
     }

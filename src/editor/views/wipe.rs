@@ -1,24 +1,24 @@
-//! The wipe: this flow on the left of a handle, another way to move the light on its right.
+//! The wipe: this flow left of a handle, its comparison on the right.
 
 use egui::{
     Align2, Color32, ComboBox, CursorIcon, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use lightloom_core::flow::Movement;
 
-use crate::editor::session::{Other, Wipe};
+use crate::editor::session::{Comparison, Wipe};
 use crate::editor::theme;
 
-/// Width of the place where the handle is caught, points.
+/// Hit width of the handle, points.
 const CATCH: f32 = 12.0;
 
-/// The two sides of a view.
+/// The rectangles of the two sides of a view.
 pub(super) fn sides(view: Rect, wipe: Option<Wipe>) -> [Option<Rect>; 2] {
     let Some(wipe) = wipe else { return [Some(view), None] };
     let middle = view.left() + view.width() * wipe.split;
     [Some(view.with_max_x(middle)), Some(view.with_min_x(middle))]
 }
 
-/// The handle, which moves the wipe, and the names of both sides.
+/// Shows the handle and the names of both sides.
 pub(super) fn handle(ui: &mut Ui, view: Rect, wipe: &mut Wipe) {
     let middle = view.left() + view.width() * wipe.split;
     let place = Rect::from_x_y_ranges(middle - CATCH / 2.0..=middle + CATCH / 2.0, view.y_range());
@@ -45,28 +45,28 @@ pub(super) fn handle(ui: &mut Ui, view: Rect, wipe: &mut Wipe) {
     choice(ui, Rect::from_min_size(pos2(middle + 8.0, view.bottom() - 34.0), vec2(150.0, 24.0)), wipe);
 }
 
-/// What stands on the right.
+/// Shows the choice of the comparison.
 fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
     let mut ui = ui.new_child(UiBuilder::new().id_salt("compared").max_rect(place));
     let box_ = ComboBox::from_id_salt("compared with").selected_text(name(wipe.with)).width(place.width());
     let response = box_.show_ui(&mut ui, |ui| {
-        for with in OTHERS {
+        for with in COMPARISONS {
             ui.selectable_value(&mut wipe.with, with, name(with));
         }
     });
-    response.response.on_hover_text("What this flow is compared with");
+    response.response.on_hover_text("Comparison for this flow");
 }
 
-/// All that a flow can be compared with.
-const OTHERS: [Other; 3] =
-    [Other::Method(Movement::Linear), Other::Method(Movement::Stylized), Other::NothingDrawn];
+/// All comparisons.
+const COMPARISONS: [Comparison; 3] =
+    [Comparison::Method(Movement::Linear), Comparison::Method(Movement::Stylized), Comparison::NothingDrawn];
 
-/// What something is called that a flow is compared with.
-fn name(other: Other) -> &'static str {
-    match other {
-        Other::Method(Movement::Flow) => "The flow",
-        Other::Method(Movement::Stylized) => "Method of 2016",
-        Other::Method(Movement::Linear) => "Straight lines",
-        Other::NothingDrawn => "Nothing drawn",
+/// The name of a comparison.
+fn name(comparison: Comparison) -> &'static str {
+    match comparison {
+        Comparison::Method(Movement::Flow) => "The flow",
+        Comparison::Method(Movement::Stylized) => "Method of 2016",
+        Comparison::Method(Movement::Linear) => "Straight lines",
+        Comparison::NothingDrawn => "No constraints",
     }
 }

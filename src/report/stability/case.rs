@@ -1,12 +1,31 @@
-//! One row before it is run, what it must hold, and what was measured.
+//! A case: an extreme input, its bound, and what was measured.
 
 use serde::Serialize;
 
 use lightloom_core::{Error, Progress, Result};
 
-/// One extreme input with the bound it must hold, stated before it is run.
+/// An input that can be run.
+pub(super) trait Input {
+    /// The limits that any input of this kind must hold.
+    fn limits(&self) -> Limits;
+
+    /// The check of the project format, where there are settings to check.
+    ///
+    /// # Errors
+    /// The first value that is out of range.
+    fn check(&self) -> Result<()> {
+        Ok(())
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// Anything that cannot be computed; cancelled.
+    fn run(&self, progress: &Progress) -> Result<Measured>;
+}
+
+/// An extreme input with its bound, which is stated before the run.
 pub(super) struct Case {
-    /// What is extreme about it.
     pub(super) name: String,
     pub(super) bound: Bound,
     pub(super) run: Run,
@@ -25,22 +44,22 @@ impl Case {
     }
 }
 
-/// What a row must hold. All numbers that it gives must be finite besides.
+/// The bound of a row. All its numbers must be finite besides.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Bound {
-    /// It must come through, within these limits.
+    /// The row must come through, within these limits.
     Holds(Limits),
-    /// It must be refused by an error whose message has these words in it.
+    /// The row must be refused by an error whose message contains these words.
     Refused {
         /// Part of the message: the place of the value, or what is wrong.
         words: &'static str,
-        /// Why it cannot be computed.
+        /// The reason why it cannot be computed.
         why: &'static str,
     },
 }
 
-/// Limits of a row that must come through. A number without limit is only shown.
+/// Limits of a row that must come through; a number without a limit is only shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Largest distance of a photon from its target at the end, plane units.
@@ -51,16 +70,16 @@ pub struct Limits {
     pub iterations: Option<usize>,
     /// Largest [`Measured::energy`].
     pub energy: Option<f64>,
-    /// Most photons through a wall that a way leads around.
+    /// Most photons through a wall that a path leads around.
     pub crossings: Option<usize>,
-    /// Least and most photons that no way reaches.
+    /// Least and most photons whose target no path reaches.
     pub unreachable: Option<[usize; 2]>,
-    /// Why these limits.
+    /// The reason for these limits.
     pub why: &'static str,
 }
 
 impl Limits {
-    /// None but that all numbers are finite.
+    /// No limit; all numbers must be finite.
     pub(super) const FINITE: Self = Self {
         endpoint_error: None,
         solver_residual: None,
@@ -72,7 +91,7 @@ impl Limits {
     };
 }
 
-/// What a row gave.
+/// Numbers measured in one row.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Measured {
     /// Whether every position, speed and pixel was finite.
@@ -85,24 +104,24 @@ pub struct Measured {
     pub iterations: Option<usize>,
     /// Condition number of the preconditioned matrix as the solver saw it.
     pub condition: Option<f64>,
-    /// How well energy is kept; [`Self::energy_of`] says which.
+    /// Misfit or relative error of the energy; [`Self::energy_of`] says which.
     pub energy: Option<f64>,
-    /// What [`Self::energy`] is.
+    /// The quantity that [`Self::energy`] is.
     pub energy_of: EnergyOf,
-    /// Photons that crossed a wall though a way leads around it.
+    /// Photons that crossed a wall though a path leads around it.
     pub crossings: Option<usize>,
-    /// Photons that no way around the walls reaches.
+    /// Photons whose target no path around the walls reaches.
     pub unreachable: Option<usize>,
 }
 
-/// Which energy is measured.
+/// The quantity measured as energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EnergyOf {
     /// None.
     #[default]
     None,
-    /// |u - v| over |v| at the photons: what the fitted field leaves of the energy that it minimises.
+    /// |u - v| / |v| at the photons: the share of the fitted energy that the field leaves.
     Misfit,
     /// Relative error of the flux: of the traced light over all its ends, of the photons over time, in the texture.
     Flux,
@@ -111,7 +130,7 @@ pub enum EnergyOf {
 }
 
 impl EnergyOf {
-    /// A word for it.
+    /// Its name in the table.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::None => "",
@@ -123,7 +142,7 @@ impl EnergyOf {
 }
 
 impl Measured {
-    /// Whether each number that is there is one.
+    /// Whether all numbers that are present are finite.
     fn is_finite(&self) -> bool {
         let numbers = [self.endpoint_error, self.solver_residual, self.condition, self.energy];
         self.finite && numbers.into_iter().flatten().all(f64::is_finite)
@@ -131,10 +150,10 @@ impl Measured {
 }
 
 impl Bound {
-    /// What of the bound does not hold, in words; nothing when all does.
+    /// The parts of the bound that do not hold, in words; empty when all do.
     ///
     /// # Errors
-    /// `Cancelled`, which is no result.
+    /// `Cancelled`, which is no outcome.
     pub(super) fn missed(&self, outcome: &Result<Measured>) -> Result<Vec<String>> {
         Ok(match (self, outcome) {
             (_, Err(Error::Cancelled)) => return Err(Error::Cancelled),
@@ -146,7 +165,7 @@ impl Bound {
         })
     }
 
-    /// In words, with its reason.
+    /// The bound in words, with its reason.
     pub(super) fn to_text(&self) -> String {
         match self {
             Self::Refused { words, why } => format!("refused, naming '{words}': {why}"),
@@ -156,45 +175,48 @@ impl Bound {
 }
 
 impl Limits {
+    /// The upper limits with their names, each beside the number that it bounds.
+    fn upper(&self, measured: &Measured) -> [(&'static str, Option<f64>, Option<f64>); 5] {
+        let count = |count: Option<usize>| count.map(|n| n as f64);
+        [
+            ("endpoint error", self.endpoint_error, measured.endpoint_error),
+            ("residual", self.solver_residual, measured.solver_residual),
+            ("iterations", count(self.iterations), count(measured.iterations)),
+            ("energy", self.energy, measured.energy),
+            ("crossings", count(self.crossings), count(measured.crossings)),
+        ]
+    }
+
     fn missed(&self, measured: &Measured) -> Vec<String> {
         let mut missed = Vec::new();
         if !measured.is_finite() {
             missed.push("not all is finite".to_owned());
         }
-        let mut most = |name: &str, value: Option<f64>, limit: Option<f64>| {
+        for (name, limit, value) in self.upper(measured) {
             if let (Some(value), Some(limit)) = (value, limit)
                 && (value > limit || value.is_nan())
             {
                 missed.push(format!("{name} {value:.3e} > {limit:e}"));
             }
-        };
-        let count = |count: Option<usize>| count.map(|n| n as f64);
-        most("endpoint error", measured.endpoint_error, self.endpoint_error);
-        most("residual", measured.solver_residual, self.solver_residual);
-        most("iterations", count(measured.iterations), count(self.iterations));
-        most("energy", measured.energy, self.energy);
-        most("crossings", count(measured.crossings), count(self.crossings));
-        if let (Some(shut_off), Some([least, most])) = (measured.unreachable, self.unreachable)
-            && !(least..=most).contains(&shut_off)
+        }
+        if let (Some(count), Some([least, most])) = (measured.unreachable, self.unreachable)
+            && !(least..=most).contains(&count)
         {
-            missed.push(format!("{shut_off} photons without a way, not {least} to {most}"));
+            missed.push(format!("{count} photons unreachable, not {least} to {most}"));
         }
         missed
     }
 
     fn to_text(&self) -> String {
-        let number = |name: &str, limit: Option<f64>| limit.map(|limit| format!("{name} <= {limit:e}"));
-        let whole = |name: &str, limit: Option<usize>| limit.map(|limit| format!("{name} <= {limit}"));
-        let limits = [
-            Some("finite".to_owned()),
-            number("endpoint error", self.endpoint_error),
-            number("residual", self.solver_residual),
-            whole("iterations", self.iterations),
-            number("energy", self.energy),
-            whole("crossings", self.crossings),
-            self.unreachable.map(|[least, most]| format!("without a way {least} to {most}")),
-        ];
-        let limits = limits.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let mut limits = vec!["finite".to_owned()];
+        for (name, limit, _) in self.upper(&Measured::default()) {
+            limits.extend(limit.map(|limit| match name {
+                "iterations" | "crossings" => format!("{name} <= {limit}"),
+                _ => format!("{name} <= {limit:e}"),
+            }));
+        }
+        limits.extend(self.unreachable.map(|[least, most]| format!("unreachable {least} to {most}")));
+        let limits = limits.join(", ");
         if self.why.is_empty() { limits } else { format!("{limits}: {}", self.why) }
     }
 }
@@ -205,7 +227,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_a_number_misses_and_so_does_what_is_not_refused() {
+    fn nan_misses_the_bound_and_so_does_an_input_that_is_not_refused() {
         let limits = Limits { energy: Some(1.0), ..Limits::FINITE };
         let holds = Bound::Holds(limits);
         let given = |energy| Ok(Measured { finite: true, energy: Some(energy), ..Measured::default() });

@@ -1,100 +1,56 @@
-//! The stiff and the extreme: does the program hold where it is hardest? Rows in groups ([`group`], one file each); each
-//! row states its bound before it is run, and one that misses is shown as missing.
+//! The stability table: stiff and extreme inputs in groups of [`rows`], each with the bound that it must hold. A bound is
+//! stated before its row is run; a row that misses it is shown as missing.
 //!
-//! Where the project format forbids a value, a row asks that it be refused with a clear message, and where the stage below
-//! can take it all the same, another row runs that.
+//! A value that the project format forbids has a row that must be refused with a clear message. Where the computation can
+//! take the value all the same, another row runs it beneath the format.
 
 mod case;
-mod group;
-mod light;
-mod solid;
+mod fit_case;
+mod flow_case;
+mod glass;
+mod picture_case;
+mod rows;
+mod scene_case;
 mod table;
-mod walk;
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use serde::Serialize;
-
 pub use case::{Bound, EnergyOf, Limits, Measured};
+pub use table::{Stability, StabilityRow};
 
+use crate::effort::Effort;
 use case::Case;
-use group::GROUPS;
 use lightloom_core::{Error, Progress, Result};
+use rows::GROUPS;
 
-/// How large the inputs are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
-    /// Fewer photons, steps and cells, all rows: within a minute.
-    Reduced,
-    /// As a final render has them; minutes.
-    Full,
-}
-
-impl Size {
-    /// The first for reduced, the second for full size.
-    fn pick<T>(self, reduced: T, full: T) -> T {
-        match self {
-            Self::Reduced => reduced,
-            Self::Full => full,
-        }
-    }
-}
-
-/// The table, run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Stability {
-    /// Its rows, group by group.
-    pub rows: Vec<StabilityRow>,
-    /// Seconds of all.
-    pub seconds: f64,
-}
-
-/// One row, run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct StabilityRow {
-    /// What it is about, such as `gamma and alpha`.
-    pub group: &'static str,
-    /// Which of it.
-    pub case: String,
-    /// Stated before it was run.
-    pub bound: Bound,
-    /// What came out; nothing where an error did.
-    pub measured: Option<Measured>,
-    /// Seconds it took.
-    pub seconds: f64,
-    /// Whether the bound holds.
-    pub within: bool,
-    /// What missed, or the message with which the row was refused.
-    pub note: String,
-}
-
-/// Runs all rows. Only that the run is cancelled stops it; a row that fails or panics is a row that misses.
+/// Runs all rows. A row that fails or panics misses its bound; only cancelling stops the run.
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn stability(size: Size, progress: &Progress) -> Result<Stability> {
+pub fn stability(effort: Effort, progress: &Progress) -> Result<Stability> {
     let start = Instant::now();
-    let all: Vec<(&str, Vec<Case>)> = GROUPS.iter().map(|group| (group.name, (group.cases)(size))).collect();
-    progress.set_stages(vec![("stability", size.pick(40.0, 600.0))]);
-    progress.begin("stability", all.iter().map(|(_, cases)| cases.len() as u64).sum());
+    let all: Vec<_> = GROUPS
+        .iter()
+        .flat_map(|group| (group.rows)(effort).into_iter().map(|row| (group.name, row)))
+        .collect();
+    progress.set_stages(vec![("stability", effort.pick(40.0, 600.0))]);
+    progress.begin("stability", all.len() as u64);
     let mut rows = Vec::new();
-    for (group, cases) in all {
-        for case in cases {
-            progress.check()?;
-            rows.push(run(group, case, &progress.inner())?);
-            progress.advance(1);
-        }
+    for (group, row) in all {
+        progress.check()?;
+        rows.push(run(group, row.build(effort), &progress.inner())?);
+        progress.advance(1);
     }
     Ok(Stability { rows, seconds: start.elapsed().as_secs_f64() })
 }
 
 fn run(group: &'static str, case: Case, progress: &Progress) -> Result<StabilityRow> {
     let start = Instant::now();
-    // What a row leaves behind in a panic is its own and goes with it.
+    // The case owns all that it leaves behind in a panic.
     let outcome = catch_unwind(AssertUnwindSafe(|| (case.run)(progress)))
-        .unwrap_or_else(|cause| Err(Error::Numeric { stage: "panic", what: words_of(&*cause) }));
+        .unwrap_or_else(|cause| Err(Error::Numeric { stage: "panic", what: message_of(&*cause) }));
     let seconds = start.elapsed().as_secs_f64();
     let missed = case.bound.missed(&outcome)?;
     let note = match &outcome {
@@ -105,7 +61,7 @@ fn run(group: &'static str, case: Case, progress: &Progress) -> Result<Stability
     Ok(StabilityRow { group, case: case.name, bound: case.bound, measured, seconds, within, note })
 }
 
-fn words_of(cause: &(dyn Any + Send)) -> String {
+fn message_of(cause: &(dyn Any + Send)) -> String {
     let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| cause.downcast_ref::<String>().cloned()).unwrap_or_else(|| "without a word".to_owned())
 }
@@ -113,10 +69,31 @@ fn words_of(cause: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use std::collections::HashSet;
+
     use super::*;
 
     fn row(run: impl Fn(&Progress) -> Result<Measured> + 'static) -> Result<StabilityRow> {
         super::run("group", Case::new("case", Bound::Holds(Limits::FINITE), run), &Progress::new())
+    }
+
+    #[test]
+    fn the_table_has_118_rows_of_different_names_and_plain_text() {
+        for effort in [Effort::Quick, Effort::Full] {
+            let rows = GROUPS.iter().flat_map(|group| {
+                (group.rows)(effort)
+                    .into_iter()
+                    .map(|row| (group.name, row.build(effort)))
+                    .collect::<Vec<_>>()
+            });
+            let mut names = HashSet::new();
+            for (group, Case { name, bound, .. }) in rows {
+                let text = format!("{name}: {}", bound.to_text());
+                assert!(!text.contains(['\\', '\n']) && !text.contains("  "), "{text:?}");
+                assert!(names.insert((group, name)), "{text}");
+            }
+            assert_eq!(names.len(), 118);
+        }
     }
 
     #[test]

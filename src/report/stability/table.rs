@@ -1,11 +1,41 @@
-//! The table as a chapter, and as lines for people.
+//! The stability table, as a section of a report, as JSON and as text.
 
 use std::fmt::Write as _;
 
-use super::super::chapter::{Cell, Chapter, Part, Table, Tone};
-use super::super::{Report, made_by};
-use super::{Size, Stability, StabilityRow};
-use crate::Effort;
+use serde::Serialize;
+
+use super::case::{Bound, Measured};
+use crate::content::{Cell, Section, Table, Tone};
+use crate::effort::Effort;
+use crate::report::{Report, made_by};
+
+/// The table, run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stability {
+    /// The rows, group by group.
+    pub rows: Vec<StabilityRow>,
+    /// Wall-clock seconds of all rows.
+    pub seconds: f64,
+}
+
+/// One row, run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StabilityRow {
+    /// Name of its group, such as `gamma and alpha`.
+    pub group: &'static str,
+    /// Its name within the group.
+    pub case: String,
+    /// The bound, stated before the run.
+    pub bound: Bound,
+    /// Its numbers; none where it ended with an error.
+    pub measured: Option<Measured>,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// Whether the bound holds.
+    pub within: bool,
+    /// The limits that it misses, or the message with which it was refused.
+    pub note: String,
+}
 
 const COLUMNS: [&str; 15] = [
     "group",
@@ -19,24 +49,24 @@ const COLUMNS: [&str; 15] = [
     "energy",
     "energy of",
     "crossings",
-    "without a way",
+    "unreachable",
     "seconds",
     "verdict",
     "note",
 ];
 
 impl Stability {
-    /// The rows that miss their bound.
+    /// The rows that miss their bounds.
     pub fn missed(&self) -> impl Iterator<Item = &StabilityRow> {
         self.rows.iter().filter(|row| !row.within)
     }
 
-    /// The table with a few words on how to read it.
-    pub fn chapter(&self) -> Chapter {
-        let mut chapter = Chapter::new("stability", "The stiff and the extreme");
+    /// The table as a section.
+    pub fn section(&self) -> Section {
+        let mut section = Section::new("stability", "The stiff and the extreme");
         let (all, missed) = (self.rows.len(), self.missed().count());
-        chapter.say(format!("{} of {all} rows hold the bound that each states beforehand.", all - missed));
-        chapter.say(
+        section.text(format!("{} of {all} rows hold the bound that each states beforehand.", all - missed));
+        section.text(
             "Energy is one of three. Misfit: |u - v| over |v| at the photons, what the fitted field leaves of the energy that \
              it minimises. Flux: the relative error of the traced light over all its ends, of the photons' flux over time, and \
              of the texture, whichever is largest. Against 1 m: the relative difference of the flux that lands from that of the \
@@ -47,28 +77,28 @@ impl Stability {
         for row in &self.rows {
             table.push(if row.within { Tone::Plain } else { Tone::Bad }, cells(row));
         }
-        chapter.parts.push(Part::Table(table));
-        chapter
+        section.table(table);
+        section
     }
 
-    /// The chapter as a report of its own.
-    pub fn report(&self, size: Size) -> Report {
+    /// The table as a report of one section.
+    pub fn report(&self, effort: Effort) -> Report {
         Report {
             title: "Stability".to_owned(),
-            made_by: made_by(size.pick(Effort::Quick, Effort::Full)),
-            chapters: vec![self.chapter()],
+            made_by: made_by(effort),
+            sections: vec![self.section()],
             absent: Vec::new(),
             seconds: self.seconds,
         }
     }
 
-    /// All of it as indented JSON.
+    /// The table as indented JSON.
     pub fn to_json(&self) -> String {
         // Plain numbers and strings: serialisation has nothing to fail on.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// How many rows hold, and those that do not.
+    /// The number of rows that hold, and the rows that do not.
     pub fn to_text(&self) -> String {
         let (all, missed) = (self.rows.len(), self.missed().count());
         let mut text = format!("{} of {all} rows hold their bounds, {:.0} s\n", all - missed, self.seconds);

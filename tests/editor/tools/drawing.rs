@@ -115,7 +115,7 @@ fn a_dot_is_no_line() {
 #[test]
 fn points_lines_and_directions_catch_the_pointer_unless_ctrl_is_held() {
     let drawn = || vec![line(&[[0.1, 0.1], [0.9, 0.1]]), wall(&[[0.5, 0.5], [0.7, 0.9]])];
-    let ends = |held: Held| {
+    let ends = |held: HeldKeys| {
         let mut studio = Studio::new("Directed line", drawn());
         studio.held = held;
         studio.click(vec2(0.503, 0.498));
@@ -123,10 +123,10 @@ fn points_lines_and_directions_catch_the_pointer_unless_ctrl_is_held() {
         studio.key(Key::Enter);
         studio.points(2)
     };
-    let caught = ends(Held::default());
+    let caught = ends(HeldKeys::default());
     // A foot on a line is a sum of f32 below 1.
     assert!(caught[0] == vec2(0.5, 0.5) && caught[1].distance(vec2(0.3, 0.1)) < 1e-6, "{caught:?}");
-    let free = Held { ctrl: true, ..Held::default() };
+    let free = HeldKeys { ctrl: true, ..HeldKeys::default() };
     assert_eq!(ends(free), [vec2(0.503, 0.498), vec2(0.3, 0.103)]);
     let mut level = Studio::new("Directed line", Vec::new());
     level.click(vec2(0.2, 0.4));
@@ -139,7 +139,7 @@ fn points_lines_and_directions_catch_the_pointer_unless_ctrl_is_held() {
 fn the_grid_catches_while_it_is_shown() {
     for shown in [true, false] {
         let mut studio = Studio::new("Wall", Vec::new());
-        studio.session.show.grid = shown;
+        studio.session.overlays.grid = shown;
         let cells = studio.document.project().flow.grid.cells(Vec2::ONE)[0] as f32;
         studio.click(vec2(10.0, 20.0) / cells + vec2(0.002, -0.003));
         studio.click(vec2(0.777, 0.333));
@@ -154,7 +154,7 @@ fn ghosts_show_the_line_up_to_the_pointer() {
     let mut studio = Studio::new("Wall", Vec::new());
     studio.click(vec2(0.2, 0.2));
     studio.gesture(Gesture::Hover(vec2(0.55, 0.71)));
-    let ghosts = studio.look(|toolbox, look| toolbox.ghosts(look));
+    let ghosts = studio.with_context(|toolbox, context| toolbox.ghosts(context));
     let Some(Ghost::Wall(points, _)) = ghosts.first() else { panic!("{ghosts:?}") };
     assert_eq!(points[..], [vec2(0.2, 0.2), vec2(0.55, 0.71)]);
 }

@@ -1,15 +1,15 @@
 //! Every tool, given gestures as the plane view gives them: without a window and without a GPU.
 
+use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
+use crate::window::Editor;
 use egui::Key;
 use glam::{Vec2, vec2};
 use lightloom::editor::action::Action;
-use lightloom::editor::document::Document;
 use lightloom::editor::selection::Selection;
-use lightloom::editor::session::Session;
 use lightloom::editor::tools::arrange::{self, Arranged};
-use lightloom::editor::tools::{Gesture, Ghost, Held, Look, Toolbox};
+use lightloom::editor::tools::{Gesture, Ghost, HeldKeys, ToolContext, Toolbox};
 use lightloom_core::constraint::{Constraint, DirectedLine, Wall, stroke};
 use lightloom_core::project::{Project, Shows};
 
@@ -23,71 +23,70 @@ mod selecting;
 /// Plane units per point of the screen: the plane is 1000 points wide.
 const PER_POINT: f32 = 0.001;
 
-/// A desk with a tool in hand.
+/// An editor with a tool in hand.
 struct Studio {
-    document: Document,
-    session: Session,
+    editor: Editor,
     toolbox: Toolbox,
-    held: Held,
+    held: HeldKeys,
     photons: Vec<Vec2>,
-    said: Vec<String>,
+}
+
+impl Deref for Studio {
+    type Target = Editor;
+
+    fn deref(&self) -> &Editor {
+        &self.editor
+    }
+}
+
+impl DerefMut for Studio {
+    fn deref_mut(&mut self) -> &mut Editor {
+        &mut self.editor
+    }
 }
 
 impl Studio {
     fn new(tool: &str, constraints: Vec<Constraint>) -> Self {
         let text = r#"{ "lightloom": 1, "keys": [ { "frame": 1, "shows": { "image": { "file": "a.png" } } },
             { "frame": 60, "shows": { "image": { "file": "b.png" } } } ] }"#;
-        let project = Project { constraints, ..serde_json::from_str(text).unwrap() };
-        project.check().unwrap();
+        let mut editor = Editor::with_project(Project { constraints, ..serde_json::from_str(text).unwrap() });
         let mut toolbox = Toolbox::default();
         let index = toolbox.tools().position(|known| known.name() == tool).unwrap();
         toolbox.take(index);
-        Self {
-            document: Document::new(project, None),
-            session: Session { tool: index, ..Session::default() },
-            toolbox,
-            held: Held::default(),
-            photons: Vec::new(),
-            said: Vec::new(),
-        }
+        editor.session.tool = index;
+        Self { editor, toolbox, held: HeldKeys::default(), photons: Vec::new() }
     }
 
-    fn look<R>(&mut self, with: impl FnOnce(&mut Toolbox, &Look) -> R) -> R {
-        let project = self.document.project().clone();
-        let look = Look {
+    fn with_context<R>(&mut self, with: impl FnOnce(&mut Toolbox, &ToolContext) -> R) -> R {
+        let project = self.editor.document.project().clone();
+        let context = ToolContext {
             project: &project,
-            session: &self.session,
+            session: &self.editor.session,
             extent: Vec2::ONE,
             per_point: PER_POINT,
             held: self.held,
             picture: Some(vec2(200.0, 100.0)),
             photons: &self.photons,
         };
-        with(&mut self.toolbox, &look)
+        with(&mut self.toolbox, &context)
     }
 
     fn gesture(&mut self, gesture: Gesture) {
-        for action in self.look(|toolbox, look| toolbox.gesture(gesture, look)) {
-            match action {
-                Action::Edit(edit) => self.document.edit(edit).unwrap(),
-                Action::Settle => self.document.settle(),
-                Action::Abort => self.document.abort(),
-                Action::Select(selection) => self.session.selection = selection,
-                Action::Probe(row) => self.session.probe = row,
-                Action::Say(text) => self.said.push(text),
-                other => panic!("no tool asks for {other:?}"),
-            }
+        for action in self.with_context(|toolbox, context| toolbox.gesture(gesture, context)) {
+            assert_eq!(self.editor.apply(action), None, "no tool needs the window");
         }
     }
 
+    /// The messages for the status bar.
+    fn said(&self) -> usize {
+        self.asked.iter().filter(|action| matches!(action, Action::Say(_))).count()
+    }
+
     fn arrange(&mut self, with: impl Fn(&Project, &Selection) -> Arranged) -> bool {
-        let Some((edit, selection)) = with(self.document.project(), &self.session.selection) else {
-            return false;
-        };
-        self.document.edit(edit).unwrap();
-        self.document.settle();
-        self.session.selection = selection;
-        true
+        let arranged = with(self.document.project(), &self.session.selection);
+        let any = arranged.is_some();
+        self.editor.arrange(arranged);
+        any
     }
 
     fn click(&mut self, p: Vec2) {

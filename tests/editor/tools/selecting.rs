@@ -14,10 +14,10 @@ fn clicks_select_shift_adds_alt_takes_out_and_the_ground_clears() {
     studio.held.shift = true;
     studio.click(vec2(0.3, 0.795));
     assert_eq!(studio.session.selection, Selection::all([0, 1]));
-    studio.held = Held { alt: true, ..Held::default() };
+    studio.held = HeldKeys { alt: true, ..HeldKeys::default() };
     studio.click(vec2(0.3, 0.2));
     assert_eq!(studio.session.selection, Selection::one(1));
-    studio.held = Held::default();
+    studio.held = HeldKeys::default();
     studio.click(vec2(0.5, 0.5));
     assert!(studio.session.selection.is_empty());
     assert_eq!(studio.steps(), 0);
@@ -33,7 +33,7 @@ fn a_box_selects_wholes_and_points() {
     studio.held.shift = true;
     studio.drag(&way(vec2(0.02, 0.1), vec2(0.95, 0.3), 4));
     assert!(studio.session.selection.is_whole(0) && !studio.session.selection.is_whole(1));
-    studio.held = Held { alt: true, ..Held::default() };
+    studio.held = HeldKeys { alt: true, ..HeldKeys::default() };
     studio.drag(&way(vec2(0.02, 0.1), vec2(0.3, 0.3), 4));
     assert_eq!(studio.session.selection.points(0).collect::<Vec<_>>(), [1, 2]);
 }
@@ -113,7 +113,7 @@ fn escape_clears_the_selection() {
 #[test]
 fn hidden_drawings_are_not_hit() {
     let mut studio = Studio::new("Select", two());
-    studio.session.show.drawn = false;
+    studio.session.overlays.drawn = false;
     studio.click(vec2(0.3, 0.2));
     assert!(studio.session.selection.is_empty());
 }

@@ -1,18 +1,19 @@
-//! A grid over the walls: visits the pieces near a straight way, and leaps over empty cells.
+//! A uniform grid over the wall edges: visits those near a straight move and skips empty cells.
 
 use glam::{DVec2, Vec2};
 
-use super::Segment;
+use super::edge::Edge;
 
 /// Cells along the longer side of the receiver.
 const CELLS: f64 = 128.0;
-/// Most cells along one side; walls may be drawn far off the receiver.
+/// Limit of cells along one side; walls may be drawn far off the receiver.
 const MOST: f64 = 1024.0;
-/// Pieces count in cells up to this far away, in cells, so that a way that passes a corner by rounding misses nothing.
+/// Margin by which an edge is also sorted into cells beside it, in cells: rounding at a cell's corner misses nothing.
 const MARGIN: f64 = 1e-3;
-/// A way advances at least this much, in cells; well below the margin.
+/// Least advance along a move, in cells; well below the margin.
 const CREEP: f64 = 1e-5;
 
+/// The edges, sorted into square cells.
 pub(super) struct Lookup {
     origin: DVec2,
     /// Cells per plane unit.
@@ -21,31 +22,40 @@ pub(super) struct Lookup {
     /// First item of each cell, and the end of the last.
     starts: Vec<u32>,
     items: Vec<u32>,
-    /// Rings of empty cells around each cell plus one; 0 where it holds a piece.
+    /// Rings of empty cells around each cell plus one; 0 where it holds an edge.
     free: Vec<u8>,
+    /// Number of edges.
+    count: u32,
 }
 
 impl Lookup {
-    pub(super) fn new(segments: &[Segment], extent: Vec2) -> Self {
+    pub(super) fn new(edges: &[Edge], extent: Vec2) -> Self {
         let (mut low, mut high) = (DVec2::ZERO, extent.as_dvec2());
-        for point in segments.iter().flat_map(|s| [s.from.as_dvec2(), s.to.as_dvec2()]) {
+        for point in edges.iter().flat_map(|s| [s.from.as_dvec2(), s.to.as_dvec2()]) {
             (low, high) = (low.min(point), high.max(point));
         }
         let scale = (CELLS / f64::from(extent.max_element())).min((MOST - 2.0) / (high - low).max_element());
         let origin = low - 1.0 / scale;
         let size = ((high - low) * scale).to_array().map(|cells| cells.ceil() as usize + 2);
-        let mut lookup =
-            Self { origin, scale, size, starts: Vec::new(), items: Vec::new(), free: Vec::new() };
-        lookup.sort(segments);
+        let mut lookup = Self {
+            origin,
+            scale,
+            size,
+            starts: Vec::new(),
+            items: Vec::new(),
+            free: Vec::new(),
+            count: edges.len() as u32,
+        };
+        lookup.sort(edges);
         lookup.measure_free();
         lookup
     }
 
-    /// Puts each piece into the cells it touches.
-    fn sort(&mut self, segments: &[Segment]) {
+    /// Sorts each edge into the cells that it touches.
+    fn sort(&mut self, edges: &[Edge]) {
         let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for (i, segment) in segments.iter().enumerate() {
-            let [p, q] = [segment.from, segment.to].map(|point| self.cells_from_plane(point));
+        for (i, edge) in edges.iter().enumerate() {
+            let [p, q] = [edge.from, edge.to].map(|point| self.cells_from_plane(point));
             let (low, high) = ((p.min(q) - MARGIN).floor(), (p.max(q) + MARGIN).floor());
             let columns = low.x as usize..=(high.x as usize).min(self.size[0] - 1);
             for y in low.y as usize..=(high.y as usize).min(self.size[1] - 1) {
@@ -67,7 +77,7 @@ impl Lookup {
         self.items = pairs.into_iter().map(|(_, item)| item).collect();
     }
 
-    /// Distance of each cell to the nearest one with a piece, in steps to any of eight neighbours: two sweeps.
+    /// Chebyshev distance of each cell to the nearest one with an edge, in two sweeps.
     fn measure_free(&mut self) {
         let [width, height] = self.size;
         let mut free: Vec<u8> = self.starts.windows(2).map(|w| if w[1] > w[0] { 0 } else { 255 }).collect();
@@ -88,15 +98,21 @@ impl Lookup {
         self.free = free;
     }
 
-    /// Whether `test` holds for a piece in one of the cells from `a` to `b`; a piece may be asked several times.
+    /// Whether `test` holds for an edge in one of the cells from `a` to `b`; an edge may be tested several times. False
+    /// where a point is not finite.
+    ///
+    /// Each round advances, or is the last: where a move is so long that a cell is lost in rounding, all edges are tested.
     #[inline]
     pub(super) fn any(&self, a: Vec2, b: Vec2, mut test: impl FnMut(u32) -> bool) -> bool {
         let (p, q) = (self.cells_from_plane(a), self.cells_from_plane(b));
-        let way = q - p;
-        let Some((mut t, end)) = self.clip(p, way) else { return false };
-        let per_cell = 1.0 / way.abs().max_element().max(f64::MIN_POSITIVE);
+        let step = q - p;
+        if !step.is_finite() {
+            return false;
+        }
+        let Some((mut t, end)) = self.clip(p, step) else { return false };
+        let per_cell = 1.0 / step.abs().max_element().max(f64::MIN_POSITIVE);
         loop {
-            let at = p + way * t;
+            let at = p + step * t;
             let x = (at.x.max(0.0) as usize).min(self.size[0] - 1);
             let y = (at.y.max(0.0) as usize).min(self.size[1] - 1);
             let cell = y * self.size[0] + x;
@@ -107,13 +123,16 @@ impl Lookup {
                     return true;
                 }
             }
-            let leave_x = leave(p.x, way.x, x as f64);
-            let leave_y = leave(p.y, way.y, y as f64);
+            let leave_x = leave(p.x, step.x, x as f64);
+            let leave_y = leave(p.y, step.y, y as f64);
             let leap = t + f64::from(free.saturating_sub(1)) * per_cell;
-            // Where rounding says that the cell was left already, the way creeps on.
+            // Where rounding says that the cell was left already, the move advances by the least step.
             let next = leave_x.min(leave_y).max(leap).max(t) + CREEP * per_cell;
+            if next <= t {
+                return (0..self.count).any(test);
+            }
             if next > end {
-                // The end may lie in a neighbour that is entered within the last creeping step.
+                // The end may lie in a neighbour that is entered within the last least step.
                 if t >= end {
                     return false;
                 }
@@ -124,7 +143,7 @@ impl Lookup {
         }
     }
 
-    /// Whether a piece may lie within `reach` of `p`.
+    /// Whether an edge may lie within `reach` of `p`.
     pub(super) fn nearby(&self, p: Vec2, reach: f32) -> bool {
         let at = self.cells_from_plane(p);
         let (x, y) = (at.x.floor(), at.y.floor());
@@ -139,42 +158,42 @@ impl Lookup {
         (p.as_dvec2() - self.origin) * self.scale
     }
 
-    /// The part of the way that lies within the grid, as shares of it.
-    fn clip(&self, p: DVec2, way: DVec2) -> Option<(f64, f64)> {
+    /// The part of a move that lies within the grid, as fractions of it.
+    fn clip(&self, p: DVec2, step: DVec2) -> Option<(f64, f64)> {
         let (mut begin, mut end) = (0.0f64, 1.0f64);
         for axis in 0..2 {
             let size = self.size[axis] as f64;
-            if way[axis] == 0.0 {
+            if step[axis] == 0.0 {
                 if !(0.0..=size).contains(&p[axis]) {
                     return None;
                 }
                 continue;
             }
-            let (t0, t1) = (-p[axis] / way[axis], (size - p[axis]) / way[axis]);
+            let (t0, t1) = (-p[axis] / step[axis], (size - p[axis]) / step[axis]);
             (begin, end) = (begin.max(t0.min(t1)), end.min(t0.max(t1)));
         }
         (begin <= end).then_some((begin, end))
     }
 }
 
-/// Share of the way at which it leaves the cell that begins at `cell`, along one axis.
+/// Fraction of a move at which it leaves the cell that begins at `cell`, along one axis.
 #[inline]
-fn leave(p: f64, way: f64, cell: f64) -> f64 {
-    if way > 0.0 {
-        (cell + 1.0 - p) / way
-    } else if way < 0.0 {
-        (cell - p) / way
+fn leave(p: f64, step: f64, cell: f64) -> f64 {
+    if step > 0.0 {
+        (cell + 1.0 - p) / step
+    } else if step < 0.0 {
+        (cell - p) / step
     } else {
         f64::INFINITY
     }
 }
 
-/// Whether the segment from `p` to `q` touches the cell at `low`, widened by the margin: separating axes.
+/// Whether the edge from `p` to `q` touches the cell at `low`, widened by the margin: separating axes.
 fn touches(p: DVec2, q: DVec2, low: DVec2) -> bool {
     let half = 0.5 + MARGIN;
     let (p, q) = (p - low - 0.5, q - low - 0.5);
-    let way = q - p;
+    let step = q - p;
     let middle = (p + q) * 0.5;
-    let reach = way.abs() * 0.5 + half;
-    middle.abs().cmple(reach).all() && way.perp_dot(p).abs() <= half * (way.x.abs() + way.y.abs())
+    let reach = step.abs() * 0.5 + half;
+    middle.abs().cmple(reach).all() && step.perp_dot(p).abs() <= half * (step.x.abs() + step.y.abs())
 }

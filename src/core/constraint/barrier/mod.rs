@@ -1,42 +1,34 @@
-//! The lines that no light crosses, as geometry: which straight ways they block, and where.
+//! The walls' geometry: which straight moves they block, and where.
 //!
-//! Whether two segments cross is decided by exact orientation predicates (Shewchuk 1997, crate `robust`), so that no
-//! photon slips through by rounding: a way is blocked where its ends lie strictly on different sides of a wall's segment
-//! and it meets that segment, its two ends included. A point exactly on a wall may leave it to either side.
+//! Whether a move crosses an edge is decided by exact orientation predicates (Shewchuk 1997, crate `robust`), so that no
+//! photon slips through by rounding: a move is blocked where its ends lie strictly on different sides of an edge and it
+//! meets that edge, end points included. A point exactly on a wall may leave it to either side.
 
+mod edge;
 mod lookup;
 mod weld;
 
-use glam::{DVec2, Vec2};
-use robust::{Coord, orient2d};
+use glam::Vec2;
 
 use super::stroke;
 use super::wall::ActiveWall;
+pub use edge::Edge;
 use lookup::Lookup;
 
-/// All wall segments of one moment, with a grid to find those near a way.
+/// The wall edges at one moment, with a grid to find those near a move.
 pub struct Barriers {
-    segments: Vec<Segment>,
+    edges: Vec<Edge>,
     lookup: Lookup,
     notes: Vec<String>,
 }
 
-/// A straight piece of a wall, or of what closes a narrow gap.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// Where it begins.
-    pub from: Vec2,
-    /// Where it ends.
-    pub to: Vec2,
-}
-
-/// Where a way first meets a wall.
+/// The first contact of a move with a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Share of the way before it, 0..=1.
+    /// Fraction of the move before the contact, 0..=1.
     pub share: f32,
-    /// The piece of wall that is met.
-    pub segment: Segment,
+    /// The edge that is met.
+    pub edge: Edge,
 }
 
 impl Barriers {
@@ -44,34 +36,34 @@ impl Barriers {
     pub fn new(walls: &[&ActiveWall], extent: Vec2) -> Self {
         let (bridges, notes) = weld::bridges(walls, extent);
         let drawn = walls.iter().flat_map(|wall| wall.points.windows(2)).map(|pair| [pair[0], pair[1]]);
-        let segments: Vec<Segment> = drawn
+        let edges: Vec<Edge> = drawn
             .chain(bridges)
             .filter(|[from, to]| from != to)
-            .map(|[from, to]| Segment { from, to })
+            .map(|[from, to]| Edge { from, to })
             .collect();
-        let lookup = Lookup::new(&segments, extent);
-        Self { segments, lookup, notes }
+        let lookup = Lookup::new(&edges, extent);
+        Self { edges, lookup, notes }
     }
 
-    /// What the artist should know: gaps that were closed.
+    /// Messages to the artist about gaps that were closed.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Whether the straight way from `a` to `b` crosses a wall.
+    /// Whether the straight move from `a` to `b` crosses a wall; false where a point is not finite.
     pub fn blocks(&self, a: Vec2, b: Vec2) -> bool {
-        self.lookup.any(a, b, |i| self.segments[i as usize].blocks(a, b))
+        self.lookup.any(a, b, |i| self.edges[i as usize].blocks(a, b))
     }
 
-    /// Where the straight way from `a` to `b` first crosses a wall.
+    /// Where the straight move from `a` to `b` first crosses a wall.
     pub fn first_contact(&self, a: Vec2, b: Vec2) -> Option<Contact> {
         let mut first: Option<Contact> = None;
         self.lookup.any(a, b, |i| {
-            let segment = self.segments[i as usize];
-            if segment.blocks(a, b) {
-                let share = segment.share_of(a, b);
+            let edge = self.edges[i as usize];
+            if edge.blocks(a, b) {
+                let share = edge.share_of(a, b);
                 if first.is_none_or(|contact| share < contact.share) {
-                    first = Some(Contact { share, segment });
+                    first = Some(Contact { share, edge });
                 }
             }
             false
@@ -79,48 +71,16 @@ impl Barriers {
         first
     }
 
-    /// Whether a wall may be within `reach` of the straight way from `a` to `b`: never wrong with no, quick.
+    /// A quick conservative test whether a wall may lie within `reach` of the straight move from `a` to `b`.
     pub fn may_touch(&self, a: Vec2, b: Vec2, reach: f32) -> bool {
         self.lookup.nearby(a, a.distance(b) + reach)
     }
 
     /// Distance from `p` to the nearest wall; infinite without walls.
     pub fn distance(&self, p: Vec2) -> f32 {
-        let near = |s: &Segment| stroke::distance_to_segment(p, s.from, s.to);
-        self.segments.iter().map(near).fold(f32::INFINITY, f32::min)
+        let near = |s: &Edge| stroke::distance_to_segment(p, s.from, s.to);
+        self.edges.iter().map(near).fold(f32::INFINITY, f32::min)
     }
-}
-
-impl Segment {
-    /// Whether the way from `a` to `b` crosses this piece.
-    #[inline]
-    fn blocks(&self, a: Vec2, b: Vec2) -> bool {
-        let (p, q) = (coord(self.from), coord(self.to));
-        let (a, b) = (coord(a), coord(b));
-        let (side_a, side_b) = (orient2d(p, q, a), orient2d(p, q, b));
-        if side_a * side_b >= 0.0 {
-            return false;
-        }
-        let (side_p, side_q) = (orient2d(a, b, p), orient2d(a, b, q));
-        side_p.signum() * side_q.signum() <= 0.0 || side_p == 0.0 || side_q == 0.0
-    }
-
-    /// Share of the way from `a` to `b` before it meets the line of this piece, which it crosses.
-    fn share_of(&self, a: Vec2, b: Vec2) -> f32 {
-        let (p, q) = (coord(self.from), coord(self.to));
-        let (side_a, side_b) = (orient2d(p, q, coord(a)).abs(), orient2d(p, q, coord(b)).abs());
-        (side_a / (side_a + side_b)) as f32
-    }
-
-    /// Direction of the piece, of length 1.
-    pub fn direction(&self) -> Vec2 {
-        let way: DVec2 = self.to.as_dvec2() - self.from.as_dvec2();
-        way.normalize_or_zero().as_vec2()
-    }
-}
-
-fn coord(p: Vec2) -> Coord<f64> {
-    Coord { x: f64::from(p.x), y: f64::from(p.y) }
 }
 
 #[cfg(test)]
@@ -150,6 +110,23 @@ mod tests {
     }
 
     #[test]
+    fn moves_of_any_length_are_tested_in_finite_time() {
+        let wall = wall(&[[0.5, 0.25], [0.5, 0.75]], 0.01);
+        let barriers = Barriers::new(&[&wall], Vec2::ONE);
+        for far in [1e6, 1e12, 1e37] {
+            for (y, blocked) in [(0.5, true), (0.9, false)] {
+                assert_eq!(barriers.blocks(Vec2::new(-far, y), Vec2::new(far, y)), blocked, "{far}");
+            }
+        }
+        for wrong in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            for point in [Vec2::new(wrong, 0.5), Vec2::new(0.5, wrong), Vec2::splat(wrong)] {
+                assert!(!barriers.blocks(Vec2::new(0.4, 0.5), point) && !barriers.blocks(point, point));
+                assert!(barriers.first_contact(point, Vec2::new(0.6, 0.5)).is_none());
+            }
+        }
+    }
+
+    #[test]
     fn the_lookup_finds_what_a_search_through_all_finds() {
         let mut random = Stream::new(3, Purpose::Trace, 0, 0);
         let mut point =
@@ -161,7 +138,7 @@ mod tests {
             let scale = if i % 2 == 0 { 1.0 } else { 3.0 };
             let (a, b) = (Vec2::from(point(scale)), Vec2::from(point(scale)));
             let b = if i % 3 == 0 { a + 0.01 * (b - a) } else { b };
-            let all = barriers.segments.iter().any(|segment| segment.blocks(a, b));
+            let all = barriers.edges.iter().any(|edge| edge.blocks(a, b));
             assert_eq!(barriers.blocks(a, b), all, "{a} to {b}");
         }
     }

@@ -1,20 +1,19 @@
-//! Closes the gaps that are narrower than a wall is thick: light does not squeeze through where two walls, drawn to
-//! scale, overlap.
+//! Bridges over gaps narrower than the walls are thick: light does not pass where two walls, drawn to scale, overlap.
 
 use glam::Vec2;
 
 use crate::constraint::stroke;
 use crate::constraint::wall::ActiveWall;
 
-/// How far beyond the border a wall goes on that ends there, plane units: light that flowed off the receiver does not
-/// come back on the other side.
+/// Length by which a wall that ends at the border is continued beyond it, plane units: light that flowed off the
+/// receiver does not come back on the other side.
 const BEYOND: f32 = 0.5;
-/// How far a bridge overlaps the walls that it joins: more than rounding, far less than a cell.
+/// Overlap of a bridge with the walls that it joins: more than rounding, far less than a cell.
 const OVERLAP: f32 = 1e-5;
 /// A wall's own ends meet its other parts only from this many clearances along it; nearer parts are just its bend.
 const OWN_BEND: f32 = 8.0;
 
-/// Pieces that close the gaps, and what to tell of them.
+/// The bridges, and messages about them.
 pub(super) fn bridges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<String>) {
     let mut bridges = Vec::new();
     let mut notes = Vec::new();
@@ -69,7 +68,7 @@ fn own_gaps(wall: &ActiveWall) -> Vec<[Vec2; 2]> {
     gaps
 }
 
-/// From the ends that reach the border, outwards.
+/// Continuations of the ends that reach the border, outwards.
 fn border_pieces(wall: &ActiveWall, extent: Vec2) -> Vec<[Vec2; 2]> {
     let ends = [wall.points[0], wall.points[wall.points.len() - 1]];
     ends.iter()

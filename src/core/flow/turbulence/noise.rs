@@ -3,8 +3,8 @@
 use glam::Vec2;
 use rayon::prelude::*;
 
-use super::TurbulenceSettings;
-use crate::flow::field::Grid;
+use super::settings::TurbulenceSettings;
+use crate::flow::field::{Field, Grid};
 use crate::math::mixed_gram::{Axis, MixedGram};
 use crate::math::rng::{Purpose, Stream};
 
@@ -127,14 +127,23 @@ impl<'a> NoiseMaker<'a> {
     }
 }
 
-/// Square cells over the plane, so many along its longer side; along the other the last may reach beyond.
+/// The fields of a noise, `scale` times as strong.
+pub(super) fn fields(grids: &[Grid], noise: &Noise, scale: f64) -> Vec<Field> {
+    let field = |(grid, psi): (&Grid, &Vec<f64>)| {
+        let psi: Vec<f32> = psi.iter().map(|c| (scale * c) as f32).collect();
+        Field::from_potentials(*grid, &psi, &vec![0.0; psi.len()])
+    };
+    grids.iter().zip(noise).map(field).collect()
+}
+
+/// A grid of square cells, `cells` along the longer side of the plane; along the other the last may reach beyond.
 fn square_cells(cells: u32, extent: Vec2) -> Grid {
     // Rounding must not add a row.
     let count = [extent.x, extent.y].map(|length| ((length * cells as f32 - 1e-3).ceil() as usize).max(1));
     Grid { cells: count, extent: Vec2::new(count[0] as f32, count[1] as f32) / cells as f32 }
 }
 
-/// A number of the normal distribution, by Box and Muller.
+/// A normally distributed number (Box and Muller).
 fn gaussian(random: &mut Stream) -> f64 {
     let (radius, angle) = (1.0 - random.f64(), random.f64());
     (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
@@ -173,9 +182,9 @@ mod tests {
         let extent = Vec2::new(0.55, 1.0);
         let maker = NoiseMaker::new(&settings, extent);
         let [a, b] = maker.keys(1, 2).try_into().unwrap_or_else(|_| unreachable!());
-        let fields = |noise: &Noise| super::super::fields(maker.grids(), noise, 1.0);
+        let fields = |noise: &Noise| fields(maker.grids(), noise, 1.0);
         let (fa, fb) = (fields(&a), fields(&b));
-        let velocity = |fields: &[crate::flow::field::Field], p: [f64; 2]| {
+        let velocity = |fields: &[Field], p: [f64; 2]| {
             let all = fields.iter().map(|field| field.velocity_f64(p));
             all.fold([0.0; 2], |sum, u| [sum[0] + u[0], sum[1] + u[1]])
         };

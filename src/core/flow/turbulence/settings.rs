@@ -4,48 +4,75 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
 
 /// Swirls of random noise, added to the field. They are divergence-free, and fade before the photons arrive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct TurbulenceSettings {
-    /// Speed of the swirls, 0 to 1000: their root mean square, in per cent of the longer side of the receiver from one
-    /// key frame to the next. 0 is none. Default 20.
+    /// Root mean square speed of the swirls ([`Self::STRENGTH`]).
     pub strength: f32,
-    /// Noise grids, 1 to 8 different ones: cells along the longer side of the receiver, 4 to 512. A swirl is about two cells
-    /// wide. Default \[30\].
+    /// Cells of each noise grid along the longer side ([`Self::GRIDS`]).
     pub grids: Vec<u32>,
-    /// Slope of the energy spectrum over the grids, E(k) ~ k^slope, -10 to 10. Default -5/3, Kolmogorov's law.
+    /// Exponent of the energy spectrum ([`Self::SLOPE`]).
     pub slope: f32,
-    /// Share of each grid in the speed, 0 to 1000, one for each; in place of those that follow from the slope. Only their
-    /// ratios count.
+    /// Share of each grid in the speed ([`Self::WEIGHTS`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weights: Option<Vec<f32>>,
-    /// How often the swirls are replaced by others from one key frame to the next, 0 to 100; 0 keeps the same ones for ever.
-    /// Low rates wind the light up like ink in water, high ones scatter it. Default 1.
+    /// New swirls per segment ([`Self::RATE`]).
     pub rate: f32,
-    /// Seed of the noise, 0 to 9007199254740991, default 1. It is its own: another seed of the project leaves the swirls
-    /// where they are.
+    /// Seed of the noise ([`Self::SEED`]).
     pub seed: u64,
 }
 
+settings! { TurbulenceSettings {
+    /// Speed of the swirls: their root mean square, in per cent of the plane's longer side from key frame to key frame.
+    /// 0 is none.
+    STRENGTH = Setting::real("flow.turbulence.strength", [0.0, 1000.0], &[20.0]).unit("%");
+    /// Noise grids, 1 to 8 different ones: each adds swirls of its own size, about two cells wide.
+    GRIDS = Setting::part("flow.turbulence.grids");
+    /// Cells of a noise grid along the plane's longer side: the more, the finer the swirls.
+    CELLS = Setting::whole("flow.turbulence.grids[]", [4.0, 512.0], &[30.0]).unit("cells");
+    /// How the speed is shared among the grids.
+    WEIGHTS = Setting::choice("flow.turbulence.weights", &[
+        Choice { value: "", help: "by the slope of the energy spectrum" },
+        Choice { value: "", help: "a weight for each grid, in place of the slope" },
+    ]);
+    /// Share of a grid in the speed; only the ratios count.
+    WEIGHT = Setting::real("flow.turbulence.weights[]", [0.0, 1000.0], &[1.0]);
+    /// Exponent of the energy spectrum over the grids, E(k) ~ k^slope. -5/3 is Kolmogorov's law; higher values give
+    /// fine swirls more.
+    SLOPE = Setting::real("flow.turbulence.slope", [-10.0, 10.0], &[-5.0 / 3.0]);
+    /// How often the swirls are replaced by others from key frame to key frame; 0 keeps the same ones. Low rates wind
+    /// light up like ink in water, high ones scatter it.
+    RATE = Setting::real("flow.turbulence.rate", [0.0, 100.0], &[1.0]);
+    /// Seed of the swirls, independent of the project's: another number gives other swirls of the same kind.
+    SEED = Setting::whole("flow.turbulence.seed", [0.0, 9_007_199_254_740_991.0], &[1.0]);
+} }
+
 impl Default for TurbulenceSettings {
     fn default() -> Self {
-        Self { strength: 20.0, grids: vec![30], slope: -5.0 / 3.0, weights: None, rate: 1.0, seed: 1 }
+        Self {
+            strength: Self::STRENGTH.value(),
+            grids: vec![Self::CELLS.value()],
+            slope: Self::SLOPE.value(),
+            weights: None,
+            rate: Self::RATE.value(),
+            seed: Self::SEED.value(),
+        }
     }
 }
 
-/// Fewest and most cells of a noise grid along the longer side.
-const CELLS: std::ops::RangeInclusive<u32> = 4..=512;
-/// Most noise grids: from 4 to 512 cells there are 8 octaves.
-const MOST_GRIDS: usize = 8;
-/// Largest seed: whole numbers in JSON are exact up to here.
-const MOST_SEED: u64 = (1 << 53) - 1;
 /// Most memory that the noises of one segment may take.
 const MAX_BYTES: u64 = 1 << 30;
 
 impl TurbulenceSettings {
+    /// Most noise grids: from 4 to 512 cells there are 8 octaves.
+    pub const MOST_GRIDS: usize = 8;
+
     /// Whether there is anything to add.
     pub fn is_on(&self) -> bool {
         self.strength > 0.0
@@ -56,19 +83,13 @@ impl TurbulenceSettings {
     /// # Errors
     /// `Value` names the first value that is out of its range, `Limit` noises that would take too much memory.
     pub fn check(&self, place: &str) -> Result<()> {
-        let real = |name: &str, value: f32, low: f32, high: f32| {
-            if (low..=high).contains(&value) {
-                return Ok(());
-            }
-            Err(Error::value(format!("{place}.{name}"), format!("is {value}, must be {low} to {high}")))
-        };
-        real("strength", self.strength, 0.0, 1000.0)?;
-        real("slope", self.slope, -10.0, 10.0)?;
-        real("rate", self.rate, 0.0, 100.0)?;
+        Self::STRENGTH.check(self.strength, place)?;
+        Self::SLOPE.check(self.slope, place)?;
+        Self::RATE.check(self.rate, place)?;
         self.check_grids(&format!("{place}.grids"))?;
         if let Some(weights) = &self.weights {
             for (i, &weight) in weights.iter().enumerate() {
-                real(&format!("weights[{i}]"), weight, 0.0, 1000.0)?;
+                Self::WEIGHT.check_at(weight, || format!("{place}.weights[{i}]"))?;
             }
             let place = format!("{place}.weights");
             if weights.len() != self.grids.len() {
@@ -80,26 +101,18 @@ impl TurbulenceSettings {
                 return Err(Error::value(place, "are all 0; give strength 0 for no turbulence"));
             }
         }
-        if self.seed > MOST_SEED {
-            return Err(Error::value(
-                format!("{place}.seed"),
-                format!("is {}, must be 0 to {MOST_SEED}", self.seed),
-            ));
-        }
+        Self::SEED.check(self.seed, place)?;
         self.check_memory(place)
     }
 
     fn check_grids(&self, place: &str) -> Result<()> {
-        if !(1..=MOST_GRIDS).contains(&self.grids.len()) {
-            let what = format!("has {} grids, must be 1 to {MOST_GRIDS}", self.grids.len());
+        if !(1..=Self::MOST_GRIDS).contains(&self.grids.len()) {
+            let what = format!("has {} grids, must be 1 to {}", self.grids.len(), Self::MOST_GRIDS);
             return Err(Error::value(place, what));
         }
         for (i, cells) in self.grids.iter().enumerate() {
             let place = format!("{place}[{i}]");
-            if !CELLS.contains(cells) {
-                let what = format!("is {cells} cells, must be {} to {}", CELLS.start(), CELLS.end());
-                return Err(Error::value(place, what));
-            }
+            Self::CELLS.check_at(*cells, || place.clone())?;
             if self.grids[..i].contains(cells) {
                 let what =
                     format!("is {cells} cells once more, which gives the same swirls; name each grid once");

@@ -1,4 +1,4 @@
-//! From a map to a bijection: those who are farthest from any target choose first, each takes the nearest that is free.
+//! A greedy bijection from a map: points farthest from any target choose first, each takes the nearest free target.
 
 use std::cmp::Reverse;
 use std::ops::Range;
@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use crate::{Progress, Result};
 
-/// Most points in a leaf of the tree.
+/// Limit of points in a leaf of the tree.
 const LEAF: usize = 8;
-/// Choices between two looks at the progress.
+/// Choices between two progress updates.
 const REPORT: usize = 1024;
 
 /// The target row of each point of `warped`, as many as `target`: points in falling order of the distance to their nearest
@@ -39,7 +39,7 @@ pub(super) fn farthest_first(warped: &[Vec2], target: &[Vec2], progress: &Progre
     Ok(target_of)
 }
 
-/// Points of which the nearest can be found and taken away: a balanced tree of boxes that shrink with what they hold.
+/// Free points, searchable for the nearest and removable: a balanced tree of bounding boxes.
 struct FreePoints {
     /// In the order of the leaves; at infinity once taken.
     points: Vec<Vec2>,

@@ -1,19 +1,19 @@
-//! The method before this one: T. Günther, K. Rohmer, C. Rössl, T. Grosch, H. Theisel, *Stylized Caustics: Progressive
-//! Rendering of Animated Caustics* (Eurographics 2016). Kept to compare with.
+//! The previous method: T. Günther, K. Rohmer, C. Rössl, T. Grosch, H. Theisel, *Stylized Caustics: Progressive
+//! Rendering of Animated Caustics* (Eurographics 2016). For comparison.
 //!
-//! 1. 400 landmarks of each set are paired by a quadratic assignment (`assignment`).
+//! 1. 400 landmarks of each set are paired by a quadratic assignment (`quadratic_assignment`).
 //! 2. The thin-plate warp through these pairs is the continuous map (`thin_plate`). Later passes reuse it.
 //! 3. It becomes a bijection greedily: the farthest choose first (`greedy`).
-//! 4. A photon's way is a natural cubic through (a, q, b) at t = 0, 1/2, 1. q lies between the middle of the chord and that of the way
-//!    to where the warp f leads: q = (1-w) (a + b)/2 + w (a + f(a))/2, w = 0.2.
+//! 4. A photon's path is a natural cubic through (a, q, b) at t = 0, 1/2, 1. q lies between the midpoint of the chord and
+//!    that of the path to its image under the warp f: q = (1-w) (a + b)/2 + w (a + f(a))/2, w = 0.2.
 //!
 //! Assumed where the publication leaves it open: the landmarks are rows at even distances of each set, paired in their order
-//! at first; the swaps take the first that helps; and the middle of the warp's way is that of a and f(a), which is
-//! also the thin-plate warp through the middles of the landmarks' ways.
+//! at first; the swaps take the first that helps; and the midpoint of the warp's path is that of a and f(a), which is
+//! also the thin-plate warp through the midpoints of the landmarks' paths.
 //!
-//! Measured on the goblet's caustic and the flower, 100 000 photons, and over three seeds the range of what counts: the
-//! cost over the optimum, and the crossing index at t = 1/4, 1/2, 3/4. Better landmarks are no part of the publication; the third
-//! row tells what they would bring.
+//! Measured on the goblet's caustic and the flower, 100 000 photons, ranges over three seeds: the
+//! cost over the optimum, and the crossing index at t = 1/4, 1/2, 3/4. The third row has better landmarks, which are not
+//! part of the publication.
 //!
 //! | | cost | crossing index |
 //! |---|---|---|
@@ -21,14 +21,14 @@
 //! | this | 1.16 to 1.18 | .15 to .21, .21 to .25, .23 to .30 |
 //! | this, landmarks along a space-filling curve | 1.06 | .025, .031, .051 |
 
-mod assignment;
 mod greedy;
+mod quadratic_assignment;
 mod thin_plate;
 
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
-use self::assignment::Assignment;
+use self::quadratic_assignment::QuadraticAssignment;
 use self::thin_plate::ThinPlate;
 use super::bijection::{Matching, require_equal_counts};
 use super::transport_map::require_points;
@@ -36,10 +36,10 @@ use crate::{Progress, Result};
 
 /// Landmarks of each set.
 const LANDMARKS: usize = 400;
-/// w: how far the ways follow the warp.
+/// w: the weight of the warp in the midpoint of a path.
 const WARP_SHARE: f32 = 0.2;
 
-/// The thin-plate warp between two point sets: where a photon of any pass would go by this method.
+/// The thin-plate warp between two point sets, the continuous map of this method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StylizedMap(ThinPlate);
 
@@ -53,20 +53,20 @@ impl StylizedMap {
         require_points("target", target)?;
         let count = LANDMARKS.min(source.len()).min(target.len());
         let (source, target) = (landmarks(source, count), landmarks(target, count));
-        let mut assignment = Assignment::by_row(&source, &target);
+        let mut assignment = QuadraticAssignment::by_row(&source, &target);
         assignment.improve(progress)?;
         let target: Vec<DVec2> = assignment.target_of.iter().map(|&row| target[row]).collect();
         Ok(Self(ThinPlate::new(&source, &target)))
     }
 
-    /// Where the warp takes each point; a point that it would take beyond all numbers stays.
+    /// The images of the points; a point whose image is not finite stays.
     pub fn apply_all(&self, points: &[Vec2]) -> Vec<Vec2> {
         let apply = |&point: &Vec2| Some(self.0.apply(point)).filter(|p| p.is_finite()).unwrap_or(point);
         points.par_iter().with_min_len(256).map(apply).collect()
     }
 
-    /// Pairs `source` with `target`, as many points, and tells how far each photon's way bows: q minus the middle of its
-    /// straight way. One bow for each source row.
+    /// Pairs `source` with `target`, as many points. Also returns each source row's midpoint offset: q minus the midpoint
+    /// of its straight path, plane units.
     ///
     /// # Errors
     /// `Value` when the counts differ, a set is empty or a point is not finite; `Cancelled`.
@@ -83,13 +83,13 @@ impl StylizedMap {
         let warped = self.apply_all(source);
         let target_of = greedy::farthest_first(&warped, target, progress)?;
         // q - (a + b)/2 = w (f(a) - b)/2
-        let bow = |(f, &row): (&Vec2, &u32)| (*f - target[row as usize]) * (0.5 * WARP_SHARE);
-        let bows = warped.iter().zip(&target_of).map(bow).collect();
-        Ok((Matching { target_of }, bows))
+        let offset = |(f, &row): (&Vec2, &u32)| (*f - target[row as usize]) * (0.5 * WARP_SHARE);
+        let midpoint_offsets = warped.iter().zip(&target_of).map(offset).collect();
+        Ok((Matching { target_of }, midpoint_offsets))
     }
 }
 
-/// `count` of the points, at even distances of their rows.
+/// `count` of the points, evenly spaced rows.
 fn landmarks(points: &[Vec2], count: usize) -> Vec<DVec2> {
     (0..count).map(|i| points[i * points.len() / count].as_dvec2()).collect()
 }

@@ -1,19 +1,19 @@
-//! Which element of a list was which before: so that what a file says of one element stays with it when others are
-//! inserted, deleted or moved.
+//! Alignment of two versions of a list, so that the text of an element stays with it when others are inserted, deleted or
+//! moved.
 
 use std::collections::{BTreeMap, VecDeque};
 
 use super::tree::{Kind, Node};
 
-/// Most pairs of changed elements that are compared; of more, each is taken for the one in its place.
+/// Most pairs of changed elements that are compared by content; beyond, elements are paired in order.
 const MOST_PAIRS: usize = 250_000;
 
-/// For each element of `after` the index of the element of `before` that it was; none for new ones.
+/// For each element of `after` the index of its earlier version in `before`; none for new elements.
 pub(super) fn origins(before: &[Node], after: &[Node]) -> Vec<Option<usize>> {
     let mut pairs = Pairs { origin: vec![None; after.len()], taken: vec![false; before.len()] };
     pairs.equal_at_the_ends(before, after);
     pairs.equal_elsewhere(before, after);
-    pairs.alike(before, after);
+    pairs.similar(before, after);
     pairs.origin
 }
 
@@ -28,7 +28,7 @@ impl Pairs {
         self.taken[old] = true;
     }
 
-    /// First those in their old places, counted from either end: of several equal elements each stays itself.
+    /// Pairs equal elements at the same place from the start or from the end.
     fn equal_at_the_ends(&mut self, before: &[Node], after: &[Node]) {
         let same = |(a, b): &(&Node, &Node)| a.text == b.text;
         let head = before.iter().zip(after).take_while(same).count();
@@ -37,7 +37,7 @@ impl Pairs {
         (1..=tail).for_each(|i| self.take(before.len() - i, after.len() - i));
     }
 
-    /// Then equal ones wherever they are, in order.
+    /// Pairs equal elements at any place, in order.
     fn equal_elsewhere(&mut self, before: &[Node], after: &[Node]) {
         let mut by_text: BTreeMap<&str, VecDeque<usize>> = BTreeMap::new();
         for old in self.free() {
@@ -50,8 +50,8 @@ impl Pairs {
         }
     }
 
-    /// At last changed ones by what they have in common, the most alike first.
-    fn alike(&mut self, before: &[Node], after: &[Node]) {
+    /// Pairs changed elements by similarity, the most similar first.
+    fn similar(&mut self, before: &[Node], after: &[Node]) {
         let (free, open) = (self.free(), self.open());
         if free.len().saturating_mul(open.len()) > MOST_PAIRS {
             free.into_iter().zip(open).for_each(|(old, new)| self.take(old, new));
@@ -60,8 +60,8 @@ impl Pairs {
         let mut scored = Vec::new();
         for &new in &open {
             for &old in &free {
-                if let Some(likeness) = likeness(&before[old], &after[new]) {
-                    scored.push((likeness, old.abs_diff(new), new, old));
+                if let Some(similarity) = similarity(&before[old], &after[new]) {
+                    scored.push((similarity, old.abs_diff(new), new, old));
                 }
             }
         }
@@ -74,20 +74,20 @@ impl Pairs {
         }
     }
 
-    /// Elements from before that none has come of yet.
+    /// Unpaired elements of `before`.
     fn free(&self) -> Vec<usize> {
         (0..self.taken.len()).filter(|&old| !self.taken[old]).collect()
     }
 
-    /// Elements of now that still lack their origin.
+    /// Unpaired elements of `after`.
     fn open(&self) -> Vec<usize> {
         (0..self.origin.len()).filter(|&new| self.origin[new].is_none()).collect()
     }
 }
 
-/// How much an element has of another, 0 to 2: the share of equal members, and 1 for the same name. None for what is
-/// never the same thing.
-fn likeness(old: &Node, new: &Node) -> Option<f32> {
+/// Similarity of two elements, 0 to 2: the share of equal members, plus 1 for an equal name. None for elements that are
+/// never versions of each other.
+fn similarity(old: &Node, new: &Node) -> Option<f32> {
     match (&old.kind, &new.kind) {
         (Kind::Object(before), Kind::Object(after)) => {
             let equal = |name: &str| match (old.get(name), new.get(name)) {
@@ -99,7 +99,7 @@ fn likeness(old: &Node, new: &Node) -> Option<f32> {
             let named = equal("name") && new.get("name").is_some_and(|name| name.text != "\"\"");
             (named || share >= 0.5).then_some(share + f32::from(u8::from(named)))
         }
-        // Numbers, and lists of them, have nothing that could stay with them but their place.
+        // Numbers, and lists of them, have no members that could stay with them.
         _ => None,
     }
 }

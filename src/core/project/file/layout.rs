@@ -1,24 +1,25 @@
-//! The layout of a project file: what fits stands on one line, such as a key frame or the points of a short wall.
+//! Pretty-printing of a project file: a value that fits stands on one line, such as a key frame or the points of a short
+//! wall.
 
 use super::merge::Piece;
 
-/// Longest line, bytes: as in the projects that come with the program.
-const MAX_PATH_BYTES: usize = 110;
+/// Longest line in bytes, as in the example projects.
+const LONGEST: usize = 110;
 
-/// What a file's own text shows of how it is laid out.
+/// The formatting of a file, as detected from its text.
 pub(super) struct Style<'a> {
-    /// One step of indent.
+    /// Indentation of one level.
     indent: &'a str,
-    /// The end of a line.
+    /// Line end.
     newline: &'static str,
-    /// What stands before the project: a byte order mark, perhaps.
+    /// Text before the root object, such as a byte order mark.
     before: &'a str,
-    /// What stands behind it: the last line's end, as a rule.
+    /// Text after the root object, such as a line end.
     behind: &'a str,
 }
 
 impl<'a> Style<'a> {
-    /// The style of a text that holds one JSON object.
+    /// Detects the style of a text that holds one JSON object.
     pub(super) fn of(text: &'a str) -> Self {
         let start = text.find('{').unwrap_or(0);
         let end = text.rfind('}').map_or(text.len(), |brace| brace + 1);
@@ -33,18 +34,19 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The whole text of a file.
-    pub(super) fn lay_out(&self, root: &Piece) -> String {
+    /// Formats a whole file.
+    pub(super) fn format(&self, root: &Piece) -> String {
         let mut text = self.before.to_owned();
         self.write(root, 0, 0, &mut text);
         text + self.behind
     }
 
-    /// Writes a piece whose first line begins after `column` bytes and whose further lines are `depth` steps in.
+    /// Writes a piece whose first line begins after `column` bytes and whose further lines have `depth` levels of
+    /// indentation.
     fn write(&self, piece: &Piece, depth: usize, column: usize, text: &mut String) {
         let start = text.len();
         // A comma may follow.
-        if one_line(piece, MAX_PATH_BYTES.saturating_sub(column + 1), text) {
+        if one_line(piece, LONGEST.saturating_sub(column + 1), text) {
             return;
         }
         text.truncate(start);
@@ -64,7 +66,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// Every part on its own line.
+    /// Writes each part on a line of its own.
     fn write_lines<'p>(
         &self,
         [open, close]: [char; 2],
@@ -83,15 +85,15 @@ impl<'a> Style<'a> {
         text.push(close);
     }
 
-    /// Numbers and points, as many on a line as fit.
+    /// Writes numbers or points, as many on a line as fit.
     fn fill(&self, items: &[Piece], depth: usize, text: &mut String) {
         text.push('[');
-        let mut column = MAX_PATH_BYTES;
+        let mut column = LONGEST;
         for (i, item) in items.iter().enumerate() {
             let mut word = String::new();
             self.write(item, depth, self.width(depth), &mut word);
             text.push_str(if i > 0 { "," } else { "" });
-            if column + word.len() + 2 > MAX_PATH_BYTES {
+            if column + word.len() + 2 > LONGEST {
                 self.begin_line(depth, text);
                 column = self.width(depth);
             } else {
@@ -115,7 +117,7 @@ impl<'a> Style<'a> {
     }
 }
 
-/// Writes a piece on one line of at most `room` bytes; false, with half of it written, where that cannot be.
+/// Writes a piece on one line of at most `room` bytes; false, with a part of it written, if it does not fit.
 fn one_line(piece: &Piece, room: usize, text: &mut String) -> bool {
     let most = text.len() + room;
     let all = match piece {
@@ -153,7 +155,7 @@ fn one_line(piece: &Piece, room: usize, text: &mut String) -> bool {
     all && text.len() <= most
 }
 
-/// Whether it is a number, or a list of numbers: what is filled into lines.
+/// Whether a piece is a number or a list of numbers.
 fn is_number_like(piece: &Piece) -> bool {
     match piece {
         Piece::Text(text) => !text.contains(['{', '"']),
@@ -162,7 +164,7 @@ fn is_number_like(piece: &Piece) -> bool {
     }
 }
 
-/// A name with quotation marks and escapes.
+/// A name as a JSON string.
 fn quoted(name: &str) -> String {
     serde_json::Value::from(name).to_string()
 }

@@ -1,31 +1,30 @@
-//! What changed in a project, brought into the text it came from: `file` is what stands in the file, `was` the project
-//! that was read from it, `now` the project to be written. `was` names all members that this program knows; `file` has
-//! fewer (defaults that nobody wrote) and others (what this program does not know).
+//! Three-way merge of JSON: `file` is the text of the file, `was` the project that was read from it, `now` the project to be
+//! written. `was` has all members that this program knows; `file` lacks some (defaults) and has others (unknown members).
 
 use super::align;
 use super::tree::{Kind, Node};
 
-/// The member that tells which kind an object is of.
+/// Name of the member that tags an enum's variant.
 const TAG: &str = "type";
 
-/// JSON to be laid out.
+/// JSON to be formatted.
 #[derive(Clone, Debug)]
 pub(super) enum Piece<'a> {
-    /// As it stands in the file, over as many lines as there; or one value.
+    /// Text that is written as it stands: a leaf, or an unchanged value of the file.
     Text(&'a str),
     List {
         items: Vec<Piece<'a>>,
-        /// Whether it stood on several lines.
+        /// Whether it spans several lines in the file.
         broken: bool,
     },
     Object {
         members: Vec<(String, Piece<'a>)>,
-        /// Whether it stood on several lines.
+        /// Whether it spans several lines in the file.
         broken: bool,
     },
 }
 
-/// The file's value with all that changed from `was` to `now`, and nothing else.
+/// The file's value with the changes from `was` to `now` applied.
 pub(super) fn merge<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Piece<'a> {
     if was.text == now.text {
         return Piece::Text(file.text);
@@ -36,7 +35,7 @@ pub(super) fn merge<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Piece<'a
             Piece::Object { members: members(file, was, now), broken }
         }
         (Kind::List(in_file), Kind::List(before), Kind::List(after)) if in_file.len() == before.len() => {
-            // Points are laid out anew, so that all of them look alike.
+            // Lists of points are formatted anew as a whole.
             let numbers = !now.text.contains(['{', '"']);
             let item = |(now, origin): (&Node<'a>, Option<usize>)| match origin {
                 Some(i) if numbers && before[i].text == now.text => fresh(&in_file[i]),
@@ -50,7 +49,7 @@ pub(super) fn merge<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Piece<'a
     }
 }
 
-/// A value of which each number and string is written as it stands, but laid out anew.
+/// A value to be formatted anew, with its numbers and strings as they stand.
 pub(super) fn fresh<'a>(now: &Node<'a>) -> Piece<'a> {
     match &now.kind {
         Kind::Leaf => Piece::Text(now.text),
@@ -67,7 +66,7 @@ fn members<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Vec<(String, Piec
     for (name, value) in file.members() {
         let piece = match (was.get(name), now.get(name)) {
             (Some(was), Some(now)) => merge(value, was, now),
-            // It is new to the project, so what stood in the file meant nothing, or the default.
+            // New to the project: the file's text was a default, or of no effect.
             (None, Some(now)) => fresh(now),
             (Some(gone), None) => match renamed(gone, was, now) {
                 Some(name) if members.iter().all(|(own, _)| own != name) => {
@@ -87,7 +86,7 @@ fn members<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Vec<(String, Piec
             at = found + 1;
             continue;
         }
-        // Of another kind, also what is equal may be another default.
+        // Another variant may have other defaults, so that equal values are written too.
         let added = match was.get(name).filter(|_| same_kind) {
             Some(was) => changed(was, value),
             None => Some(fresh(value)),
@@ -100,7 +99,7 @@ fn members<'a>(file: &Node<'a>, was: &Node, now: &Node<'a>) -> Vec<(String, Piec
     members
 }
 
-/// The name under which an object goes on that is gone under its old one: a caustic was renamed.
+/// The new name of an object that was renamed, such as a caustic.
 fn renamed<'n>(gone: &Node, was: &Node, now: &'n Node) -> Option<&'n str> {
     let same = |(name, value): &&(String, Node)| was.get(name).is_none() && value.text == gone.text;
     let found = now.members().iter().find(same).filter(|(_, value)| matches!(value.kind, Kind::Object(_)));

@@ -1,11 +1,11 @@
-//! A project and the file it came from, so that saving changes what the artist changed and nothing else.
+//! Layout-preserving saving of project files: only edited values change.
 //!
-//! Unchanged, a project is written as the very bytes that were read. Changed, the text is merged of three: the file's, the
-//! project's as it was read, and the project's as it is now ([`merge`]). What the program does not know stays with its
-//! object, numbers stay as they were typed, values that nobody wrote and nobody changed are not added. The text depends on
-//! the file and the project alone, so whoever undoes all changes gets the old bytes back, also after saving.
+//! An unchanged project is written as the bytes that were read. A changed one is a three-way merge ([`merge`]) of the file, the
+//! project as it was read, and the project as it is now. Unknown members stay with their object, numbers stay as typed,
+//! unchanged defaults are not added. The text depends on the file and the project alone, so undoing all changes gives the
+//! old bytes back, also after saving.
 //!
-//! The command line reads with [`Project::load`], which takes an unknown member for the typing error that it mostly is.
+//! The command line reads with [`Project::load`], which refuses unknown members as typing errors.
 
 mod align;
 mod layout;
@@ -21,7 +21,7 @@ use crate::{Error, Result};
 use layout::Style;
 use tree::Node;
 
-/// A project together with the text it was read from.
+/// A project with the text it was read from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProjectFile {
     text: String,
@@ -29,8 +29,7 @@ pub struct ProjectFile {
 }
 
 impl ProjectFile {
-    /// Reads and checks a project file. Beside it come the places of what it holds and this program does not know: that is
-    /// kept and not used.
+    /// Reads and checks a project file. The notes name the unknown members, which are kept and not used.
     ///
     /// # Errors
     /// Unreadable, malformed or out of range: each names the file and the place in it.
@@ -50,10 +49,10 @@ impl ProjectFile {
         Ok((Self { text, project }, unknown.into_iter().map(note).collect()))
     }
 
-    /// A project that was never saved.
+    /// The file of a project that was never saved.
     ///
     /// # Errors
-    /// Refuses a project that would not load again.
+    /// As [`Project::check`].
     pub fn new(project: Project) -> Result<Self> {
         project.check()?;
         let text = plain(&project)?;
@@ -65,7 +64,7 @@ impl ProjectFile {
         &self.project
     }
 
-    /// The text of a project that came from this file by changes.
+    /// The text of an edited version of this file's project.
     ///
     /// # Errors
     /// Refuses a project that would not load again (a value that is not finite, say), by the value's path.
@@ -77,16 +76,16 @@ impl ProjectFile {
         let (was, now) = (json(&self.project)?, json(project)?);
         let read = |text| Node::read(text).map_err(unwritable);
         let (file, was, now) = (read(self.text.trim_start_matches('\u{feff}'))?, read(&was)?, read(&now)?);
-        let text = Style::of(&self.text).lay_out(&merge::merge(&file, &was, &now));
-        // What the file holds may come to mean something else beside the new values. Then the project is what counts.
+        let text = Style::of(&self.text).format(&merge::merge(&file, &was, &now));
+        // Unknown members may gain a meaning beside the new values. Then the project is written without them.
         match load::parse_tolerantly(text.as_bytes(), Path::new("")) {
             Ok((again, _)) if again == *project => Ok(text),
             _ => plain(project),
         }
     }
 
-    /// Saves a project that came from this file in one step: the old file at `path` stays whole until the new one is on the
-    /// disk. Returns the text.
+    /// Saves an edited version of this file's project atomically: the old file at `path` stays whole until the new one is on
+    /// the disk. Returns the text.
     ///
     /// # Errors
     /// Names the file and the system's reason; the old file is left as it was.
@@ -98,14 +97,14 @@ impl ProjectFile {
     }
 }
 
-/// A project on its own, laid out like those that come with the program.
+/// The text of a project without a file, formatted like the example projects.
 fn plain(project: &Project) -> Result<String> {
     let text = json(project)?;
     let node = Node::read(&text).map_err(unwritable)?;
-    Ok(Style::of("{}\n").lay_out(&merge::fresh(&node)))
+    Ok(Style::of("{}\n").format(&merge::fresh(&node)))
 }
 
-/// All values of a project. From text, not from values in memory: there an f32 would become an f64 of many digits.
+/// All values of a project as JSON text. `serde_json::Value` would turn an f32 into an f64 of many digits.
 fn json(project: &Project) -> Result<String> {
     serde_json::to_string(project).map_err(unwritable)
 }

@@ -1,23 +1,23 @@
-//! JSON as it is written: every value with its own text, members in their order. Where nothing changed, that text is used
-//! again, so a number stays as somebody typed it.
+//! JSON syntax tree over borrowed text: each value with its source text, members in order. Unchanged values are written with
+//! that text, which keeps numbers as they were typed.
 
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// Deeper nesting is no project; serde_json draws the same line.
+/// Deepest nesting, the limit of serde_json.
 const DEEPEST: usize = 128;
 
-/// A JSON value and the text it stands in.
+/// A JSON value with its source text.
 #[derive(Clone, Debug)]
 pub(super) struct Node<'a> {
-    /// The value as written, without space around it.
+    /// Source text without surrounding white space.
     pub(super) text: &'a str,
     pub(super) kind: Kind<'a>,
 }
 
-/// What a value consists of.
+/// The content of a value.
 #[derive(Clone, Debug)]
 pub(super) enum Kind<'a> {
     /// A number, a string, true, false or null.
@@ -28,7 +28,7 @@ pub(super) enum Kind<'a> {
 }
 
 impl<'a> Node<'a> {
-    /// Takes a whole JSON text apart.
+    /// Parses a JSON text.
     pub(super) fn read(text: &'a str) -> serde_json::Result<Self> {
         let raw: &RawValue = serde_json::from_str(text)?;
         Self::below(raw.get(), 0)
@@ -55,12 +55,12 @@ impl<'a> Node<'a> {
         Ok(Self { text, kind })
     }
 
-    /// The value of a member; none where there is no such member, or where this is no object.
+    /// The value of a member; none if there is no such member, or this is no object.
     pub(super) fn get(&self, name: &str) -> Option<&Self> {
         self.members().iter().find(|(own, _)| own == name).map(|(_, value)| value)
     }
 
-    /// The members of an object; of anything else, none.
+    /// The members of an object; empty for other values.
     pub(super) fn members(&self) -> &[(String, Node<'a>)] {
         match &self.kind {
             Kind::Object(members) => members,
@@ -69,7 +69,7 @@ impl<'a> Node<'a> {
     }
 }
 
-/// The members of one object, in order, also where a name stands twice.
+/// The members of one object in order, duplicates included.
 struct Members<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'de: 'a, 'a> Deserialize<'de> for Members<'a> {

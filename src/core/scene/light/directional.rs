@@ -5,39 +5,56 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Emission, Illumination, Sphere};
+use super::{Emission, Illumination, LightDesc, Sphere};
 use crate::Result;
 use crate::scene::check;
+use crate::setting::schema::Describe;
+use crate::setting::{ANY, Setting, settings};
 
 /// A directional light. It is infinitely far and has no total power: its strength is an irradiance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct DirectionalLight {
-    /// Shown in the list of caustics. Default "light".
+    /// Its name.
     pub name: String,
-    /// Irradiance on a surface that faces it [W/m^2], 0 to 1e9; sunlight about 1000. Default 10.
+    /// Irradiance on a surface that faces it [W/m^2].
     pub irradiance: f32,
-    /// Factor on the irradiance, linear Rec.709, 0 to 1000. Default white.
+    /// Factor on the irradiance, linear Rec.709.
     pub colour: [f32; 3],
-    /// Where the light goes, not where it comes from; any length but 0. Default (0, -1, 0).
+    /// Where the light goes; any length but 0.
     pub direction: [f32; 3],
-    /// Width of the disk in the sky in degrees, 0 to 90; the sun has 0.53. Default 0: perfectly parallel.
+    /// Angular diameter of the disk in the sky, degrees.
     pub angle_deg: f32,
 }
 
+settings! { DirectionalLight {
+    /// Irradiance on a surface that faces the light; sunlight has about 1000.
+    IRRADIANCE = Setting::real("scene.lights[directional].irradiance", [0.0, 1e9], &[10.0]).unit("W/m²");
+    /// Where the light goes, not where it comes from; any length but 0.
+    DIRECTION = Setting::vector("scene.lights[directional].direction", ANY, &[0.0, -1.0, 0.0]);
+    /// Angular diameter of the disk in the sky; the sun has 0.53, 0 is perfectly parallel. Wider is softer.
+    ANGLE = Setting::real("scene.lights[directional].angle_deg", [0.0, 90.0], &[0.0]).unit("°");
+} }
+
 impl Default for DirectionalLight {
     fn default() -> Self {
-        let direction = [0.0, -1.0, 0.0];
-        Self { name: "light".into(), irradiance: 10.0, colour: [1.0; 3], direction, angle_deg: 0.0 }
+        Self {
+            name: LightDesc::DEFAULT_NAME.into(),
+            irradiance: Self::IRRADIANCE.value(),
+            colour: LightDesc::COLOUR.value(),
+            direction: Self::DIRECTION.value(),
+            angle_deg: Self::ANGLE.value(),
+        }
     }
 }
 
 impl DirectionalLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check::within(place, "irradiance", &[self.irradiance], 0.0, 1e9)?;
-        check::within(place, "colour", &self.colour, 0.0, 1e3)?;
+        Self::IRRADIANCE.check(self.irradiance, place)?;
+        LightDesc::COLOUR.check(self.colour, place)?;
         check::direction(place, "direction", self.direction)?;
-        check::within(place, "angle_deg", &[self.angle_deg], 0.0, 90.0)
+        Self::ANGLE.check(self.angle_deg, place)
     }
 
     fn sun(&self) -> Cone {

@@ -22,24 +22,47 @@ pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
 
-use super::check;
-use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
+use crate::{Error, Result};
 
 /// A light, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
+#[schemars(transform = Describe(Self::KIND))]
 pub enum LightDesc {
-    /// Shines evenly to all sides from one point.
+    /// A point.
     Point(PointLight),
-    /// A cone of light from one point.
+    /// A cone from a point.
     Spot(SpotLight),
-    /// The sun: parallel light, or nearly.
+    /// The sun.
     Directional(DirectionalLight),
-    /// A flat panel that shines to one side.
+    /// A flat panel.
     Rectangle(RectangleLight),
-    /// A glowing ball.
+    /// A ball.
     Sphere(SphereLight),
 }
+
+settings! { LightDesc {
+    /// Kind of light. Small lights cast sharp caustics, large ones soft.
+    KIND = Setting::choice("scene.lights[]", &[
+        Choice { value: "point", help: "shines evenly to all sides from one point" },
+        Choice { value: "spot", help: "a cone of light from one point" },
+        Choice { value: "directional", help: "the sun: parallel light, or nearly" },
+        Choice { value: "rectangle", help: "a flat panel that shines to one side" },
+        Choice { value: "sphere", help: "a glowing ball" },
+    ]).required();
+    /// Name of the light in the list of caustics; each name once.
+    NAME = Setting::text("scene.lights[].name");
+    /// Power of the whole light. A narrower cone of the same power is brighter.
+    WATTS = Setting::real("scene.lights[].watts", [0.0, 1e9], &[10.0]).unit("W");
+    /// Factor on the power, linear Rec.709.
+    COLOUR = Setting::colour("scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
+    /// Position of the light, x y z; y is up.
+    POSITION = Setting::vector("scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0]).unit("m");
+    /// The point the light looks at.
+    TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
+} }
 
 /// The illumination of a point by one light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +76,9 @@ pub struct Illumination {
 }
 
 impl LightDesc {
+    /// The name of a light without one.
+    const DEFAULT_NAME: &str = "light";
+
     /// Its name in the project.
     pub fn name(&self) -> &str {
         match self {
@@ -132,9 +158,19 @@ impl LightDesc {
 }
 
 /// Checks that all lights but the directional share.
-fn check_power(place: &str, watts: f32, colour: [f32; 3]) -> Result<()> {
-    check::within(place, "watts", &[watts], 0.0, 1e9)?;
-    check::within(place, "colour", &colour, 0.0, 1e3)
+fn check_lamp(place: &str, watts: f32, colour: [f32; 3], position: [f32; 3]) -> Result<()> {
+    LightDesc::WATTS.check(watts, place)?;
+    LightDesc::COLOUR.check(colour, place)?;
+    LightDesc::POSITION.check(position, place)
+}
+
+/// Checks of the lights that look at a point.
+fn check_target(place: &str, position: [f32; 3], target: [f32; 3]) -> Result<()> {
+    LightDesc::TARGET.check(target, place)?;
+    if position == target {
+        return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+    }
+    Ok(())
 }
 
 /// Two unit vectors that complete the unit vector `z` to a right-handed frame (Duff et al. 2017).

@@ -7,34 +7,39 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Emission, Illumination, Sphere, check_power};
+use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
 use crate::Result;
-use crate::scene::check;
+use crate::setting::schema::Describe;
 
 /// A point light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(LightDesc::SETTINGS))]
 pub struct PointLight {
-    /// Shown in the list of caustics. Default "light".
+    /// Its name.
     pub name: String,
-    /// Power to all sides together [W], 0 to 1e9. Default 10.
+    /// Power to all sides together [W].
     pub watts: f32,
-    /// Factor on the power, linear Rec.709, 0 to 1000. Default white.
+    /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m]. Default (0, 2, 0).
+    /// World [m].
     pub position: [f32; 3],
 }
 
 impl Default for PointLight {
     fn default() -> Self {
-        Self { name: "light".into(), watts: 10.0, colour: [1.0; 3], position: [0.0, 2.0, 0.0] }
+        Self {
+            name: LightDesc::DEFAULT_NAME.into(),
+            watts: LightDesc::WATTS.value(),
+            colour: LightDesc::COLOUR.value(),
+            position: LightDesc::POSITION.value(),
+        }
     }
 }
 
 impl PointLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check_power(place, self.watts, self.colour)?;
-        check::within(place, "position", &self.position, -1e6, 1e6)
+        check_lamp(place, self.watts, self.colour, self.position)
     }
 
     pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {

@@ -7,54 +7,54 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::Emitter;
-use super::{Emission, Illumination, Sphere, check_power, frame};
-use crate::scene::{Ray, check};
-use crate::{Error, Result};
+use super::{Emission, Illumination, LightDesc, Sphere, check_lamp, check_target, frame};
+use crate::Result;
+use crate::scene::Ray;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A rectangle of light. Its width lies horizontal where it can.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct RectangleLight {
-    /// Shown in the list of caustics. Default "light".
+    /// Its name.
     pub name: String,
-    /// Power of the whole panel [W], 0 to 1e9. Default 10.
+    /// Power of the whole panel [W].
     pub watts: f32,
-    /// Factor on the power, linear Rec.709, 0 to 1000. Default white.
+    /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its middle, world [m]. Default (0, 2, 0).
+    /// Its centre, world [m].
     pub position: [f32; 3],
-    /// The point it faces, world [m]. Default the origin.
+    /// The point it faces, world [m].
     pub target: [f32; 3],
-    /// Width and height [m], each 1e-6 to 1e5. Default (0.5, 0.5).
+    /// Width and height [m].
     pub size: [f32; 2],
 }
+
+settings! { RectangleLight {
+    /// Width and height of the panel. Larger panels cast softer caustics.
+    SIZE = Setting::vector("scene.lights[rectangle].size", [1e-6, 1e5], &[0.5, 0.5]).unit("m");
+} }
 
 impl Default for RectangleLight {
     fn default() -> Self {
         Self {
-            name: "light".into(),
-            watts: 10.0,
-            colour: [1.0; 3],
-            position: [0.0, 2.0, 0.0],
-            target: [0.0; 3],
-            size: [0.5; 2],
+            name: LightDesc::DEFAULT_NAME.into(),
+            watts: LightDesc::WATTS.value(),
+            colour: LightDesc::COLOUR.value(),
+            position: LightDesc::POSITION.value(),
+            target: LightDesc::TARGET.value(),
+            size: Self::SIZE.value(),
         }
     }
 }
 
 impl RectangleLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check_power(place, self.watts, self.colour)?;
-        check::within(place, "position", &self.position, -1e6, 1e6)?;
-        check::within(place, "target", &self.target, -1e6, 1e6)?;
-        check::within(place, "size", &self.size, 1e-6, 1e5)?;
-        if self.position == self.target {
-            return Err(Error::value(
-                format!("{place}.target"),
-                "is where the light stands: move one of them",
-            ));
-        }
-        Ok(())
+        check_lamp(place, self.watts, self.colour, self.position)?;
+        Self::SIZE.check(self.size, place)?;
+        check_target(place, self.position, self.target)
     }
 
     /// Normal and the two half edges.

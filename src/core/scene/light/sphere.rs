@@ -7,38 +7,50 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Emitter};
-use super::{Emission, Illumination, Sphere, check_power};
+use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
 use crate::Result;
-use crate::scene::{Ray, check};
+use crate::scene::Ray;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A ball of light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SphereLight {
-    /// Shown in the list of caustics. Default "light".
+    /// Its name.
     pub name: String,
-    /// Power to all sides together [W], 0 to 1e9. Default 10.
+    /// Power to all sides together [W].
     pub watts: f32,
-    /// Factor on the power, linear Rec.709, 0 to 1000. Default white.
+    /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its middle, world [m]. Default (0, 2, 0).
+    /// Its centre, world [m].
     pub position: [f32; 3],
-    /// Its radius [m], 1e-6 to 1e5. Default 0.05.
+    /// Its radius [m].
     pub radius: f32,
 }
 
+settings! { SphereLight {
+    /// Radius of the ball. Larger balls cast softer caustics.
+    RADIUS = Setting::real("scene.lights[sphere].radius", [1e-6, 1e5], &[0.05]).unit("m");
+} }
+
 impl Default for SphereLight {
     fn default() -> Self {
-        let position = [0.0, 2.0, 0.0];
-        Self { name: "light".into(), watts: 10.0, colour: [1.0; 3], position, radius: 0.05 }
+        Self {
+            name: LightDesc::DEFAULT_NAME.into(),
+            watts: LightDesc::WATTS.value(),
+            colour: LightDesc::COLOUR.value(),
+            position: LightDesc::POSITION.value(),
+            radius: Self::RADIUS.value(),
+        }
     }
 }
 
 impl SphereLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check_power(place, self.watts, self.colour)?;
-        check::within(place, "position", &self.position, -1e6, 1e6)?;
-        check::within(place, "radius", &[self.radius], 1e-6, 1e5)
+        check_lamp(place, self.watts, self.colour, self.position)?;
+        Self::RADIUS.check(self.radius, place)
     }
 
     pub(super) fn sphere(&self) -> Sphere {

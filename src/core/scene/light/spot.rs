@@ -7,40 +7,49 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Emission, Illumination, Sphere, check_power};
-use crate::scene::check;
-use crate::{Error, Result};
+use super::{Emission, Illumination, LightDesc, Sphere, check_lamp, check_target};
+use crate::Result;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A spot light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SpotLight {
-    /// Shown in the list of caustics. Default "light".
+    /// Its name.
     pub name: String,
-    /// Power of the whole cone [W], 0 to 1e9; a narrower cone is brighter. Default 10.
+    /// Power of the whole cone [W].
     pub watts: f32,
-    /// Factor on the power, linear Rec.709, 0 to 1000. Default white.
+    /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m]. Default (0, 2, 0).
+    /// World [m].
     pub position: [f32; 3],
-    /// The point it looks at, world [m]. Default the origin.
+    /// The point it looks at, world [m].
     pub target: [f32; 3],
-    /// Opening angle of the cone from edge to edge in degrees, 0.1 to 360. Default 40.
+    /// Opening angle of the cone from edge to edge, degrees.
     pub angle_deg: f32,
-    /// Share of the cone over which it fades, 0 (sharp) to 1. Default 0.15.
+    /// Share of the cone over which it fades.
     pub soft_edge: f32,
 }
+
+settings! { SpotLight {
+    /// Opening angle of the cone from edge to edge.
+    ANGLE = Setting::real("scene.lights[spot].angle_deg", [0.1, 360.0], &[40.0]).unit("°");
+    /// Share of the cone over which the light fades; 0 is sharp.
+    SOFT_EDGE = Setting::real("scene.lights[spot].soft_edge", [0.0, 1.0], &[0.15]);
+} }
 
 impl Default for SpotLight {
     fn default() -> Self {
         Self {
-            name: "light".into(),
-            watts: 10.0,
-            colour: [1.0; 3],
-            position: [0.0, 2.0, 0.0],
-            target: [0.0; 3],
-            angle_deg: 40.0,
-            soft_edge: 0.15,
+            name: LightDesc::DEFAULT_NAME.into(),
+            watts: LightDesc::WATTS.value(),
+            colour: LightDesc::COLOUR.value(),
+            position: LightDesc::POSITION.value(),
+            target: LightDesc::TARGET.value(),
+            angle_deg: Self::ANGLE.value(),
+            soft_edge: Self::SOFT_EDGE.value(),
         }
     }
 }
@@ -74,18 +83,10 @@ impl Profile {
 
 impl SpotLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check_power(place, self.watts, self.colour)?;
-        check::within(place, "position", &self.position, -1e6, 1e6)?;
-        check::within(place, "target", &self.target, -1e6, 1e6)?;
-        check::within(place, "angle_deg", &[self.angle_deg], 0.1, 360.0)?;
-        check::within(place, "soft_edge", &[self.soft_edge], 0.0, 1.0)?;
-        if self.position == self.target {
-            return Err(Error::value(
-                format!("{place}.target"),
-                "is where the light stands: move one of them",
-            ));
-        }
-        Ok(())
+        check_lamp(place, self.watts, self.colour, self.position)?;
+        Self::ANGLE.check(self.angle_deg, place)?;
+        Self::SOFT_EDGE.check(self.soft_edge, place)?;
+        check_target(place, self.position, self.target)
     }
 
     fn profile(&self) -> Profile {

@@ -13,7 +13,9 @@ use super::dispersion::sample_wavelength;
 use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use crate::Result;
 use crate::math::rng::Stream;
-use crate::scene::{Hit, Mesh, SurfaceId, check};
+use crate::scene::{Hit, Mesh, SurfaceId};
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// Fraunhofer lines d, F and C [um], between which the Abbe number is defined.
 const LINE_D: f32 = 0.587_56;
@@ -23,26 +25,40 @@ const LINE_C: f32 = 0.656_27;
 /// Clear or coloured glass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Glass {
-    /// Index of refraction at 587.6 nm, 1 to 4: water 1.33, window glass 1.52, diamond 2.42. Default 1.5.
+    /// Index of refraction at 587.6 nm.
     pub ior: f32,
-    /// Absorption per metre, linear Rec.709, 0 to 1e6: light falls to exp(-absorption x metres). Default 0: clear.
+    /// Absorption per metre, linear Rec.709.
     pub absorption: [f32; 3],
-    /// Abbe number, 5 to 1000; smaller spreads colours more: crown glass 60, flint 30. Default none: no dispersion.
+    /// Abbe number.
     pub dispersion: Option<f32>,
 }
 
+settings! { Glass {
+    /// Index of refraction at 587.6 nm: water 1.33, window glass 1.52, diamond 2.42. Higher bends light more.
+    IOR = Setting::real("scene.meshes[].material.ior", [1.0, 4.0], &[1.5]);
+    /// Absorption, linear Rec.709: light falls to exp(-absorption x metres). The glass has the colour it absorbs least.
+    ABSORPTION = Setting::colour("scene.meshes[].material.absorption", [0.0, 1e6], &[0.0; 3]).unit("1/m");
+    /// Abbe number; none for no dispersion. Smaller spreads the colours more: crown glass 60, flint 36.
+    DISPERSION = Setting::real("scene.meshes[].material.dispersion", [5.0, 1000.0], &[]);
+} }
+
 impl Default for Glass {
     fn default() -> Self {
-        Self { ior: 1.5, absorption: [0.0; 3], dispersion: None }
+        Self {
+            ior: Self::IOR.value(),
+            absorption: Self::ABSORPTION.value(),
+            dispersion: Self::DISPERSION.value(),
+        }
     }
 }
 
 impl Glass {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check::within(place, "ior", &[self.ior], 1.0, 4.0)?;
-        check::within(place, "absorption", &self.absorption, 0.0, 1e6)?;
-        check::within(place, "dispersion", self.dispersion.as_slice(), 5.0, 1000.0)
+        Self::IOR.check(self.ior, place)?;
+        Self::ABSORPTION.check(self.absorption, place)?;
+        Self::DISPERSION.check(self.dispersion, place)
     }
 
     /// Index of refraction at a wavelength [nm] by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and

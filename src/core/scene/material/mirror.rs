@@ -7,25 +7,33 @@ use serde::{Deserialize, Serialize};
 use super::Beam;
 use super::fresnel::{facing_normals, reflect};
 use crate::Result;
-use crate::scene::{Hit, check};
+use crate::scene::Hit;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
 
 /// A mirror.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Mirror {
-    /// Share of light it reflects, linear Rec.709, 0 to 1, at every angle. Default 0.95.
+    /// Share of light it reflects, linear Rec.709.
     pub reflectance: [f32; 3],
 }
 
+settings! { Mirror {
+    /// Share of light the surface reflects at every angle, linear Rec.709.
+    REFLECTANCE = Setting::colour("scene.meshes[].material.reflectance", [0.0, 1.0], &[0.95, 0.95, 0.95]);
+} }
+
 impl Default for Mirror {
     fn default() -> Self {
-        Self { reflectance: [0.95; 3] }
+        Self { reflectance: Self::REFLECTANCE.value() }
     }
 }
 
 impl Mirror {
     pub(super) fn check(&self, place: &str) -> Result<()> {
-        check::within(place, "reflectance", &self.reflectance, 0.0, 1.0)
+        Self::REFLECTANCE.check(self.reflectance, place)
     }
 
     pub(super) fn scatter(&self, hit: &Hit, direction: Vec3, beam: &mut Beam) -> Vec3 {

@@ -18,18 +18,31 @@ pub use mirror::Mirror;
 use super::{Hit, Media, Mesh};
 use crate::Result;
 use crate::math::rng::Stream;
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 
 /// A material, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
+#[schemars(transform = Describe(Self::KIND))]
 pub enum Material {
-    /// Matt: scatters evenly to all sides.
+    /// Matt.
     Diffuse(Diffuse),
     /// Polished metal.
     Mirror(Mirror),
-    /// Clear or coloured glass, water, crystal.
+    /// Glass and other clear solids.
     Glass(Glass),
 }
+
+settings! { Material {
+    /// Material of the whole mesh. Glass and mirrors cast the caustics.
+    KIND = Setting::choice("scene.meshes[].material", &[
+        Choice { value: "", help: "the materials of the MTL file beside the mesh, one object for each" },
+        Choice { value: "diffuse", help: "matt: scatters light evenly; caustics end here" },
+        Choice { value: "mirror", help: "polished metal" },
+        Choice { value: "glass", help: "clear or coloured glass, water, crystal" },
+    ]);
+} }
 
 /// The light carried along a path: flux for a photon, throughput for a camera path.
 #[derive(Clone, Debug)]

@@ -1,14 +1,14 @@
-//! Bands of even width along a polyline of the plane.
+//! Bands of constant width along a polyline.
 
 use egui::{Color32, Mesh};
 use glam::Vec2;
 
 use super::Overlay;
 
-/// Longest a corner may stick out, over half the width.
+/// Miter limit, over half the width.
 const MITRE: f32 = 2.0;
 
-/// The way to the side at each point: times half the width it leads to the left border.
+/// The miter vector at each point: times half the width it leads to the left border.
 pub(super) fn sideways(points: &[Vec2]) -> Vec<Vec2> {
     let last = points.len().saturating_sub(1);
     let normals: Vec<Vec2> = points.windows(2).map(|p| (p[1] - p[0]).perp().normalize_or_zero()).collect();
@@ -28,13 +28,13 @@ pub(super) fn sideways(points: &[Vec2]) -> Vec<Vec2> {
     (0..points.len()).map(side).collect()
 }
 
-/// The line beside another: `by` plane units to the left.
+/// The polyline offset by `by` plane units to the left.
 pub(super) fn beside(points: &[Vec2], by: f32) -> Vec<Vec2> {
     points.iter().zip(sideways(points)).map(|(&p, side)| p + side * by).collect()
 }
 
 impl Overlay<'_> {
-    /// Fills a band that has a colour at each of some distances to the left, plane units.
+    /// Fills a band with a colour at each of several offsets to the left, plane units.
     pub(super) fn band(&self, points: &[Vec2], across: &[(f32, Color32)]) {
         let mut mesh = Mesh::default();
         let mut before: Option<u32> = None;

@@ -1,13 +1,15 @@
-//! Colours for numbers.
+//! Colour maps.
 
 use egui::Color32;
 
-/// Opacity of the greatest values of a map.
+use crate::editor::session::FieldMap;
+
+/// Opacity of the largest values.
 const OPAQUE: f32 = 0.82;
-/// Below and above nothing, and where the sign has no meaning.
+/// Colours of negative, positive and unsigned values.
 const SIGNED: [Color32; 2] = [Color32::from_rgb(46, 130, 255), Color32::from_rgb(255, 72, 52)];
 const UNSIGNED: Color32 = Color32::from_rgb(30, 200, 120);
-/// From rest to the greatest speed.
+/// Colours from rest to the maximum speed.
 const SPEEDS: [Color32; 4] = [
     Color32::from_rgb(72, 92, 190),
     Color32::from_rgb(40, 170, 200),
@@ -15,23 +17,31 @@ const SPEEDS: [Color32; 4] = [
     Color32::from_rgb(252, 240, 120),
 ];
 
-/// The colour of a speed, 0..=1 of the greatest.
+/// The colour of a speed relative to the maximum, 0..=1.
 pub(super) fn speed(share: f32) -> Color32 {
     let at = share.clamp(0.0, 1.0) * (SPEEDS.len() - 1) as f32;
     let from = (at as usize).min(SPEEDS.len() - 2);
     SPEEDS[from].lerp_to_gamma(SPEEDS[from + 1], at - from as f32)
 }
 
-/// The colour of a value that has a sign, -1..=1 of the greatest: clear at 0.
+/// The colour of a signed value, -1..=1; transparent at 0.
 pub(super) fn signed(share: f32) -> Color32 {
     SIGNED[usize::from(share > 0.0)].gamma_multiply(cover(share))
 }
 
-/// The colour of a size, 0..=1 of the greatest: clear at 0.
+/// The colour of a magnitude, 0..=1; transparent at 0.
 pub(super) fn unsigned(share: f32) -> Color32 {
     UNSIGNED.gamma_multiply(cover(share))
 }
 
 fn cover(share: f32) -> f32 {
     OPAQUE * share.abs().min(1.0).powf(0.8)
+}
+
+/// The colour of a map's value relative to the largest, -1..=1.
+pub(super) fn of_map(of: FieldMap, share: f32) -> Color32 {
+    match of {
+        FieldMap::Divergence | FieldMap::Curl => signed(share),
+        FieldMap::Residual => unsigned(share),
+    }
 }

@@ -1,4 +1,4 @@
-//! The flow over the light: arrows, moving streamlines, trails, the grid, and the photon that is followed.
+//! Overlays of the flow: arrows, moving streamlines, trails, grid, and the followed photon.
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::{Vec2, vec2};
@@ -7,21 +7,21 @@ use super::{Overlay, colours};
 use crate::editor::preview::{FlowPicture, Followed};
 use crate::editor::theme;
 
-/// Longest arrow over the distance between two.
+/// Maximum length of an arrow over the arrow spacing.
 const ARROW: f32 = 0.86;
-/// Arrows slower than this share of the full colour's speed are dots.
+/// Arrows slower than this fraction of the full colour's speed are dots.
 const STILL: f32 = 0.02;
 /// The colour of trails.
 const TRAIL: Color32 = Color32::from_rgb(190, 235, 205);
-/// Points of a streamline that glow at once.
+/// Number of glowing points of a streamline.
 const COMET: f32 = 9.0;
-/// The colour of its glow; its length tells the speed.
+/// The colour of its glow; its length shows the speed.
 const STREAM: Color32 = Color32::from_rgb(150, 225, 255);
-/// Seconds in which a streamline is run through.
+/// Seconds in which the glow traverses a streamline.
 const RUN: f64 = 2.4;
 
 impl Overlay<'_> {
-    /// The grid of the field: every cell where they are large on the screen, else every so many.
+    /// The grid of the field; only every n-th line where cells are small on the screen.
     pub(super) fn grid(&self, cells: [u32; 2], extent: Vec2) {
         let Some(scale) = self.scale(extent / 2.0) else { return };
         let count = vec2(cells[0] as f32, cells[1] as f32);
@@ -71,7 +71,7 @@ impl Overlay<'_> {
                 }
                 continue;
             }
-            // Slow ones are drawn longer than they are: their direction matters.
+            // Slow ones are drawn longer: their direction matters.
             let half = u.normalize_or_zero() * (0.5 * ARROW * spacing * speed.sqrt());
             if let Some((from, to)) = (self.screen)(p - half).zip((self.screen)(p + half)) {
                 self.arrow(from, to, colour);
@@ -90,7 +90,7 @@ impl Overlay<'_> {
         self.painter.add(Shape::convex_polygon(corners, colour, Stroke::new(0.8, rim)));
     }
 
-    /// A glow that runs along a streamline; 0 and 1 are its begin and end.
+    /// A glow along a streamline; 0 and 1 are its start and end.
     fn comet(&self, stream: &[Vec2], share: f32) {
         let head = share * (stream.len() as f32 + COMET);
         for (i, piece) in stream.windows(2).enumerate() {
@@ -108,7 +108,7 @@ impl Overlay<'_> {
         }
     }
 
-    /// The photon that is followed: its way over all frames, its target, and the way there from now on.
+    /// The followed photon: its path over all frames, its target, and the path there around walls.
     pub(super) fn followed(&self, photon: &Followed) {
         let dark = Stroke::new(4.0, Color32::from_black_alpha(130));
         self.polyline(&photon.way, dark, false);

@@ -1,4 +1,4 @@
-//! The target's picture over the plane, and the frame that places it.
+//! The target picture over the plane, and its frame.
 
 use egui::{Color32, Mesh, Pos2, Shape, Stroke, TextureId, epaint::Vertex, pos2};
 use glam::{Vec2, vec2};
@@ -8,13 +8,13 @@ use crate::editor::theme;
 
 /// Opacity of the picture.
 const OPACITY: f32 = 0.22;
-/// Pieces along each side, so that a view in perspective shows it right.
+/// Subdivisions along each side, for perspective views.
 const PIECES: u32 = 12;
 /// Radius of a handle, points.
 const HANDLE: f32 = 5.0;
 
 impl Overlay<'_> {
-    /// A picture between its corners: lower left, lower right, upper right, upper left.
+    /// The picture between its corners: lower left, lower right, upper right, upper left.
     pub(super) fn target(&self, texture: TextureId, corners: [Vec2; 4]) {
         let [origin, right, _, up] = corners;
         let tint = theme::TARGET.gamma_multiply(OPACITY);
@@ -34,7 +34,7 @@ impl Overlay<'_> {
         self.outline(corners, Stroke::new(1.0, theme::TARGET.gamma_multiply(0.6)), true);
     }
 
-    /// The frame by which a picture is placed, with the knob that turns it.
+    /// The frame of a picture, with its rotation handle.
     pub(super) fn frame(&self, corners: [Vec2; 4], knob: Vec2) {
         self.outline(corners, Stroke::new(3.0, Color32::from_black_alpha(120)), false);
         self.outline(corners, Stroke::new(1.4, theme::TARGET), false);

@@ -1,20 +1,20 @@
-//! What the tool in hand shows while it works.
+//! The temporary shapes of the active tool.
 
 use egui::{Color32, Stroke, StrokeKind};
 use glam::Vec2;
 
-use super::{Manner, Overlay};
+use super::{ConstraintStyle, Overlay};
 use crate::editor::theme;
 use crate::editor::tools::Ghost;
 
 impl Overlay<'_> {
-    /// Draws what the tool in hand shows.
+    /// Draws the temporary shapes of the active tool.
     pub(super) fn ghosts(&self, ghosts: &[Ghost]) {
         for ghost in ghosts {
             match ghost {
-                Ghost::Line(points) if points.len() > 1 => self.line(points, Manner::DRAWING),
+                Ghost::Line(points) if points.len() > 1 => self.line(points, ConstraintStyle::DRAWING),
                 Ghost::Wall(points, thickness) if points.len() > 1 => {
-                    self.wall(points, *thickness, Manner::DRAWING);
+                    self.wall(points, *thickness, ConstraintStyle::DRAWING);
                 }
                 Ghost::Line(_) | Ghost::Wall(..) | Ghost::Hover(_) => (),
                 Ghost::Box(a, b) => self.selection_box(*a, *b),

@@ -1,4 +1,4 @@
-//! The points of what is selected.
+//! Handles of the selected constraints.
 
 use egui::{Color32, CornerRadius, Rect, Stroke, StrokeKind, Vec2 as ScreenVec};
 use glam::Vec2;
@@ -9,13 +9,13 @@ use crate::editor::theme;
 
 /// Side of a handle, points.
 const SIDE: f32 = 6.0;
-/// Side of a handle among others that stand close.
+/// Side of a handle with close neighbours, points.
 const SMALL: f32 = 3.5;
-/// Points closer than this on the screen count as close.
+/// Screen distance below which handles are close, points.
 const CLOSE: f32 = 13.0;
 
 impl Overlay<'_> {
-    /// A square for each point; those that are selected alone are filled.
+    /// A square for each point; individually selected points are filled.
     pub(super) fn handles(&self, points: &[Vec2], constraint: usize, selection: &Selection) {
         let places: Vec<_> = points.iter().map(|&p| (self.screen)(p)).collect();
         let near = |i: usize, other: Option<usize>| {

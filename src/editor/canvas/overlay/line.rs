@@ -1,51 +1,51 @@
-//! Directed lines: orange, with arrow heads along them, and faintly how far they pull.
+//! Directed lines: orange, with arrow heads and a faint band of influence.
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::stroke;
 
-use super::{Manner, Overlay};
+use super::{ConstraintStyle, Overlay};
 use crate::editor::theme;
 
 /// Width of the line, points.
 const WIDTH: f32 = 2.2;
-/// Width of the dark rim around it, points: it sets the line off from bright light.
+/// Width of the dark outline, points: it separates the line from bright light.
 const RIM: f32 = 5.0;
-/// Way between two arrow heads, points.
+/// Distance between two arrow heads, points.
 const BETWEEN: f32 = 76.0;
 /// Length and half width of an arrow head, points.
 const HEAD: [f32; 2] = [12.0, 5.0];
-/// Places across the band: shares of its width.
+/// Positions across the band, relative to its width.
 const ACROSS: [f32; 7] = [-1.0, -0.66, -0.33, 0.0, 0.33, 0.66, 1.0];
-/// Opacity of the band where the line pulls most.
+/// Opacity of the band at its maximum.
 const BAND: f32 = 0.2;
 
 impl Overlay<'_> {
-    /// How far a line pulls, plane units: ever less, as the fit weighs it.
-    pub(super) fn influence(&self, points: &[Vec2], width: f32, manner: Manner) {
-        if manner.off || points.len() < 2 {
+    /// The band of influence of a line: its opacity is the weight in the fit.
+    pub(super) fn influence(&self, points: &[Vec2], width: f32, style: ConstraintStyle) {
+        if style.off || points.len() < 2 {
             return;
         }
-        let strength = BAND * if manner.selected || manner.hovered { 1.6 } else { 1.0 };
+        let strength = BAND * if style.selected || style.hovered { 1.6 } else { 1.0 };
         let colour = |x: f32| {
             let pull = (1.0 - x * x) * (1.0 - x * x);
-            manner.tint(theme::LINE.gamma_multiply(strength * pull))
+            style.tint(theme::LINE.gamma_multiply(strength * pull))
         };
-        // Bumps far smaller than the band would only fold its borders.
+        // Details far smaller than the band would only fold its borders.
         let smooth = stroke::simplify(points, 0.05 * width);
         self.band(&smooth, &ACROSS.map(|x| (x * width, colour(x))));
     }
 
     /// The line itself.
-    pub(super) fn line(&self, points: &[Vec2], manner: Manner) {
-        if manner.selected {
+    pub(super) fn line(&self, points: &[Vec2], style: ConstraintStyle) {
+        if style.selected {
             self.polyline(points, Stroke::new(WIDTH + 6.0, theme::ACCENT.gamma_multiply(0.6)), false);
-        } else if manner.hovered {
+        } else if style.hovered {
             self.polyline(points, Stroke::new(WIDTH + 5.0, Color32::from_white_alpha(110)), false);
         }
-        self.polyline(points, Stroke::new(RIM, manner.tint(Color32::from_black_alpha(130))), manner.off);
-        let colour = manner.tint(theme::LINE);
-        self.polyline(points, Stroke::new(WIDTH, colour), manner.off);
+        self.polyline(points, Stroke::new(RIM, style.tint(Color32::from_black_alpha(130))), style.off);
+        let colour = style.tint(theme::LINE);
+        self.polyline(points, Stroke::new(WIDTH, colour), style.off);
         self.heads(points, colour);
     }
 
@@ -64,14 +64,14 @@ impl Overlay<'_> {
         }
     }
 
-    /// An arrow head with its tip at a place of the screen.
+    /// An arrow head with its tip at a screen position.
     fn head(&self, tip: Pos2, way: egui::Vec2, colour: Color32) {
         let tip = tip + way * (0.25 * HEAD[0]);
         let (back, side) = (tip - way * HEAD[0], way.rot90() * HEAD[1]);
         let corners = vec![tip, back + side, back + way * 2.5, back - side];
         let rim =
             Stroke::new(1.2, Color32::from_black_alpha(150).gamma_multiply(f32::from(colour.a()) / 255.0));
-        // Two triangles: with its notch the head is not convex.
+        // Two triangles: the notched head is not convex.
         for half in [[0, 1, 2], [0, 2, 3]] {
             let half = half.map(|i| corners[i]).to_vec();
             self.painter.add(Shape::convex_polygon(half, colour, Stroke::NONE));

@@ -1,4 +1,4 @@
-//! What was drawn, and what is being drawn, over a view of the plane: the plane view's own or any other.
+//! Overlays of a view of the plane: constraints, flow, target, and the shapes of the active tool.
 
 mod band;
 mod colours;
@@ -7,10 +7,11 @@ mod frame;
 mod ghosts;
 mod handles;
 mod heat;
+mod legend;
 mod line;
 mod wall;
 
-pub use heat::legends;
+pub use legend::legends;
 
 use egui::{Color32, Painter, Pos2, Shape, Stroke, TextureId};
 use glam::Vec2;
@@ -19,37 +20,37 @@ use lightloom_core::project::Project;
 
 use crate::editor::preview::FlowPicture;
 use crate::editor::session::Session;
-use crate::editor::tools::{Ghost, Look, target_corners};
+use crate::editor::tools::{Ghost, ToolContext, target_corners};
 
-/// How much is left of the colours of what does not act at this moment.
+/// Opacity of constraints that are inactive at the playhead.
 const DIM: f32 = 0.38;
-/// Dash and gap of what is switched off, points.
+/// Dash and gap of disabled constraints, points.
 const DASHES: [f32; 2] = [7.0, 5.0];
 
-/// Time between two pictures while streamlines move.
+/// Time between two frames while streamlines move.
 const PACE: std::time::Duration = std::time::Duration::from_millis(33);
 
-/// Draws over a view of the plane.
+/// A painter in plane coordinates.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {
-    /// Where it draws.
+    /// The painter.
     pub painter: &'a Painter,
-    /// Where a plane point is seen; none where it is not.
+    /// Screen position of a plane point; none where it is not visible.
     pub screen: &'a dyn Fn(Vec2) -> Option<Pos2>,
 }
 
-/// How one constraint is shown.
+/// The drawing style of one constraint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Manner {
-    /// Switched off: dashed.
+struct ConstraintStyle {
+    /// Disabled: drawn dashed.
     off: bool,
-    /// Whether it acts at this moment; else it is dim.
+    /// Active at the playhead; otherwise dimmed.
     acts: bool,
     selected: bool,
     hovered: bool,
 }
 
-impl Manner {
+impl ConstraintStyle {
     const DRAWING: Self = Self { off: false, acts: true, selected: false, hovered: false };
 
     fn of(constraint: &Constraint, index: usize, session: &Session, hovered: Option<usize>) -> Self {
@@ -69,23 +70,29 @@ impl Manner {
 }
 
 impl Overlay<'_> {
-    /// Everything over the light, in its order: map, grid, target, flow, what was drawn, what the tool in hand shows.
-    pub fn all(&self, look: &Look, target: Option<TextureId>, flow: &FlowPicture, ghosts: &[Ghost]) {
-        let (project, show) = (look.project, &look.session.show);
+    /// Draws all overlays in order: map, grid, target, flow, constraints, shapes of the active tool.
+    pub fn all(
+        &self,
+        context: &ToolContext,
+        target: Option<TextureId>,
+        flow: &FlowPicture,
+        ghosts: &[Ghost],
+    ) {
+        let (project, show) = (context.project, &context.session.overlays);
         if let Some(map) = &flow.map {
-            self.heat(map, look.extent);
+            self.heat(map, context.extent);
         }
         if show.grid {
-            self.grid(project.flow.grid.cells(look.extent), look.extent);
+            self.grid(project.flow.grid.cells(context.extent), context.extent);
         }
         if let Some((texture, corners)) =
-            target.filter(|_| show.target && !look.session.playing).zip(target_corners(look))
+            target.filter(|_| show.target && !context.session.playing).zip(target_corners(context))
         {
             self.target(texture, corners);
         }
         self.flow(flow, self.painter.ctx().input(|input| input.time));
         if show.drawn {
-            self.drawn(project, look.session, hovered(ghosts));
+            self.drawn(project, context.session, hovered(ghosts));
         }
         if let Some(photon) = &flow.followed {
             self.followed(photon);
@@ -96,21 +103,21 @@ impl Overlay<'_> {
         }
     }
 
-    /// Draws all lines and walls; `hovered` is the one under the pointer.
+    /// Draws all lines and walls; `hovered` is the index of the one under the pointer.
     pub(super) fn drawn(&self, project: &Project, session: &Session, hovered: Option<usize>) {
         let all = || project.constraints.iter().enumerate();
-        let manner = |i: usize, constraint: &Constraint| Manner::of(constraint, i, session, hovered);
+        let style = |i: usize, constraint: &Constraint| ConstraintStyle::of(constraint, i, session, hovered);
         for (i, constraint) in all() {
             let points = plane_points(constraint);
             match constraint {
-                Constraint::Wall(wall) => self.wall(&points, wall.thickness, manner(i, constraint)),
-                Constraint::DirectedLine(line) => self.influence(&points, line.width, manner(i, constraint)),
+                Constraint::Wall(wall) => self.wall(&points, wall.thickness, style(i, constraint)),
+                Constraint::DirectedLine(line) => self.influence(&points, line.width, style(i, constraint)),
             }
         }
         // Lines above all walls and bands: they are thin.
         for (i, constraint) in all() {
             if let Constraint::DirectedLine(_) = constraint {
-                self.line(&plane_points(constraint), manner(i, constraint));
+                self.line(&plane_points(constraint), style(i, constraint));
             }
         }
         for (i, constraint) in
@@ -120,7 +127,7 @@ impl Overlay<'_> {
         }
     }
 
-    /// The pieces of a polyline that are seen.
+    /// The visible parts of a polyline.
     fn seen(&self, points: &[Vec2]) -> Vec<Vec<Pos2>> {
         let mut pieces = vec![Vec::new()];
         for place in points.iter().map(|&p| (self.screen)(p)) {
@@ -143,7 +150,7 @@ impl Overlay<'_> {
         }
     }
 
-    /// Points of the screen for a plane unit at a place; none where it is not seen.
+    /// Screen points per plane unit at a plane point; none where it is not visible.
     fn scale(&self, at: Vec2) -> Option<f32> {
         const STEP: f32 = 1e-3;
         let side = |offset: Vec2| Some((self.screen)(at + offset)?.distance((self.screen)(at)?) / STEP);
@@ -151,7 +158,7 @@ impl Overlay<'_> {
     }
 }
 
-/// The constraint under the pointer, by index.
+/// Index of the constraint under the pointer.
 pub(super) fn hovered(ghosts: &[Ghost]) -> Option<usize> {
     ghosts
         .iter()

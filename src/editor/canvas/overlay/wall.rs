@@ -1,38 +1,38 @@
-//! Walls: magenta bands of their true thickness, laid in bricks. Where they are too thin on the screen for bricks, a
-//! line with ticks across stands for them.
+//! Walls: magenta bands of their true thickness with a brick pattern. Where they are too thin on the screen, a
+//! line with ticks across is drawn instead.
 
 use egui::{Color32, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::stroke;
 
-use super::{Manner, Overlay, band};
+use super::{ConstraintStyle, Overlay, band};
 use crate::editor::theme;
 
-/// The band's fill: dark enough to be seen on bright light.
+/// Fill of the band: dark enough to stand out from bright light.
 const FILL: Color32 = Color32::from_rgba_unmultiplied_const(96, 14, 82, 190);
-/// Least thickness on the screen that is laid in bricks, points.
+/// Minimum thickness on the screen for bricks, points.
 const BRICKS: f32 = 7.0;
 /// Length of a brick over the wall's thickness.
 const BRICK: f32 = 1.4;
-/// Way between two ticks of a thin wall, and their half length, points.
+/// Distance between two ticks of a thin wall, and their half length, points.
 const TICKS: [f32; 2] = [9.0, 3.5];
-/// Most bricks and ticks of one wall.
+/// Maximum number of bricks and ticks of one wall.
 const MOST: usize = 1500;
 
 impl Overlay<'_> {
-    /// A wall of a thickness in plane units.
-    pub(super) fn wall(&self, points: &[Vec2], thickness: f32, manner: Manner) {
+    /// Draws a wall of a thickness in plane units.
+    pub(super) fn wall(&self, points: &[Vec2], thickness: f32, style: ConstraintStyle) {
         let Some(scale) =
             points.get(points.len() / 2).and_then(|&p| self.scale(p)).filter(|_| points.len() > 1)
         else {
             return;
         };
-        let colour = manner.tint(theme::WALL);
+        let colour = style.tint(theme::WALL);
         if thickness * scale < BRICKS {
-            self.thin(points, scale, colour, manner);
+            self.thin(points, scale, colour, style);
             return;
         }
-        // Shakes of the hand far smaller than the wall would only fold its borders.
+        // Details far smaller than the wall would only fold its borders.
         let smooth = stroke::simplify(points, 0.02 * thickness);
         let half = 0.5 * thickness;
         let mut outline = band::beside(&smooth, half);
@@ -42,20 +42,20 @@ impl Overlay<'_> {
             outline.extend(right.drain(..).rev());
             outline.push(outline[0]);
         }
-        if !manner.off {
-            let fill = manner.tint(FILL);
+        if !style.off {
+            let fill = style.tint(FILL);
             self.band(&smooth, &[(-half, fill), (half, fill)]);
         }
         for border in [&outline, &right] {
-            self.glow(border, 1.6, manner);
-            self.polyline(border, Stroke::new(1.6, colour), manner.off);
+            self.glow(border, 1.6, style);
+            self.polyline(border, Stroke::new(1.6, colour), style.off);
         }
-        if !manner.off {
+        if !style.off {
             self.bricks(&smooth, thickness, colour.gamma_multiply(0.7));
         }
     }
 
-    /// Joints: one along the middle, and across alternately on either side of it.
+    /// Joints: one along the centre line, and alternating ones across.
     fn bricks(&self, points: &[Vec2], thickness: f32, colour: Color32) {
         let joint = Stroke::new(1.0, colour);
         self.polyline(points, joint, false);
@@ -66,20 +66,20 @@ impl Overlay<'_> {
         }
     }
 
-    fn thin(&self, points: &[Vec2], scale: f32, colour: Color32, manner: Manner) {
-        self.glow(points, 3.0, manner);
-        self.polyline(points, Stroke::new(5.0, manner.tint(Color32::from_black_alpha(150))), manner.off);
-        self.polyline(points, Stroke::new(2.6, colour), manner.off);
+    fn thin(&self, points: &[Vec2], scale: f32, colour: Color32, style: ConstraintStyle) {
+        self.glow(points, 3.0, style);
+        self.polyline(points, Stroke::new(5.0, style.tint(Color32::from_black_alpha(150))), style.off);
+        self.polyline(points, Stroke::new(2.6, colour), style.off);
         for (p, direction) in stroke::resample(points, TICKS[0] / scale, MOST) {
             let side = direction.perp() * (TICKS[1] / scale);
             self.polyline(&[p - side, p + side], Stroke::new(1.4, colour), false);
         }
     }
 
-    fn glow(&self, points: &[Vec2], width: f32, manner: Manner) {
-        if manner.selected {
+    fn glow(&self, points: &[Vec2], width: f32, style: ConstraintStyle) {
+        if style.selected {
             self.polyline(points, Stroke::new(width + 4.0, theme::ACCENT.gamma_multiply(0.6)), false);
-        } else if manner.hovered {
+        } else if style.hovered {
             self.polyline(points, Stroke::new(width + 3.5, Color32::from_white_alpha(110)), false);
         }
     }

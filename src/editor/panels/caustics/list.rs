@@ -3,56 +3,56 @@
 use egui::{Button, Color32, RichText, Ui, vec2};
 use lightloom_core::project::{CausticDesc, Project};
 use lightloom_core::scene::LightDesc;
+use lightloom_core::setting::format::number;
 
 use crate::editor::action::Action;
-use crate::editor::panels::Desk;
+use crate::editor::context::EditorContext;
 use crate::editor::panels::icons::{self, Icon, SIDE};
-use crate::editor::panels::setting::format_number;
 
 /// One caustic, or the rest.
-pub(super) fn row(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
-    let project = desk.document.project();
+pub(super) fn row(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
+    let project = editor.document.project();
     let caustic = project.caustics.get(group);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 4.0;
-        eye(ui, desk, group, name);
-        solo(ui, desk, group, name);
+        eye(ui, editor, group, name);
+        solo(ui, editor, group, name);
         let (swatch, _) = ui.allocate_exact_size(vec2(12.0, 12.0), egui::Sense::hover());
         ui.painter().rect_filled(swatch, 2.0, colour(project, caustic));
-        let shown = desk.session.shows_group(group);
+        let shown = editor.session.shows_group(group);
         let text = if shown { RichText::new(name) } else { RichText::new(name).weak() };
-        let chosen = desk.session.focus.caustic == Some(group);
-        let light = RichText::new(cast(desk, group).unwrap_or_default()).small().weak();
+        let chosen = editor.session.focus.caustic == Some(group);
+        let light = RichText::new(cast(editor, group).unwrap_or_default()).small().weak();
         let size = vec2(ui.available_width(), SIDE);
         let button = Button::selectable(chosen, text).right_text(light).truncate();
         let button = ui.add_enabled_ui(caustic.is_some(), |ui| ui.add_sized(size, button)).inner;
         let help = "What its light and mesh cast, as far as it is worked out. A click shows its values.";
         if button.accessible_name(name).on_hover_text(help).clicked() {
-            desk.session.focus.caustic = (!chosen).then_some(group);
+            editor.session.focus.caustic = (!chosen).then_some(group);
         }
     });
 }
 
-fn eye(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
-    let hidden = desk.session.hidden.contains(&group);
+fn eye(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
+    let hidden = editor.session.hidden.contains(&group);
     let (icon, what) = if hidden { (Icon::EyeShut, "Show") } else { (Icon::Eye, "Hide") };
     let button = icons::button(ui, icon, &format!("{what}: {name}"), !hidden);
-    if button.clicked() && !desk.session.hidden.remove(&group) {
-        desk.session.hidden.insert(group);
+    if button.clicked() && !editor.session.hidden.remove(&group) {
+        editor.session.hidden.insert(group);
     }
 }
 
-fn solo(ui: &mut Ui, desk: &mut Desk, group: usize, name: &str) {
-    let on = desk.session.solo.contains(&group);
+fn solo(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
+    let on = editor.session.solo.contains(&group);
     let button = ui.add(Button::selectable(on, "S").frame(true).min_size(vec2(SIDE, SIDE)));
     let button = button.accessible_name(format!("Solo: {name}"));
     if button.on_hover_text("Show this alone; several can be alone").clicked() {
-        let mut alone = desk.session.solo.clone();
+        let mut alone = editor.session.solo.clone();
         if !alone.remove(&group) {
             alone.insert(group);
         }
-        desk.ask(Action::Solo(alone));
+        editor.ask(Action::Solo(alone));
     }
 }
 
@@ -77,10 +77,10 @@ fn tint(light: &LightDesc) -> [f32; 3] {
 }
 
 /// Flux and photons of a group: "0.12 W, 6 500 photons". None before its light was traced.
-fn cast(desk: &Desk, group: usize) -> Option<String> {
-    let preview = desk.preview.preview()?;
+fn cast(editor: &EditorContext, group: usize) -> Option<String> {
+    let preview = editor.preview.preview()?;
     let light = preview.caustics().get(group)?;
     let watts = format!("{:.2e}", light.watts).parse().unwrap_or(light.watts);
-    let photons = format_number(light.photons as f64, true);
-    Some(format!("{} W, {photons} photons", format_number(watts, false)))
+    let photons = number(light.photons as f64, true);
+    Some(format!("{} W, {photons} photons", number(watts, false)))
 }

@@ -3,11 +3,11 @@
 use egui::{Align2, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 use lightloom_core::constraint::Constraint;
 
-use super::title;
 use crate::editor::action::Action;
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::panels::control::text;
 use crate::editor::panels::icons::{self, Icon};
-use crate::editor::panels::{Desk, setting};
 use crate::editor::selection::Selection;
 use crate::editor::theme;
 
@@ -18,10 +18,19 @@ const BUTTON: f32 = 24.0;
 /// Room for the sign of the kind, points.
 const SIGN: f32 = 26.0;
 
+/// The name of a constraint in the list: its own, or its kind and number.
+pub(crate) fn title(constraint: &Constraint, index: usize) -> String {
+    let (kind, name) = match constraint {
+        Constraint::DirectedLine(line) => ("Line", &line.name),
+        Constraint::Wall(wall) => ("Wall", &wall.name),
+    };
+    if name.is_empty() { format!("{kind} {}", index + 1) } else { name.clone() }
+}
+
 /// One constraint in the list.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize) {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, index: usize) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::click());
-    let selected = desk.session.selection.contains(index);
+    let selected = editor.session.selection.contains(index);
     let name = title(constraint, index);
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, ui.is_enabled(), selected, &name));
     let visuals = ui.visuals();
@@ -36,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index:
     let words = rect.with_min_x(rect.left() + SIGN).with_max_x(buttons.left());
     let renaming = Id::unique("renamed constraint");
     if ui.data(|data| data.get_temp::<usize>(renaming)) == Some(index) {
-        rename(ui, desk, constraint, index, words);
+        rename(ui, editor, constraint, index, words);
     } else {
         let colour = if constraint.is_enabled() { visuals.text_color() } else { visuals.weak_text_color() };
         let font = TextStyle::Body.resolve(ui.style());
@@ -46,10 +55,10 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index:
         ui.data_mut(|data| data.insert_temp(renaming, index));
         ui.memory_mut(|memory| memory.request_focus(field_id(index)));
     } else if response.clicked() {
-        desk.ask(Action::Select(select(ui, &desk.session.selection, index)));
+        editor.ask(Action::Select(select(ui, &editor.session.selection, index)));
     }
     response.on_hover_text("Click selects, Shift or Ctrl adds, double click renames.");
-    switches(ui, desk, constraint, index, buttons);
+    switches(ui, editor, constraint, index, buttons);
 }
 
 /// The selection after a click on a line of the list.
@@ -83,15 +92,15 @@ fn field_id(index: usize) -> Id {
     Id::unique(("name of constraint", index))
 }
 
-fn rename(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize, words: Rect) {
+fn rename(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, index: usize, words: Rect) {
     let now = match constraint {
         Constraint::DirectedLine(line) => &line.name,
         Constraint::Wall(wall) => &wall.name,
     };
     let mut place = ui.new_child(egui::UiBuilder::new().max_rect(words));
-    let (response, new) = setting::words_field(&mut place, field_id(index), now, words.width());
+    let (response, new) = text::field(&mut place, field_id(index), now, words.width());
     if let Some(new) = new {
-        desk.ask(Edit::Change(vec![(index, with(constraint, |name, _, _| *name = new))]));
+        editor.ask(Edit::Change(vec![(index, with(constraint, |name, _, _| *name = new))]));
     }
     if response.lost_focus() || !response.has_focus() {
         ui.data_mut(|data| data.remove::<usize>(Id::unique("renamed constraint")));
@@ -99,18 +108,18 @@ fn rename(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize, w
     response.accessible_name("Name");
 }
 
-fn switches(ui: &mut Ui, desk: &mut Desk, constraint: &Constraint, index: usize, place: Rect) {
+fn switches(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, index: usize, place: Rect) {
     let name = title(constraint, index);
     let (eye, padlock) = place.split_left_right_at_x(place.center().x);
     let on = constraint.is_enabled();
     let (icon, what) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
     if icons::button_at(ui, eye, icon, &format!("{what}: {name}"), on).clicked() {
-        desk.ask(Edit::Change(vec![(index, with(constraint, |_, enabled, _| *enabled = !on))]));
+        editor.ask(Edit::Change(vec![(index, with(constraint, |_, enabled, _| *enabled = !on))]));
     }
     let locked = constraint.is_locked();
     let (icon, what) = if locked { (Icon::Lock, "Unlock") } else { (Icon::LockOpen, "Lock") };
     if icons::button_at(ui, padlock, icon, &format!("{what}: {name}"), locked).clicked() {
-        desk.ask(Edit::Change(vec![(index, with(constraint, |_, _, lock| *lock = !locked))]));
+        editor.ask(Edit::Change(vec![(index, with(constraint, |_, _, lock| *lock = !locked))]));
     }
 }
 

@@ -1,57 +1,31 @@
 //! The values of what is selected, one or several at once.
 
 use egui::Ui;
-use lightloom_core::constraint::{Constraint, DirectedLine, Span, Wall};
+use lightloom_core::constraint::{Common, Constraint, DirectedLine, Span, Wall};
+use lightloom_core::setting::format::number;
 
+use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
-use crate::editor::panels::setting::{Choice, Setting, format_number};
-use crate::editor::panels::{Desk, aside};
+use crate::editor::panels::control::Control;
+use crate::editor::panels::widgets::aside;
 
-const WEIGHT: Setting = Setting::real("Weight", "constraints[directed_line].weight", [0.0, 1000.0], &[1.0])
-    .slider(0.0, 100.0)
-    .logarithmic()
-    .help("How strongly the line pulls: a factor on beta. Raise it where light ignores this line alone.");
-const SPEED: Setting = Setting::real("Speed", "constraints[directed_line].speed", [0.0, 100.0], &[1.0])
-    .slider(0.1, 10.0)
-    .logarithmic()
-    .help("Speed along the line over that of the light around it. 1 steers and does not hurry.");
-const WIDTH: Setting = Setting::real("Width", "constraints[directed_line].width", [0.001, 1.0], &[0.05])
-    .slider(0.005, 0.5)
-    .logarithmic()
-    .help("How far beside the line it pulls, ever less, in plane units: the longer side of the plane is 1.");
-const THICKNESS: Setting =
-    Setting::real("Thickness", "constraints[wall].thickness", [1e-4, 0.5], &[3.0 / 128.0])
-        .slider(0.001, 0.2)
-        .logarithmic()
-        .help("Light on its way around keeps half of it away from the wall, in plane units. Narrower gaps count as closed.");
-const SPAN: Setting = Setting::choice(
-    "Acts",
-    "constraints[].span",
-    &[Choice::new("", "Always", "in all frames"), Choice::new("", "In frames", "from one frame to another")],
-)
-.help("When it acts.");
-const FROM: Setting = Setting::whole("From frame", "constraints[].span.from", [-1e6, 1e6], &[])
-    .help("First frame in which it acts.");
-const TO: Setting = Setting::whole("To frame", "constraints[].span.to", [-1e6, 1e6], &[])
-    .help("Last frame in which it acts.");
-const FADE: Setting = Setting::whole("Fade", "constraints[].span.fade", [0.0, 100_000.0], &[0.0])
-    .unit("frames")
-    .help("Frames over which a line sets in and fades out, within its span.");
-const NAME: Setting = Setting::text("Name", "constraints[].name").help("The artist's name for it.");
-const ON: Setting =
-    Setting::switch("On", "constraints[].enabled", true).help("The eye in the list: whether it acts at all.");
-const LOCKED: Setting = Setting::switch("Locked", "constraints[].locked", false)
-    .help("The padlock in the list: keeps it from being changed.");
+const WEIGHT: Control = Control::new("Weight", DirectedLine::WEIGHT).log_slider(0.0, 100.0);
+const SPEED: Control = Control::new("Speed", DirectedLine::SPEED).log_slider(0.1, 10.0);
+const WIDTH: Control = Control::new("Width", DirectedLine::WIDTH).log_slider(0.005, 0.5).without_suffix();
+const THICKNESS: Control = Control::new("Thickness", Wall::THICKNESS).log_slider(0.001, 0.2).without_suffix();
+const SPAN: Control = Control::new("Acts", Common::SPAN).labels(&["Always", "In frames"]);
+const FROM: Control = Control::new("From frame", Span::FROM);
+const TO: Control = Control::new("To frame", Span::TO);
+const FADE: Control = Control::new("Fade", Span::FADE);
 
 /// The settings of what was drawn; name, eye and padlock stand in the list.
-pub(super) const SETTINGS: &[Setting] =
-    &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE, NAME, ON, LOCKED];
+pub(super) const CONTROLS: &[Control] = &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE];
 
 /// A change of one constraint.
 type Change = Box<dyn Fn(&mut Constraint)>;
 
 /// The values of the `chosen`; each change reaches all of them that are not locked.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], chosen: &[usize]) {
+pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Constraint], chosen: &[usize]) {
     let free: Vec<usize> = chosen.iter().copied().filter(|&i| !constraints[i].is_locked()).collect();
     if free.len() < chosen.len() {
         ui.weak(if free.is_empty() { "It is locked." } else { "Those that are locked stay as they are." });
@@ -62,18 +36,18 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], cho
         let mut lines = of.iter().filter_map(|&i| line_of(&constraints[i]));
         if let Some(line) = lines.next() {
             let alike = lines.all(|l| (l.weight, l.speed, l.width) == (line.weight, line.speed, line.width));
-            line_values(ui, desk, line.clone(), &mut changes);
+            line_values(ui, editor, line.clone(), &mut changes);
             mixed(ui, alike);
         }
         let mut walls = of.iter().filter_map(|&i| wall_of(&constraints[i]));
         if let Some(wall) = walls.next() {
             let alike = walls.all(|w| w.thickness == wall.thickness);
-            wall_values(ui, desk, wall.clone(), &mut changes);
+            wall_values(ui, editor, wall.clone(), &mut changes);
             mixed(ui, alike);
         }
         if let Some(&first) = of.first() {
             let any_line = of.iter().any(|&i| line_of(&constraints[i]).is_some());
-            span(ui, desk, constraints[first].span().copied(), any_line, &mut changes);
+            span(ui, editor, constraints[first].span().copied(), any_line, &mut changes);
             mixed(ui, of.iter().all(|&i| constraints[i].span() == constraints[first].span()));
         }
     });
@@ -83,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, constraints: &[Constraint], cho
             changes.iter().for_each(|change| change(&mut constraint));
             (i, constraint)
         });
-        desk.ask(Edit::Change(changed.collect()));
+        editor.ask(Edit::Change(changed.collect()));
     }
 }
 
@@ -101,7 +75,7 @@ fn mixed(ui: &mut Ui, alike: bool) {
     }
 }
 
-fn line_values(ui: &mut Ui, desk: &Desk, mut line: DirectedLine, changes: &mut Vec<Change>) {
+fn line_values(ui: &mut Ui, editor: &EditorContext, mut line: DirectedLine, changes: &mut Vec<Change>) {
     let mut on_lines = |change: Box<dyn Fn(&mut DirectedLine)>| {
         changes.push(Box::new(move |constraint| {
             if let Constraint::DirectedLine(line) = constraint {
@@ -118,10 +92,10 @@ fn line_values(ui: &mut Ui, desk: &Desk, mut line: DirectedLine, changes: &mut V
     if WIDTH.number(ui, &mut line.width) {
         on_lines(Box::new(move |other| other.width = line.width));
     }
-    in_plane(ui, desk, line.width);
+    in_plane(ui, editor, line.width);
 }
 
-fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Change>) {
+fn wall_values(ui: &mut Ui, editor: &EditorContext, mut wall: Wall, changes: &mut Vec<Change>) {
     if THICKNESS.number(ui, &mut wall.thickness) {
         changes.push(Box::new(move |constraint| {
             if let Constraint::Wall(other) = constraint {
@@ -129,21 +103,21 @@ fn wall_values(ui: &mut Ui, desk: &Desk, mut wall: Wall, changes: &mut Vec<Chang
             }
         }));
     }
-    in_plane(ui, desk, wall.thickness);
+    in_plane(ui, editor, wall.thickness);
 }
 
 /// A length on the plane in per cent of it, and in cells of the field.
-fn in_plane(ui: &mut Ui, desk: &Desk, length: f32) {
-    let project = desk.document.project();
+fn in_plane(ui: &mut Ui, editor: &EditorContext, length: f32) {
+    let project = editor.document.project();
     let cells = project.flow.grid.cells(project.extent()).into_iter().max().unwrap_or(0);
-    let tenths = |value: f32| format_number((f64::from(value) * 10.0).round() / 10.0, false);
+    let tenths = |value: f32| number((f64::from(value) * 10.0).round() / 10.0, false);
     aside(ui, &format!("{} % of the plane, {} cells", tenths(length * 100.0), tenths(length * cells as f32)));
 }
 
-fn span(ui: &mut Ui, desk: &Desk, now: Option<Span>, fades: bool, changes: &mut Vec<Change>) {
+fn span(ui: &mut Ui, editor: &EditorContext, now: Option<Span>, fades: bool, changes: &mut Vec<Change>) {
     let mut span = now;
     if let Some(kind) = SPAN.pick(ui, usize::from(span.is_some())) {
-        let keys = &desk.document.project().keys;
+        let keys = &editor.document.project().keys;
         let ends = keys.first().zip(keys.last());
         let all = ends.map(|(first, last)| Span { from: first.frame, to: last.frame, fade: 0 });
         span = if kind == 1 { all } else { None };
@@ -168,9 +142,9 @@ fn span(ui: &mut Ui, desk: &Desk, now: Option<Span>, fades: bool, changes: &mut 
 }
 
 /// A field without a slider: frames have no end.
-fn whole<T: egui::emath::Numeric>(setting: &Setting, ui: &mut Ui, value: &mut T) -> bool {
+fn whole<T: egui::emath::Numeric>(control: &Control, ui: &mut Ui, value: &mut T) -> bool {
     let mut values = [*value];
-    let changed = setting.numbers(ui, &mut values, [""]);
+    let changed = control.numbers(ui, &mut values, [""]);
     *value = values[0];
     changed
 }

@@ -5,9 +5,10 @@ use lightloom_core::project::CausticDesc;
 use lightloom_core::scene::light::{DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight};
 use lightloom_core::scene::{LightDesc, SceneDesc};
 
-use super::{XYZ, list};
-use crate::editor::panels::setting::{Choice, Setting};
-use crate::editor::panels::{Desk, free_name, menu, remove_button, section};
+use crate::editor::context::EditorContext;
+use crate::editor::panels::control::Control;
+use crate::editor::panels::widgets::{XYZ, list, menu, remove_button, section};
+use crate::editor::unique_name::unique_name;
 
 /// A kind of light, as it begins.
 const KINDS: &[fn() -> LightDesc] = &[
@@ -18,64 +19,25 @@ const KINDS: &[fn() -> LightDesc] = &[
     || LightDesc::Sphere(SphereLight::default()),
 ];
 
-const KIND: Setting = Setting::choice(
-    "Kind",
-    "scene.lights[]",
-    &[
-        Choice::new("point", "Point", "shines evenly to all sides"),
-        Choice::new("spot", "Spot", "a cone of light"),
-        Choice::new("directional", "Directional", "the sun: parallel light, or nearly"),
-        Choice::new("rectangle", "Rectangle", "a flat panel that shines to one side"),
-        Choice::new("sphere", "Sphere", "a glowing ball"),
-    ],
-)
-.help("Small lights cast sharp caustics, large ones soft.");
-const NAME: Setting =
-    Setting::text("Name", "scene.lights[].name").help("Shown in the list of caustics; each name once.");
-const WATTS: Setting = Setting::real("Power", "scene.lights[].watts", [0.0, 1e9], &[10.0])
-    .unit("W")
-    .slider(0.0, 1000.0)
-    .logarithmic()
-    .help("Power of the whole light. A narrower cone of the same power is brighter.");
-const COLOUR: Setting = Setting::colour("Colour", "scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0])
-    .help("Factor on the power, linear Rec.709.");
-const POSITION: Setting =
-    Setting::vector("Position", "scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0])
-        .help("Where it stands, x y z in metres; y is up.");
-const TARGET: Setting = Setting::vector("Looks at", "scene.lights[].target", [-1e6, 1e6], &[0.0; 3])
-    .help("The point it looks at, in metres.");
-const ANGLE: Setting = Setting::real("Cone", "scene.lights[spot].angle_deg", [0.1, 360.0], &[40.0])
-    .unit("°")
-    .slider(0.1, 180.0)
-    .logarithmic()
-    .help("Opening angle of the cone from edge to edge.");
-const EDGE: Setting = Setting::real("Soft edge", "scene.lights[spot].soft_edge", [0.0, 1.0], &[0.15])
-    .help("Share of the cone over which it fades; 0 is sharp.");
-const IRRADIANCE: Setting =
-    Setting::real("Irradiance", "scene.lights[directional].irradiance", [0.0, 1e9], &[10.0])
-        .unit("W/m²")
-        .slider(0.0, 2000.0)
-        .logarithmic()
-        .help("On a surface that faces it; sunlight has about 1000.");
-const DIRECTION: Setting =
-    Setting::vector("Direction", "scene.lights[directional].direction", [-1e6, 1e6], &[0.0, -1.0, 0.0])
-        .help("Where the light goes, not where it comes from.");
-const SUN: Setting = Setting::real("Disk", "scene.lights[directional].angle_deg", [0.0, 90.0], &[0.0])
-    .unit("°")
-    .slider(0.0, 10.0)
-    .help("Width of the disk in the sky; the sun has 0.53. Wider is softer.");
-const SIZE: Setting = Setting::vector("Size", "scene.lights[rectangle].size", [1e-6, 1e5], &[0.5, 0.5])
-    .help("Width and height in metres.");
-const RADIUS: Setting = Setting::real("Radius", "scene.lights[sphere].radius", [1e-6, 1e5], &[0.05])
-    .unit("m")
-    .slider(0.001, 10.0)
-    .logarithmic()
-    .help("Larger balls cast softer caustics.");
+const KIND: Control =
+    Control::new("Kind", LightDesc::KIND).labels(&["Point", "Spot", "Directional", "Rectangle", "Sphere"]);
+const NAME: Control = Control::new("Name", LightDesc::NAME);
+const WATTS: Control = Control::new("Power", LightDesc::WATTS).log_slider(0.0, 1000.0);
+const COLOUR: Control = Control::new("Colour", LightDesc::COLOUR);
+const POSITION: Control = Control::new("Position", LightDesc::POSITION);
+const TARGET: Control = Control::new("Looks at", LightDesc::TARGET);
+const ANGLE: Control = Control::new("Cone", SpotLight::ANGLE).log_slider(0.1, 180.0);
+const EDGE: Control = Control::new("Soft edge", SpotLight::SOFT_EDGE);
+const IRRADIANCE: Control = Control::new("Irradiance", DirectionalLight::IRRADIANCE).log_slider(0.0, 2000.0);
+const DIRECTION: Control = Control::new("Direction", DirectionalLight::DIRECTION);
+const DISK: Control = Control::new("Disk", DirectionalLight::ANGLE).slider(0.0, 10.0);
+const SIZE: Control = Control::new("Size", RectangleLight::SIZE);
+const RADIUS: Control = Control::new("Radius", SphereLight::RADIUS).log_slider(0.001, 10.0);
 
 /// The settings of lights.
 #[rustfmt::skip]
-pub(super) const SETTINGS: &[Setting] = &[
-    KIND, NAME, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, SUN, SIZE, RADIUS,
+pub(super) const CONTROLS: &[Control] = &[
+    KIND, NAME, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, DISK, SIZE, RADIUS,
 ];
 
 /// The light of a new scene.
@@ -94,18 +56,23 @@ fn kind(light: &LightDesc) -> usize {
 }
 
 /// The list, and the values of the light that is chosen. Caustics follow a name.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics: &mut [CausticDesc]) {
-    let names = scene.lights.iter().map(|light| (light.name(), KIND.options[kind(light)].name));
-    list(ui, "Light", names, &mut desk.session.focus.light);
-    let chosen = desk.session.focus.light.filter(|index| *index < scene.lights.len());
+pub(super) fn show(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    scene: &mut SceneDesc,
+    caustics: &mut [CausticDesc],
+) {
+    let names = scene.lights.iter().map(|light| (light.name(), KIND.labels[kind(light)]));
+    list(ui, "Light", names, &mut editor.session.focus.light);
+    let chosen = editor.session.focus.light.filter(|index| *index < scene.lights.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let kinds = KIND.options.iter().map(|choice| (choice.name, choice.help));
+        let kinds = KIND.labels.iter().zip(KIND.setting.choices).map(|(label, choice)| (*label, choice.help));
         if let Some(make) = menu(ui, "Add a light", kinds).and_then(|new| KINDS.get(new)) {
             let mut light = make();
-            let name = free_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
+            let name = unique_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
             *name_of(&mut light) = name;
-            desk.session.focus.light = Some(scene.lights.len());
+            editor.session.focus.light = Some(scene.lights.len());
             scene.lights.push(light);
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
@@ -113,16 +80,16 @@ pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics
                 && let Some(index) = chosen
             {
                 scene.lights.remove(index);
-                desk.session.focus.light = None;
+                editor.session.focus.light = None;
             }
         });
     });
-    let Some(index) = desk.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
+    let Some(index) = editor.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
     let taken: Vec<String> = scene.lights.iter().map(|light| light.name().to_owned()).collect();
     let light = &mut scene.lights[index];
     section(ui, light.name());
-    if let Some(name) = NAME.words(ui, index, light.name()).filter(|name| !name.is_empty()) {
-        let name = free_name(&name, |name| taken.iter().any(|other| other == name));
+    if let Some(name) = NAME.text(ui, index, light.name()).filter(|name| !name.is_empty()) {
+        let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         let of_light = caustics.iter_mut().filter_map(|caustic| caustic.light.as_mut());
         of_light.filter(|other| *other == light.name()).for_each(|other| other.clone_from(&name));
         *name_of(light) = name;
@@ -171,9 +138,9 @@ fn values(ui: &mut Ui, light: &mut LightDesc) {
         }
         LightDesc::Directional(light) => {
             IRRADIANCE.number(ui, &mut light.irradiance);
-            COLOUR.tint(ui, &mut light.colour);
+            COLOUR.colour(ui, &mut light.colour);
             DIRECTION.numbers(ui, &mut light.direction, XYZ);
-            SUN.number(ui, &mut light.angle_deg);
+            DISK.number(ui, &mut light.angle_deg);
         }
         LightDesc::Rectangle(light) => {
             shared(ui, &mut light.watts, &mut light.colour, &mut light.position);
@@ -189,7 +156,7 @@ fn values(ui: &mut Ui, light: &mut LightDesc) {
 
 fn shared(ui: &mut Ui, watts: &mut f32, colour: &mut [f32; 3], position: &mut [f32; 3]) {
     WATTS.number(ui, watts);
-    COLOUR.tint(ui, colour);
+    COLOUR.colour(ui, colour);
     POSITION.numbers(ui, position, XYZ);
 }
 
@@ -199,7 +166,7 @@ mod tests {
 
     #[test]
     fn every_kind_is_found_again_under_its_number() {
-        assert_eq!(KINDS.len(), KIND.options.len());
+        assert_eq!(KINDS.len(), KIND.labels.len());
         for (i, make) in KINDS.iter().enumerate() {
             assert_eq!(kind(&make()), i);
         }

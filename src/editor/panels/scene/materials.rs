@@ -4,7 +4,8 @@ use egui::Ui;
 use lightloom_core::scene::Material;
 use lightloom_core::scene::material::{Diffuse, Glass, Mirror};
 
-use crate::editor::panels::setting::{Choice, Setting, presets};
+use crate::editor::panels::control::Control;
+use crate::editor::panels::control::choice::preset_menu;
 
 /// A kind of material, as it begins; the first is none: as the file says.
 const KINDS: &[fn() -> Option<Material>] = &[
@@ -25,39 +26,16 @@ const GLASSES: &[(&str, f32, Option<f32>)] = &[
     ("Diamond", 2.417, Some(55.3)),
 ];
 
-const KIND: Setting = Setting::choice(
-    "Material",
-    "scene.meshes[].material",
-    &[
-        Choice::new("", "As the file", "what the MTL file beside the mesh says"),
-        Choice::new("diffuse", "Matt", "scatters light evenly; caustics end here"),
-        Choice::new("mirror", "Mirror", "polished metal"),
-        Choice::new("glass", "Glass", "glass, water, crystal"),
-    ],
-)
-.help("What the mesh is made of. Glass and mirrors cast the caustics.");
-const ALBEDO: Setting =
-    Setting::colour("Albedo", "scene.meshes[].material.albedo", [0.0, 1.0], &[0.8, 0.8, 0.8])
-        .help("Share of light it gives back, linear Rec.709.");
-const REFLECTANCE: Setting =
-    Setting::colour("Reflectance", "scene.meshes[].material.reflectance", [0.0, 1.0], &[0.95, 0.95, 0.95])
-        .help("Share of light it reflects, linear Rec.709.");
-const INDEX: Setting = Setting::real("Index", "scene.meshes[].material.ior", [1.0, 4.0], &[1.5]).help(
-    "Index of refraction at 587.6 nm: water 1.33, window glass 1.52, diamond 2.42. Higher bends light more.",
-);
-const ABSORPTION: Setting =
-    Setting::colour("Absorption", "scene.meshes[].material.absorption", [0.0, 1e6], &[0.0, 0.0, 0.0])
-        .unit("")
-        .help(
-            "Absorption per metre, linear Rec.709: what is absorbed most is the colour that the glass lacks.",
-        );
-const DISPERSION: Setting =
-    Setting::real("Abbe number", "scene.meshes[].material.dispersion", [5.0, 1000.0], &[])
-        .slider(10.0, 100.0)
-        .help("Smaller spreads the colours more: crown glass 60, flint 36. Default: no dispersion.");
+const KIND: Control =
+    Control::new("Material", Material::KIND).labels(&["As the file", "Matt", "Mirror", "Glass"]);
+const ALBEDO: Control = Control::new("Albedo", Diffuse::ALBEDO);
+const REFLECTANCE: Control = Control::new("Reflectance", Mirror::REFLECTANCE);
+const INDEX: Control = Control::new("Index", Glass::IOR);
+const ABSORPTION: Control = Control::new("Absorption", Glass::ABSORPTION);
+const DISPERSION: Control = Control::new("Abbe number", Glass::DISPERSION).slider(10.0, 100.0);
 
 /// The settings of materials.
-pub(super) const SETTINGS: &[Setting] = &[KIND, ALBEDO, REFLECTANCE, INDEX, ABSORPTION, DISPERSION];
+pub(super) const CONTROLS: &[Control] = &[KIND, ALBEDO, REFLECTANCE, INDEX, ABSORPTION, DISPERSION];
 
 /// Clear crown glass, without dispersion.
 pub(super) fn crown() -> Glass {
@@ -74,7 +52,7 @@ fn kind(material: &Material) -> usize {
 
 /// What the window calls its kind.
 pub(super) fn name(material: &Material) -> &'static str {
-    KIND.options[kind(material)].name
+    KIND.labels[kind(material)]
 }
 
 /// Kind and values of a material.
@@ -86,10 +64,10 @@ pub(super) fn show(ui: &mut Ui, material: &mut Option<Material>) {
     match material {
         None => {}
         Some(Material::Diffuse(diffuse)) => {
-            ALBEDO.tint(ui, &mut diffuse.albedo);
+            ALBEDO.colour(ui, &mut diffuse.albedo);
         }
         Some(Material::Mirror(mirror)) => {
-            REFLECTANCE.tint(ui, &mut mirror.reflectance);
+            REFLECTANCE.colour(ui, &mut mirror.reflectance);
         }
         Some(Material::Glass(glass)) => of_glass(ui, glass),
     }
@@ -98,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, material: &mut Option<Material>) {
 fn of_glass(ui: &mut Ui, glass: &mut Glass) {
     ui.horizontal(|ui| {
         INDEX.number_beside(ui, &mut glass.ior, 30.0);
-        if let Some(taken) = presets(ui, "Ready glasses", GLASSES.iter().map(|(name, ..)| *name)) {
+        if let Some(taken) = preset_menu(ui, "Ready glasses", GLASSES.iter().map(|(name, ..)| *name)) {
             let (_, ior, abbe) = GLASSES[taken];
             // Who wants no rainbow keeps none.
             let dispersion = glass.dispersion.and(abbe);
@@ -106,7 +84,7 @@ fn of_glass(ui: &mut Ui, glass: &mut Glass) {
         }
     });
     DISPERSION.optional(ui, &mut glass.dispersion, "none", 60.0);
-    ABSORPTION.tint(ui, &mut glass.absorption);
+    ABSORPTION.colour(ui, &mut glass.absorption);
 }
 
 #[cfg(test)]
@@ -115,7 +93,7 @@ mod tests {
 
     #[test]
     fn every_kind_is_found_again_under_its_number() {
-        assert_eq!(KINDS.len(), KIND.options.len());
+        assert_eq!(KINDS.len(), KIND.labels.len());
         for (i, make) in KINDS.iter().enumerate() {
             assert_eq!(make().as_ref().map_or(0, kind), i);
         }

@@ -2,67 +2,65 @@
 
 use egui::Ui;
 use lightloom_core::project::CausticDesc;
+use lightloom_core::scene::mesh::Transform;
 use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
-use super::{XYZ, list, materials};
+use super::materials;
 use crate::editor::action::Action;
-use crate::editor::panels::setting::Setting;
-use crate::editor::panels::{Desk, free_name, remove_button, section, shows};
-use crate::editor::pick::Pick;
+use crate::editor::asset::AssetUse;
+use crate::editor::context::EditorContext;
+use crate::editor::panels::control::Control;
+use crate::editor::panels::shows;
+use crate::editor::panels::widgets::{XYZ, list, remove_button, section};
+use crate::editor::unique_name::unique_name;
 
-const NAME: Setting =
-    Setting::text("Name", "scene.meshes[].name").help("Shown in the list of caustics; each name once.");
-const FILE: Setting =
-    Setting::part("File", "scene.meshes[].file").help("An OBJ file, relative to the project.");
-const MOVE: Setting = Setting::vector("Place", "scene.meshes[].transform.translate", [-1e6, 1e6], &[0.0; 3])
-    .help("Where the file's origin stands, x y z in metres; y is up.");
-const TURN: Setting =
-    Setting::vector("Turn", "scene.meshes[].transform.rotate", [-36_000.0, 36_000.0], &[0.0; 3])
-        .help("Turn about the x, then y, then z axis in degrees.");
-const SCALE: Setting = Setting::real("Scale", "scene.meshes[].transform.scale", [1e-12, 1e12], &[1.0])
-    .slider(0.001, 1000.0)
-    .logarithmic()
-    .help("Factor on the file's units: 0.001 for a file in millimetres.");
-const SMOOTH: Setting = Setting::switch("Smooth", "scene.meshes[].smooth", true)
-    .help("Smooth shading over edges of less than 50 degrees; off for facets, as of a gem.");
-const PRIORITY: Setting = Setting::whole("Priority", "scene.meshes[].priority", [-1000.0, 1000.0], &[0.0])
-    .slider(-10.0, 10.0)
-    .help("Where solids of glass overlap, as wine and its glass do, the higher priority fills the place.");
+const NAME: Control = Control::new("Name", MeshDesc::NAME);
+const FILE: Control = Control::new("File", MeshDesc::FILE);
+const MOVE: Control = Control::new("Place", Transform::TRANSLATE);
+const TURN: Control = Control::new("Turn", Transform::ROTATE);
+const SCALE: Control = Control::new("Scale", Transform::SCALE).log_slider(0.001, 1000.0);
+const SMOOTH: Control = Control::new("Smooth", MeshDesc::SMOOTH);
+const PRIORITY: Control = Control::new("Priority", MeshDesc::PRIORITY).slider(-10.0, 10.0);
 
 /// The settings of a mesh.
-pub(super) const SETTINGS: &[Setting] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
+pub(super) const CONTROLS: &[Control] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
 /// The list, and the values of the mesh that is chosen. Caustics follow a name.
-pub(super) fn show(ui: &mut Ui, desk: &mut Desk, scene: &mut SceneDesc, caustics: &mut [CausticDesc]) {
+pub(super) fn show(
+    ui: &mut Ui,
+    editor: &mut EditorContext,
+    scene: &mut SceneDesc,
+    caustics: &mut [CausticDesc],
+) {
     let kind = |mesh: &MeshDesc| mesh.material.as_ref().map_or("as file", materials::name);
     let names = scene.meshes.iter().map(|mesh| (mesh.name.as_str(), kind(mesh)));
-    list(ui, "Mesh", names, &mut desk.session.focus.mesh);
-    let chosen = desk.session.focus.mesh.filter(|index| *index < scene.meshes.len());
+    list(ui, "Mesh", names, &mut editor.session.focus.mesh);
+    let chosen = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui.button("Add OBJ…").on_hover_text("Choose a mesh file, or drop it onto the window").clicked() {
-            desk.ask(Action::Pick(Pick::Mesh));
+            editor.ask(Action::PickFile(AssetUse::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
             if remove_button(ui, "Remove this mesh")
                 && let Some(index) = chosen
             {
                 scene.meshes.remove(index);
-                desk.session.focus.mesh = None;
+                editor.session.focus.mesh = None;
             }
         });
     });
-    let Some(index) = desk.session.focus.mesh.filter(|index| *index < scene.meshes.len()) else { return };
+    let Some(index) = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len()) else { return };
     let taken: Vec<String> = scene.meshes.iter().map(|mesh| mesh.name.clone()).collect();
     let mesh = &mut scene.meshes[index];
     section(ui, &mesh.name);
-    if let Some(name) = NAME.words(ui, index, &mesh.name).filter(|name| !name.is_empty()) {
-        let name = free_name(&name, |name| taken.iter().any(|other| other == name));
+    if let Some(name) = NAME.text(ui, index, &mesh.name).filter(|name| !name.is_empty()) {
+        let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         follow(caustics, &mesh.name, &name);
         mesh.name = name;
     }
     if shows::file(ui, &FILE, &mesh.file) {
-        desk.ask(Action::Pick(Pick::MeshFile(index)));
+        editor.ask(Action::PickFile(AssetUse::MeshFile(index)));
     }
     MOVE.numbers(ui, &mut mesh.transform.translate, XYZ);
     TURN.numbers(ui, &mut mesh.transform.rotate, XYZ);

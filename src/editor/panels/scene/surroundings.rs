@@ -4,67 +4,41 @@ use egui::Ui;
 use lightloom_core::project::PlaneSettings;
 use lightloom_core::scene::{CameraDesc, EnvironmentDesc, ReceiverDesc};
 
-use super::XYZ;
-use crate::editor::panels::Desk;
-use crate::editor::panels::setting::Setting;
+use crate::editor::context::EditorContext;
+use crate::editor::panels::control::Control;
+use crate::editor::panels::widgets::XYZ;
 
-const POSITION: Setting = Setting::vector("Position", "scene.camera.position", [-1e6, 1e6], &[0.0, 1.2, 1.6])
-    .help("Where the camera stands, x y z in metres; y is up.");
-const LOOK_AT: Setting = Setting::vector("Looks at", "scene.camera.look_at", [-1e6, 1e6], &[0.0; 3])
-    .help("The point in the middle of the picture, in metres.");
-const UP: Setting = Setting::vector("Up", "scene.camera.up", [-1e6, 1e6], &[0.0, 1.0, 0.0])
-    .help("What is up in the picture. Touch it only to look straight down, or to tilt.");
-const FOV: Setting = Setting::real("Field of view", "scene.camera.fov_deg", [1.0, 170.0], &[40.0])
-    .unit("°")
-    .slider(5.0, 120.0)
-    .help("Vertical angle of the picture. Narrow flattens, wide exaggerates.");
-const CENTRE: Setting = Setting::vector("Middle", "scene.receiver.centre", [-1e6, 1e6], &[0.0; 3])
-    .help("The middle of the rectangle on which the caustics fall, in metres.");
-const SIZE: Setting = Setting::vector("Size", "scene.receiver.size", [1e-4, 1e5], &[1.0, 1.0])
-    .help("Width and height in metres. What was drawn keeps its place in shares of the longer side.");
-const TURN: Setting = Setting::vector("Turn", "scene.receiver.rotate", [-36_000.0, 36_000.0], &[0.0; 3])
-    .help("Turn about the x, then y, then z axis in degrees; none lies flat and faces up.");
-const ALBEDO: Setting = Setting::colour("Albedo", "scene.receiver.albedo", [0.0, 1.0], &[0.8, 0.8, 0.8])
-    .help("Share of light it gives back, linear Rec.709. Darker tables let caustics stand out.");
-const SURROUND: Setting = Setting::real("Surround", "scene.receiver.surround", [0.0, 1e5], &[0.0])
-    .unit("m")
-    .slider(0.0, 100.0)
-    .logarithmic()
-    .help("How much further the floor reaches around the rectangle in the picture.");
-const ZENITH: Setting = Setting::colour("Zenith", "scene.environment.zenith", [0.0, 1e6], &[0.0, 0.0, 0.0])
-    .help("Light from straight up, linear Rec.709 radiance. It casts no caustics.");
-const HORIZON: Setting =
-    Setting::colour("Horizon", "scene.environment.horizon", [0.0, 1e6], &[0.0, 0.0, 0.0])
-        .help("Light from the horizon, linear Rec.709 radiance.");
-const GROUND: Setting = Setting::colour("Ground", "scene.environment.ground", [0.0, 1e6], &[0.0, 0.0, 0.0])
-    .help("Light from below the horizon where no floor hides it.");
-const ASPECT: Setting = Setting::real("Aspect", "plane.aspect", [0.01, 100.0], &[1.0])
-    .slider(0.25, 4.0)
-    .logarithmic()
-    .help("Width of the plane over its height.");
-const WATTS: Setting = Setting::real("Power", "plane.watts", [1e-9, 1e9], &[1.0])
-    .unit("W")
-    .slider(0.01, 100.0)
-    .logarithmic()
-    .help("Power of all the light on the plane.");
+const POSITION: Control = Control::new("Position", CameraDesc::POSITION);
+const LOOK_AT: Control = Control::new("Looks at", CameraDesc::LOOK_AT);
+const UP: Control = Control::new("Up", CameraDesc::UP);
+const FOV: Control = Control::new("Field of view", CameraDesc::FOV).slider(5.0, 120.0);
+const CENTRE: Control = Control::new("Centre", ReceiverDesc::CENTRE);
+const SIZE: Control = Control::new("Size", ReceiverDesc::SIZE);
+const TURN: Control = Control::new("Turn", ReceiverDesc::ROTATE);
+const ALBEDO: Control = Control::new("Albedo", ReceiverDesc::ALBEDO);
+const SURROUND: Control = Control::new("Surround", ReceiverDesc::SURROUND).log_slider(0.0, 100.0);
+const ZENITH: Control = Control::new("Zenith", EnvironmentDesc::ZENITH);
+const HORIZON: Control = Control::new("Horizon", EnvironmentDesc::HORIZON);
+const GROUND: Control = Control::new("Ground", EnvironmentDesc::GROUND);
+const ASPECT: Control = Control::new("Aspect", PlaneSettings::ASPECT).log_slider(0.25, 4.0);
+const WATTS: Control = Control::new("Power", PlaneSettings::WATTS).log_slider(0.01, 100.0);
 
 /// The settings of this part.
 #[rustfmt::skip]
-pub(super) const SETTINGS: &[Setting] = &[
+pub(super) const CONTROLS: &[Control] = &[
     POSITION, LOOK_AT, UP, FOV, CENTRE, SIZE, TURN, ALBEDO, SURROUND, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
 ];
 
 /// From where the picture is taken.
-pub(super) fn camera(ui: &mut Ui, desk: &Desk, camera: &mut CameraDesc) {
+pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDesc) {
     POSITION.numbers(ui, &mut camera.position, XYZ);
     LOOK_AT.numbers(ui, &mut camera.look_at, XYZ);
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
-    ui.add_enabled_ui(desk.session.orbit.is_some(), |ui| {
-        let take =
-            ui.button("Take the free look").on_hover_text("The camera stands where the free look is now");
-        if take.on_disabled_hover_text("Look around the scene first").clicked()
-            && let Some(orbit) = desk.session.orbit
+    ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
+        let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
+        if take.on_disabled_hover_text("Open the orbit view first").clicked()
+            && let Some(orbit) = editor.session.orbit
         {
             *camera = orbit.camera(camera);
         }
@@ -76,15 +50,15 @@ pub(super) fn receiver(ui: &mut Ui, receiver: &mut ReceiverDesc) {
     SIZE.numbers(ui, &mut receiver.size, ["width", "height"]);
     CENTRE.numbers(ui, &mut receiver.centre, XYZ);
     TURN.numbers(ui, &mut receiver.rotate, XYZ);
-    ALBEDO.tint(ui, &mut receiver.albedo);
+    ALBEDO.colour(ui, &mut receiver.albedo);
     SURROUND.number(ui, &mut receiver.surround);
 }
 
 /// The light of the sky.
 pub(super) fn sky(ui: &mut Ui, sky: &mut EnvironmentDesc) {
-    ZENITH.tint(ui, &mut sky.zenith);
-    HORIZON.tint(ui, &mut sky.horizon);
-    GROUND.tint(ui, &mut sky.ground);
+    ZENITH.colour(ui, &mut sky.zenith);
+    HORIZON.colour(ui, &mut sky.horizon);
+    GROUND.colour(ui, &mut sky.ground);
 }
 
 /// The plane of a project without scene.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec2;
 use lightloom_core::Progress;
-use lightloom_core::constraint::detour::Sight;
-use lightloom_core::constraint::{ActiveWall, Constraint, Detour, Window};
+use lightloom_core::constraint::visibility::SearchBuffers;
+use lightloom_core::constraint::{ActiveWall, Constraint, VisibilityGraph, Window};
 use lightloom_core::project::Project;
 
 use super::{Followed, Request, sample};
@@ -16,7 +16,7 @@ const MOST_CORNERS: usize = 10_000;
 /// The ways around the walls of one moment, remembered.
 #[derive(Default)]
 pub(super) struct Roads {
-    last: Option<(Vec<ActiveWall>, Detour)>,
+    last: Option<(Vec<ActiveWall>, VisibilityGraph)>,
 }
 
 impl Roads {
@@ -42,7 +42,7 @@ impl Roads {
         }
         if self.last.as_ref().is_none_or(|(of, _)| *of != walls) {
             let all: Vec<&ActiveWall> = walls.iter().collect();
-            match Detour::new(&all, request.preview.extent(), progress) {
+            match VisibilityGraph::new(&all, request.preview.extent(), progress) {
                 Ok(detour) => self.last = Some((walls, detour)),
                 Err(_) if progress.is_cancelled() => return None,
                 // More walls than ways are made for: what is wrong is told by the animation.
@@ -50,11 +50,13 @@ impl Roads {
             }
         }
         let (_, detour) = self.last.as_ref()?;
-        let Some(mut way) = detour.way(at, target, &mut Sight::default()) else { return Some(Vec::new()) };
+        let Some(mut way) = detour.path(at, target, &mut SearchBuffers::default()) else {
+            return Some(Vec::new());
+        };
         let mut corners = vec![at];
         while !way.is_straight() && corners.len() < MOST_CORNERS {
-            corners.push(detour.heading(way, target));
-            way = detour.after(way);
+            corners.push(detour.next_point(way, target));
+            way = detour.after_corner(way);
         }
         corners.push(target);
         Some(corners)

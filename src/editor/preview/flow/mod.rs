@@ -10,7 +10,7 @@ use lightloom_core::engine::Preview;
 use lightloom_core::project::Project;
 
 use super::worker::{Share, Turn, Worker};
-use crate::editor::session::{FieldMap, Session, Shown};
+use crate::editor::session::{FieldMap, Overlays, Session};
 use followed::Roads;
 
 /// What is seen of the flow at one frame. Places are plane coordinates, velocities plane units per segment.
@@ -63,7 +63,7 @@ struct Request {
     preview: Arc<Preview>,
     project: Arc<Project>,
     frame: i32,
-    show: Shown,
+    show: Overlays,
     /// The caustic whose own field is shown, if it has one.
     caustic: Option<usize>,
     probe: Option<usize>,
@@ -114,13 +114,13 @@ impl FlowViewer {
         project: &Arc<Project>,
         session: &Session,
     ) {
-        let show = session.show;
+        let show = session.overlays;
         let wanted = show.arrows || show.streamlines || show.trails || show.map.is_some();
         let request = preview.filter(|_| wanted || session.probe.is_some()).map(|preview| Request {
             preview: preview.clone(),
             project: project.clone(),
             frame: session.playhead,
-            show: Shown { drawn: false, target: false, grid: false, ..show },
+            show: Overlays { drawn: false, target: false, grid: false, ..show },
             caustic: session.focus.caustic,
             probe: session.probe,
             arrows: sample::lattice(session.plane.zoom),

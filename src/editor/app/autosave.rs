@@ -1,0 +1,57 @@
+//! Autosave: every change goes to the journal, the preferences to their file.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::App;
+use crate::editor::preferences;
+use crate::editor::store::{Note, StoreRequest};
+
+impl App {
+    /// Sends changes since the last frame to the file threads. Copies pointers only.
+    pub(super) fn autosave(&mut self, ctx: &egui::Context) {
+        self.note_project();
+        let last_sent = &mut self.files.last_sent;
+        if last_sent.preferences.as_ref() != Some(&self.preferences) {
+            let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
+            preferences::apply(ctx, &self.preferences);
+            self.recents.ask(self.preferences.recent.clone());
+            if !first {
+                self.files.request(StoreRequest::Remember(Box::new(self.preferences.clone())));
+            }
+        }
+        let title = format!(
+            "{}{} – Lightloom",
+            if self.editor.document.is_unsaved() { "● " } else { "" },
+            self.editor.document.title()
+        );
+        if self.files.title != title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.files.title = title;
+        }
+    }
+
+    fn note_project(&mut self) {
+        let project = self.editor.document.project().clone();
+        if self.files.last_sent.project.as_ref().is_some_and(|last_sent| Arc::ptr_eq(last_sent, &project)) {
+            return;
+        }
+        let first = self.files.last_sent.project.replace(project.clone()).is_none();
+        let Ok(file) = self.editor.document.file() else { return };
+        let Some(journal) = &self.files.journal else { return };
+        if !self.editor.document.is_unsaved() {
+            if !first {
+                journal.clean();
+            }
+            return;
+        }
+        journal.note(Note {
+            path: self.editor.document.path().map(ToOwned::to_owned),
+            title: self.editor.document.title(),
+            file,
+            project,
+            seen: self.editor.document.seen(),
+        });
+    }
+}

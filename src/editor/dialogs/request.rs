@@ -1,0 +1,120 @@
+//! File requests, and the dialogs that answer them.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Mutex, PoisonError};
+
+use egui::Context;
+
+use crate::editor::asset::AssetUse;
+
+/// The purpose of a file dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// A project to open.
+    OpenProject,
+    /// Where to save the project.
+    SaveProject,
+    /// The output folder for frames.
+    ExportFolder,
+    /// A file for the project to use.
+    Asset(AssetUse),
+}
+
+/// A request for a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PickRequest {
+    /// The purpose.
+    pub purpose: Purpose,
+    /// The initial folder.
+    pub folder: Option<PathBuf>,
+    /// The initial file name for saving; empty otherwise.
+    pub name: String,
+}
+
+/// The result of a file dialog.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PickResult {
+    /// The chosen path.
+    Picked(PathBuf),
+    /// The user cancelled.
+    Cancelled,
+    /// The system has no file dialog.
+    Unavailable,
+}
+
+/// A source of file dialogs.
+pub trait Dialogs: Send + Sync {
+    /// Opens a dialog; the result arrives when the user has answered.
+    fn pick(&self, request: &PickRequest, wake: Context) -> Receiver<PickResult>;
+}
+
+/// Predefined results for tests; unavailable when they are used up.
+#[derive(Debug, Default)]
+pub struct Scripted(Mutex<VecDeque<PickResult>>);
+
+impl Scripted {
+    /// Dialogs with these results, in order.
+    pub fn new(answers: impl IntoIterator<Item = PickResult>) -> Self {
+        Self(Mutex::new(answers.into_iter().collect()))
+    }
+}
+
+impl Dialogs for Scripted {
+    fn pick(&self, _request: &PickRequest, _wake: Context) -> Receiver<PickResult> {
+        let (sender, receiver) = channel();
+        let answer = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
+        // The receiver is alive: it is returned here.
+        let _ = sender.send(answer.unwrap_or(PickResult::Unavailable));
+        receiver
+    }
+}
+
+impl PickRequest {
+    /// A request without initial folder or name.
+    pub fn new(purpose: Purpose) -> Self {
+        Self { purpose, folder: None, name: String::new() }
+    }
+
+    /// With an initial folder.
+    pub fn in_folder(self, folder: Option<PathBuf>) -> Self {
+        Self { folder, ..self }
+    }
+
+    /// With an initial file name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+}
+
+impl Purpose {
+    pub(super) fn title(&self) -> &'static str {
+        match self {
+            Self::OpenProject => "Open a project",
+            Self::SaveProject => "Save the project",
+            Self::ExportFolder => "Folder for the frames",
+            Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
+            Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
+            Self::Asset(AssetUse::Points(_)) => "Choose a file of points",
+        }
+    }
+
+    /// Name and extensions of the wanted files; no extension means a folder.
+    pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
+            Self::ExportFolder => ("Folders", &[]),
+            Self::Asset(pick) => pick.files(),
+        }
+    }
+
+    pub(super) fn saves(&self) -> bool {
+        *self == Self::SaveProject
+    }
+}
+
+/// The path with the extension of projects where the user typed none.
+pub(super) fn with_ending(purpose: &Purpose, path: PathBuf) -> PathBuf {
+    if purpose.saves() && path.extension().is_none() { path.with_extension("json") } else { path }
+}

@@ -1,0 +1,63 @@
+//! The export queue: exports are rendered one after the other on a thread of their own.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::thread::{self, JoinHandle};
+
+use super::job::{ExportJob, ExportSettings};
+use crate::editor::engine::SharedEngine;
+
+/// The exports of this session, oldest first.
+pub struct Exports {
+    engine: SharedEngine,
+    jobs: Vec<Arc<ExportJob>>,
+    queue: Option<Sender<Arc<ExportJob>>>,
+    worker: Option<JoinHandle<()>>,
+}
+
+impl Exports {
+    /// An empty queue. `wake` is called from other threads whenever something may have changed.
+    pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let (queue, jobs) = channel::<Arc<ExportJob>>();
+        let work = move || jobs.into_iter().for_each(|job| job.run(&wake));
+        let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
+        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
+    }
+
+    /// Appends an export to the queue.
+    pub fn add(&mut self, settings: ExportSettings) -> Arc<ExportJob> {
+        let job = Arc::new(ExportJob::new(settings, self.engine.clone()));
+        if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
+            job.fail("the system starts no thread for it");
+        }
+        self.jobs.push(job.clone());
+        job
+    }
+
+    /// All exports, oldest first.
+    pub fn jobs(&self) -> &[Arc<ExportJob>] {
+        &self.jobs
+    }
+
+    /// Whether an export is waiting or running.
+    pub fn is_busy(&self) -> bool {
+        self.jobs.iter().any(|job| job.is_open())
+    }
+
+    /// Removes finished exports from the list.
+    pub fn clear(&mut self) {
+        self.jobs.retain(|job| job.is_open());
+    }
+}
+
+impl Drop for Exports {
+    fn drop(&mut self) {
+        self.jobs.iter().for_each(|job| job.cancel());
+        // With the queue closed the worker ends after the cancelled export.
+        self.queue = None;
+        if let Some(worker) = self.worker.take() {
+            // It catches panics of its jobs; after any other there is nothing to undo.
+            let _ = worker.join();
+        }
+    }
+}

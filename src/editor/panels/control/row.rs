@@ -1,0 +1,104 @@
+//! A row of a panel: the label on the left, the value on the right, both aligned over the whole panel.
+
+use egui::{Align2, PointerButton, Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+
+use super::Control;
+use crate::editor::{panels::pictures, theme};
+
+/// Width of the labels, points.
+pub(in crate::editor::panels) const LABELS: f32 = 104.0;
+/// Room for the mark of a changed value, points.
+const MARK: f32 = 9.0;
+/// Width of a tooltip, points.
+const TOOLTIP: f32 = 330.0;
+
+/// The result of a row.
+pub(in crate::editor::panels) struct Row<R> {
+    /// What its widgets returned.
+    pub inner: R,
+    /// Whether the default is asked for.
+    pub reset: bool,
+}
+
+impl Control {
+    /// The label, the mark of a `changed` value, and `widgets` in the space on the right.
+    pub(in crate::editor::panels) fn row<R>(
+        &self,
+        ui: &mut Ui,
+        changed: bool,
+        widgets: impl FnOnce(&mut Ui) -> R,
+    ) -> Row<R> {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            self.label(ui, changed);
+            let inner = widgets(ui);
+            // On the name or on the value: a slider knows no clicks.
+            let twice = ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary));
+            Row { inner, reset: twice && ui.rect_contains_pointer(ui.min_rect()) }
+        })
+        .inner
+    }
+
+    /// One of several lines of a value; only the `first` has the label.
+    pub(in crate::editor::panels) fn line<R>(
+        &self,
+        ui: &mut Ui,
+        first: bool,
+        widgets: impl FnOnce(&mut Ui) -> R,
+    ) -> R {
+        if first {
+            return self.row(ui, false, widgets).inner;
+        }
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            ui.add_space(LABELS + 4.0);
+            widgets(ui)
+        })
+        .inner
+    }
+
+    fn label(&self, ui: &mut Ui, changed: bool) {
+        let size = vec2(LABELS, ui.spacing().interact_size.y);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let painter = ui.painter_at(rect);
+        let colour = if changed { ui.visuals().strong_text_color() } else { ui.visuals().text_color() };
+        let at = rect.left_center() + vec2(MARK, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, self.label, TextStyle::Body.resolve(ui.style()), colour);
+        if changed {
+            painter.circle_filled(rect.left_center() + vec2(3.0, 0.0), 2.5, theme::ACCENT);
+        }
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), self.label));
+        self.with_tooltip(response);
+    }
+
+    /// The name for a screen reader: the label, with its owner where several parts of a panel have that label.
+    pub(in crate::editor::panels) fn accessible_name(&self) -> String {
+        let owners = [
+            ("scene.meshes", "Mesh"),
+            ("scene.lights", "Light"),
+            ("scene.camera", "Camera"),
+            ("scene.receiver", "Receiver"),
+        ];
+        let owner = owners.iter().find(|(place, _)| self.setting.place.starts_with(place));
+        owner.map_or_else(|| self.label.to_owned(), |(_, owner)| format!("{owner}: {}", self.label))
+    }
+
+    /// The response with the tooltip of this setting.
+    pub(super) fn with_tooltip(&self, response: Response) -> Response {
+        response.on_hover_ui(|ui| {
+            ui.set_max_width(TOOLTIP);
+            ui.strong(self.label);
+            ui.label(self.setting.help);
+            for (label, choice) in self.labels.iter().zip(self.setting.choices) {
+                ui.label(format!("{label}: {}", choice.help));
+            }
+            if let Some(trio) = self.pictures {
+                pictures::show(ui, trio);
+            }
+            let words = self.setting.in_words();
+            if !words.is_empty() {
+                ui.weak(format!("{words} Double click resets."));
+            }
+        })
+    }
+}

@@ -1,0 +1,90 @@
+//! The panels over a project, for the tests.
+
+use std::path::{Path, PathBuf};
+
+use egui::accesskit::Role;
+use egui::{Event, Modifiers, PointerButton};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lightloom::editor::panels;
+use lightloom::editor::session::{Focus, Panel};
+use lightloom::editor::theme;
+use lightloom_core::project::Project;
+
+use crate::window::Editor;
+
+/// A window with nothing but the panels.
+pub(crate) type Bench = Harness<'static, Editor>;
+
+fn projects() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("projects")
+}
+
+/// The example of this name.
+pub(crate) fn example(name: &str) -> Project {
+    Project::load(&projects().join(format!("{name}.json"))).unwrap()
+}
+
+/// All examples, by name.
+pub(crate) fn examples() -> Vec<(String, Project)> {
+    let files = std::fs::read_dir(projects()).unwrap().map(|entry| entry.unwrap().path());
+    let mut names: Vec<String> = files
+        .filter(|path| path.extension().is_some_and(|end| end == "json"))
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), example(&name))).collect()
+}
+
+/// Every list opened at its first element.
+pub(crate) fn first_of_everything(project: &Project) -> Focus {
+    let scene = project.scene.as_ref();
+    Focus {
+        key: Some(0),
+        caustic: (!project.caustics.is_empty()).then_some(0),
+        mesh: scene.filter(|scene| !scene.meshes.is_empty()).map(|_| 0),
+        light: scene.filter(|scene| !scene.lights.is_empty()).map(|_| 0),
+    }
+}
+
+/// Width of the panels, points.
+pub(crate) const WIDTH: f32 = 300.0;
+
+/// The panels over a project, with one of them chosen.
+pub(crate) fn bench(project: Project, panel: Panel) -> Bench {
+    bench_in(project, panel, egui::Theme::Dark)
+}
+
+/// The same in a theme.
+pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench {
+    let mut editor = Editor::with_project(project);
+    editor.session.panel = panel;
+    let mut bench = Harness::builder()
+        .with_size(egui::vec2(WIDTH, 1000.0))
+        .with_theme(of)
+        .with_max_steps(20)
+        .with_context_setup(theme::apply)
+        .build_ui_state(show, editor);
+    bench.run();
+    bench
+}
+
+fn show(ui: &mut egui::Ui, editor: &mut Editor) {
+    let ctx = ui.ctx().clone();
+    editor.frame(&ctx, |editor| panels::show(ui, editor));
+}
+
+/// Two clicks in one place, quick enough to be one gesture.
+pub(crate) fn double_click(bench: &mut Bench, role: Role, name: &str) {
+    let pos = bench.get_by_role_and_label(role, name).rect().center();
+    let button = |pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let events = [Event::PointerMoved(pos), button(true), button(false), button(true), button(false)];
+    // All in one step: the harness lets more time pass between steps than a double click may take.
+    bench.input_mut().events.extend(events);
+    bench.run();
+}
