@@ -65,7 +65,7 @@ pub(super) struct Cell {
     pub domain: u32,
     pub corner: [f32; 2],
     pub size: f32,
-    /// RGB flux of a photon [W] times the number of candidates.
+    /// RGB flux of a photon (W) times the number of candidates.
     pub flux: glam::Vec3,
 }
 

@@ -17,7 +17,7 @@ pub use trace::{EmissionGuide, TraceReport, Tracer};
 pub struct Photons {
     /// Positions on the receiver, plane units.
     pub positions: Vec<Vec2>,
-    /// RGB flux [W], linear Rec.709. The mean of the channels is nearly equal among the photons of a scene.
+    /// RGB flux (W), linear Rec.709. The mean of the channels is nearly equal among the photons of a scene.
     pub flux: Vec<Vec3>,
     /// Index into `Scene::lights`.
     pub light: Vec<u16>,
@@ -36,7 +36,7 @@ impl Photons {
         self.positions.is_empty()
     }
 
-    /// Total flux [W].
+    /// Total flux (W).
     pub fn total_flux(&self) -> glam::DVec3 {
         self.flux.iter().map(|f| f.as_dvec3()).sum()
     }

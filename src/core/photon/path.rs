@@ -21,7 +21,7 @@ pub(super) struct Landing {
     pub mesh: u16,
 }
 
-/// The balance of the lights' flux [W] per channel. `emitted` is the sum of all others, to rounding.
+/// The balance of the lights' flux (W) per channel. `emitted` is the sum of all others, to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FluxBalance {
     /// Sent towards glass and mirrors.

@@ -38,7 +38,7 @@ pub struct TraceReport {
     pub candidates: u64,
     /// Caustic photons that landed; a few more than requested.
     pub landed: u64,
-    /// The balance of the flux [W] sent towards glass and mirrors.
+    /// The balance of the flux (W) sent towards glass and mirrors.
     pub balance: FluxBalance,
     /// Wall time.
     pub seconds: f64,

@@ -101,7 +101,7 @@ pub struct Project {
 pub struct PlaneSettings {
     /// Width over height. A scene has its receiver instead.
     pub aspect: f32,
-    /// Power of all the light on it [W]; a plane unit counts as one metre.
+    /// Power of all the light on it (W); a plane unit counts as one metre.
     pub watts: f32,
 }
 

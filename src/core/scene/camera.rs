@@ -9,14 +9,14 @@ use crate::setting::schema::Describe;
 use crate::setting::{ANY, Setting, settings};
 use crate::{Error, Result};
 
-/// From where the picture is taken, world [m]. The image size belongs to the export.
+/// From where the picture is taken, world (m). The image size belongs to the export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CameraDesc {
-    /// Its position [m].
+    /// Its position (m).
     pub position: [f32; 3],
-    /// The point in the middle of the picture [m].
+    /// The point in the middle of the picture (m).
     pub look_at: [f32; 3],
     /// Upwards in the picture; any length but 0, not along the view.
     pub up: [f32; 3],
@@ -82,7 +82,7 @@ impl CameraDesc {
 /// A resolved camera: position and an orthonormal frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// World [m].
+    /// World (m).
     pub position: Vec3,
     /// Unit vector along the view.
     pub forward: Vec3,

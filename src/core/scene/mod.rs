@@ -68,11 +68,11 @@ pub struct Mesh {
     pub name: String,
     /// Its resolved material.
     pub material: Material,
-    /// Lower corner of its bounds, world [m].
+    /// Lower corner of its bounds, world (m).
     pub lower: Vec3,
-    /// Upper corner of its bounds, world [m].
+    /// Upper corner of its bounds, world (m).
     pub upper: Vec3,
-    /// Radius of the bounding sphere around the middle of its bounds [m].
+    /// Radius of the bounding sphere around the middle of its bounds (m).
     pub radius: f32,
     /// Where solids of glass overlap, the mesh of the higher priority fills the space; equal priorities: the later mesh.
     pub priority: i32,
@@ -154,7 +154,7 @@ impl Scene {
         self.geometry.accel.intersect(ray, limit).or(floor)
     }
 
-    /// Whether any mesh, glass included, blocks the ray before `distance` [m]. The floor never does.
+    /// Whether any mesh, glass included, blocks the ray before `distance` (m). The floor never does.
     pub fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         self.geometry.accel.occluded(ray, distance)
     }
@@ -208,7 +208,7 @@ impl Scene {
         &self.environment
     }
 
-    /// Lower and upper corner of everything: meshes, receiver, floor [m].
+    /// Lower and upper corner of everything: meshes, receiver, floor (m).
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let (mut lower, mut upper) = self.receiver.bounds();
         for mesh in self.meshes() {

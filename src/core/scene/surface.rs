@@ -14,7 +14,7 @@ impl Primitive {
     pub(super) const FLOOR: Self = Self(u32::MAX - 1);
 }
 
-/// A half-line, world space [m].
+/// A half-line, world space (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Its origin.
@@ -51,9 +51,9 @@ pub enum SurfaceId {
 /// The hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance from the ray's origin [m].
+    /// Distance from the ray's origin (m).
     pub t: f32,
-    /// World [m]; computed on the surface, not along the ray.
+    /// World (m); computed on the surface, not along the ray.
     pub point: Vec3,
     /// Unit normal of the triangle, by its winding (outward); not turned towards the ray.
     pub geometric_normal: Vec3,

@@ -9,7 +9,7 @@ use super::frame;
 use crate::math::rng::Stream;
 use crate::scene::Ray;
 
-/// A sphere in world space [m].
+/// A sphere in world space (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Its centre.
@@ -93,7 +93,7 @@ pub(super) fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
 /// The emission of one light.
 #[derive(Clone, Debug)]
 pub struct Emission {
-    /// RGB flux [W] of the whole square, without rejection.
+    /// RGB flux (W) of the whole square, without rejection.
     pub flux: Vec3,
     pub(super) source: Source,
 }

@@ -69,7 +69,7 @@ settings! { LightDesc {
 pub struct Illumination {
     /// Unit vector from the point to the light.
     pub direction: Vec3,
-    /// Distance to the light [m]; infinite for a directional one.
+    /// Distance to the light (m); infinite for a directional one.
     pub distance: f32,
     /// RGB irradiance on a surface that faces it [W/m^2]; for area lights an unbiased sample.
     pub irradiance: Vec3,
@@ -90,7 +90,7 @@ impl LightDesc {
         }
     }
 
-    /// Its position, world [m]; none for a directional one.
+    /// Its position, world (m); none for a directional one.
     pub fn position(&self) -> Option<Vec3> {
         match self {
             Self::Point(light) => Some(light.position.into()),

@@ -18,11 +18,11 @@ use crate::setting::schema::Describe;
 pub struct PointLight {
     /// Its name.
     pub name: String,
-    /// Power to all sides together [W].
+    /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
 }
 

@@ -20,15 +20,15 @@ use crate::setting::{Setting, settings};
 pub struct RectangleLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole panel [W].
+    /// Power of the whole panel (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its centre, world [m].
+    /// Its centre, world (m).
     pub position: [f32; 3],
-    /// The point it faces, world [m].
+    /// The point it faces, world (m).
     pub target: [f32; 3],
-    /// Width and height [m].
+    /// Width and height (m).
     pub size: [f32; 2],
 }
 

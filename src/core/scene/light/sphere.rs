@@ -20,13 +20,13 @@ use crate::setting::{Setting, settings};
 pub struct SphereLight {
     /// Its name.
     pub name: String,
-    /// Power to all sides together [W].
+    /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its centre, world [m].
+    /// Its centre, world (m).
     pub position: [f32; 3],
-    /// Its radius [m].
+    /// Its radius (m).
     pub radius: f32,
 }
 

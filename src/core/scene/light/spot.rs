@@ -19,13 +19,13 @@ use crate::setting::{Setting, settings};
 pub struct SpotLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole cone [W].
+    /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
-    /// The point it looks at, world [m].
+    /// The point it looks at, world (m).
     pub target: [f32; 3],
     /// Opening angle of the cone from edge to edge, degrees.
     pub angle_deg: f32,

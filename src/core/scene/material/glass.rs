@@ -61,7 +61,7 @@ impl Glass {
         Self::DISPERSION.check(self.dispersion, place)
     }
 
-    /// Index of refraction at a wavelength [nm] by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and
+    /// Index of refraction at a wavelength (nm) by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and
     /// Abbe number V = (n_d - 1) / (n_F - n_C); without dispersion or wavelength it is `ior`.
     pub fn index(&self, wavelength: Option<f32>) -> f32 {
         let (Some(abbe), Some(nm)) = (self.dispersion, wavelength) else { return self.ior };
@@ -70,7 +70,7 @@ impl Glass {
         self.ior + b * (inverse_square(nm / 1000.0) - inverse_square(LINE_D))
     }
 
-    /// RGB transmittance over `distance` [m].
+    /// RGB transmittance over `distance` (m).
     pub fn transmittance(&self, distance: f32) -> Vec3 {
         if self.absorption == [0.0; 3] {
             return Vec3::ONE;

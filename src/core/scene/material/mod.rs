@@ -51,7 +51,7 @@ pub struct Beam {
     pub weight: Vec3,
     /// The glass solids around it.
     pub media: Media,
-    /// Its wavelength [nm] after dispersive glass; none while white.
+    /// Its wavelength (nm) after dispersive glass; none while white.
     pub wavelength: Option<f32>,
 }
 
@@ -61,7 +61,7 @@ impl Beam {
         Self { weight, media, wavelength: None }
     }
 
-    /// Absorption over `distance` [m] (Beer-Lambert); exactly none in clear glass and air.
+    /// Absorption over `distance` (m) (Beer-Lambert); exactly none in clear glass and air.
     pub fn travel(&mut self, meshes: &[Mesh], distance: f32) {
         if let Some(glass) = self.media.glass(meshes) {
             self.weight *= glass.transmittance(distance);

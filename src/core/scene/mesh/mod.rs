@@ -61,7 +61,7 @@ fn smooth() -> bool {
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Transform {
-    /// Where the file's origin comes to lie [m].
+    /// Where the file's origin comes to lie (m).
     pub translate: [f32; 3],
     /// Turn about the X, then Y, then Z axis, degrees.
     pub rotate: [f32; 3],

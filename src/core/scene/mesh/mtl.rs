@@ -11,7 +11,7 @@ use crate::scene::material::{Diffuse, Glass, Material, Mirror};
 
 /// Largest file read [bytes].
 const MAX_BYTES: u64 = 16 << 20;
-/// Distance [m] to which the transmission filter `Tf` applies; the format gives none.
+/// Distance (m) to which the transmission filter `Tf` applies; the format gives none.
 const FILTER_DISTANCE: f32 = 0.01;
 
 /// One `newmtl` of a file.
