@@ -53,7 +53,7 @@ impl OrbitWorker {
         let seen: Arc<Mutex<Seen>> = Arc::default();
         let theirs = seen.clone();
         let tell = wake.clone();
-        let worker = Worker::new("free look", Share::Whole, wake, move || {
+        let worker = Worker::new("orbit view", Share::Whole, wake, move || {
             let (engine, seen, tell) = (engine.clone(), theirs.clone(), tell.clone());
             let mut exposure = PreviewExposure::default();
             move |request: OrbitRequest, turn: &Turn| {

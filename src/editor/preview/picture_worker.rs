@@ -1,4 +1,4 @@
-//! The worker that makes pictures of one moment: the plane, the shot, the free look.
+//! The worker that makes pictures of one moment: the plane, the shot, the orbit view.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
