@@ -11,7 +11,8 @@ use super::stages::Stages;
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Image, RenderSettings, TextureLayout, Visible, background, first_radius, layout_for, rough_background,
+    GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
+    rough_background,
 };
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -60,7 +61,7 @@ impl Stages {
         view: &CameraView,
         meter: &Meter,
         progress: &Progress,
-    ) -> Result<(Arc<Visible>, Arc<Image>)> {
+    ) -> Result<(Arc<GatherMatrix>, Arc<Image>)> {
         let CameraView { project, scene, extent, layout, rough } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
@@ -69,8 +70,10 @@ impl Stages {
         let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
             meter.measure("visible", || match scene {
-                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Visible::flat(extent, &layout, render, progress).map(Arc::new),
+                Some(scene) => {
+                    GatherMatrix::through_camera(scene, &layout, render, seed, progress).map(Arc::new)
+                }
+                None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
         let background = match scene {

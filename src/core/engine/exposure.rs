@@ -14,7 +14,7 @@ use super::key_photons::{all_flux, all_positions};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
 use crate::flow::{WallViolations, flux};
-use crate::render::splat::Outside;
+use crate::render::splat::OutsidePhotons;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Error, Progress, Result};
 
@@ -88,7 +88,7 @@ impl<'a> Exposures<'a> {
             let moments = times.of_segment(i);
             self.carry(trajectories, photons.requested, kernel, moments, progress)?;
         }
-        self.pending.take().map_or(Ok(()), |slot| self.render.keep(slot, &self.works[1]))
+        self.pending.take().map_or(Ok(()), |slot| self.render.accumulate(slot, &self.works[1]))
     }
 
     /// Carries the photons through the moments of one segment; `requested` is the flux they should have at its ends.
@@ -124,7 +124,7 @@ impl<'a> Exposures<'a> {
         place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
     ) -> Result<()> {
         let Self { render, works: [work, before], pending, positions, flux, balance } = self;
-        let keep = || pending.take().map_or(Ok(()), |slot| render.keep(slot, before));
+        let keep = || pending.take().map_or(Ok(()), |slot| render.accumulate(slot, before));
         let expose = || {
             place(positions, flux)?;
             let outside = render.expose(kernel, positions, flux, work);
@@ -147,7 +147,7 @@ impl EnergyBalance {
     }
 
     /// Records one frame: the photons beyond the texture, and the flux of its photons, requested, and in the texture, watts.
-    fn keep(&mut self, outside: Outside, flux: f64, requested: f64, lit: f64) {
+    fn keep(&mut self, outside: OutsidePhotons, flux: f64, requested: f64, lit: f64) {
         self.outside = self.outside.max(outside.photons);
         self.keep_flux_ratio(flux, requested);
         farther(&mut self.texture_ratio, lit, flux - outside.flux.element_sum());

@@ -14,7 +14,7 @@ use super::job::Job;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use crate::project::Project;
-use crate::render::{Paper, ProgressiveRender, ReceiverTexture, TextureLayout, layout_for};
+use crate::render::{PlaneMaterial, ProgressiveRender, ReceiverTexture, TextureLayout, layout_for};
 use crate::{Error, Progress, Result};
 
 /// A project whose flow is fitted.
@@ -113,8 +113,8 @@ impl FittedProject {
     }
 
     /// The look of light on the plane.
-    pub fn paper(&self) -> Paper {
-        self.prepared.paper()
+    pub fn plane_material(&self) -> PlaneMaterial {
+        self.prepared.plane_material()
     }
 
     /// The texture of a render whose kernel has the first of these radii at first and the second in the end, plane units.

@@ -10,7 +10,7 @@ use super::memo::{Client, Same, Slot};
 use super::meter::Meter;
 use super::stages::Stages;
 use super::{Quality, prepare::Prepared};
-use crate::photon::{Lesson, Photons, Tracer};
+use crate::photon::{EmissionGuide, Photons, Tracer};
 use crate::project::Project;
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -27,7 +27,7 @@ pub(super) struct Job<'a> {
     pub(super) sources: &'a KeySources,
     pub(super) scene: Option<&'a Arc<Scene>>,
     /// Absent where no photons are traced.
-    pub(super) guide: Option<Arc<Lesson>>,
+    pub(super) guide: Option<Arc<EmissionGuide>>,
     /// Photons of one pass.
     pub(super) photons: usize,
     /// Most anchors of a map around walls.
@@ -79,7 +79,7 @@ impl<'a> Job<'a> {
 
     /// The tracer of the scene; none where no photons are traced.
     pub(super) fn tracer(&self) -> Option<Tracer<'a>> {
-        self.scene.zip(self.guide.as_ref()).map(|(scene, guide)| Tracer::resume(scene, (**guide).clone()))
+        self.scene.zip(self.guide.as_ref()).map(|(scene, guide)| Tracer::with_guide(scene, (**guide).clone()))
     }
 
     /// The light of the photons of `pass`; they are traced where a key frame shows them, or caustics are told apart.

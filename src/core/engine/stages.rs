@@ -13,9 +13,9 @@ use super::key_sources::{self, KeySource, SourceInput};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
 use super::preview::PositionsInput;
 use super::walk::{MatchInput, Matched};
-use crate::photon::{Lesson, Photons, Tracer};
+use crate::photon::{EmissionGuide, Photons, Tracer};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{Image, Visible};
+use crate::render::{GatherMatrix, Image};
 use crate::scene::{Geometry, LightDesc, MeshDesc, ReceiverDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -25,12 +25,12 @@ pub(super) struct Stages {
     geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), Noted<Geometry>>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
-    guides: Memo<GuideInput, Arc<Lesson>>,
-    pub(super) photons: Memo<(Same<Lesson>, usize), Arc<Photons>>,
+    guides: Memo<GuideInput, Arc<EmissionGuide>>,
+    pub(super) photons: Memo<(Same<EmissionGuide>, usize), Arc<Photons>>,
     pub(super) matchings: Memo<MatchInput, Arc<Matched>>,
     pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
-    pub(super) visible: Memo<ViewInput, Arc<Visible>>,
+    pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
     pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
 }
 
@@ -86,7 +86,7 @@ impl Stages {
         })?;
         let input = (desc.clone(), Same::of(&geometry));
         let (scene, of_scene) =
-            self.scenes.get(slot, input, progress, |_| Scene::with(desc, geometry).map(noted))?;
+            self.scenes.get(slot, input, progress, |_| Scene::with_geometry(desc, geometry).map(noted))?;
         Ok((scene, Arc::new(of_meshes.iter().chain(&*of_scene).cloned().collect())))
     }
 
@@ -111,7 +111,7 @@ impl Stages {
     ///
     /// # Errors
     /// No caustic falls on the receiver; cancelled.
-    pub(super) fn guide(&self, job: &Job, scene: &Arc<Scene>) -> Result<Arc<Lesson>> {
+    pub(super) fn guide(&self, job: &Job, scene: &Arc<Scene>) -> Result<Arc<EmissionGuide>> {
         let Some(desc) = &job.project.scene else { return learn(scene, job) };
         let input = GuideInput {
             geometry: Same::of(scene.geometry()),
@@ -124,9 +124,9 @@ impl Stages {
     }
 }
 
-fn learn(scene: &Arc<Scene>, job: &Job) -> Result<Arc<Lesson>> {
+fn learn(scene: &Arc<Scene>, job: &Job) -> Result<Arc<EmissionGuide>> {
     let learn = || Tracer::new(scene, job.sources.seed(), job.progress);
-    job.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.lesson().clone()))
+    job.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.guide().clone()))
 }
 
 fn noted<T>((result, notes): (T, Vec<String>)) -> Noted<T> {

@@ -12,7 +12,7 @@ use super::pairing::TransportCost;
 use super::plan::LeftOut;
 use super::prepare::Prepared;
 use crate::constraint::Constraint;
-use crate::export::Repairs;
+use crate::export::RepairedSamples;
 use crate::flow::FlowReport;
 
 /// The numbers of the flow, the worst over all segments.
@@ -124,8 +124,8 @@ pub struct Summary {
 
 impl BadValues {
     /// Over all frames.
-    pub(super) fn sum(repairs: &[(i32, Repairs)]) -> Self {
-        let bad = |r: &Repairs| r.nonfinite_replaced > 0 || r.half_clamped > 0;
+    pub(super) fn sum(repairs: &[(i32, RepairedSamples)]) -> Self {
+        let bad = |r: &RepairedSamples| r.nonfinite_replaced > 0 || r.half_clamped > 0;
         Self {
             nonfinite_replaced: repairs.iter().map(|(_, r)| r.nonfinite_replaced).sum(),
             half_clamped: repairs.iter().map(|(_, r)| r.half_clamped).sum(),

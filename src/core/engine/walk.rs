@@ -12,7 +12,7 @@ use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, Method, mean_square_distance};
-use crate::photon::Lesson;
+use crate::photon::EmissionGuide;
 use crate::project::CausticDesc;
 use crate::{Progress, Result};
 
@@ -85,7 +85,7 @@ enum Origin {
 
 #[derive(Clone, PartialEq)]
 struct FirstKey {
-    guide: Option<Same<Lesson>>,
+    guide: Option<Same<EmissionGuide>>,
     photons: usize,
     seed: u64,
     extent: glam::Vec2,
