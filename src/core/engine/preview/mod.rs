@@ -126,7 +126,8 @@ impl Run<'_> {
         let groups = walk.at().clone();
         let mut lights = vec![KeyLight::new(walk.at(), walk.requested())];
         let mut segments: Vec<SegmentPhotons> = Vec::new();
-        while let Some(photons) = walk.next(maps(segments.len()))? {
+        for number in 0..self.whole.project.keys.len() - 1 {
+            let Some(photons) = walk.next(maps(number))? else { break };
             lights.push(KeyLight::new(walk.at(), walk.requested()));
             segments.push(photons);
         }
