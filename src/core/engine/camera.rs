@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::inputs::ViewInput;
 use super::memo::{Same, Slot};
 use super::meter::Meter;
 use super::prepare::Prepared;
@@ -16,17 +17,6 @@ use crate::render::{
 };
 use crate::scene::Scene;
 use crate::{Progress, Result};
-
-/// Everything that the camera's stages depend on.
-#[derive(Clone, PartialEq)]
-pub(super) struct ViewInput {
-    scene: Option<Same<Scene>>,
-    render: RenderSettings,
-    extent: Vec2,
-    seed: u64,
-    layout: Option<TextureLayout>,
-    rough: bool,
-}
 
 /// A project's camera, receiver and the texture that lies on it.
 pub(super) struct CameraView<'a> {

@@ -7,8 +7,10 @@ use std::time::Instant;
 use glam::Vec2;
 
 use super::Engine;
-use super::exposure::{EnergyBalance, Exposures};
-use super::flow::{self, FittedFlow, FittedSegment};
+use super::energy_balance::EnergyBalance;
+use super::exposure::Exposures;
+use super::fitted_segment::{FittedFlow, FittedSegment};
+use super::flow;
 use super::frame_times::FrameTimes;
 use super::job::Job;
 use super::meter::Meter;

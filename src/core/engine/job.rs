@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::inputs::GuideInput;
 use super::key_photons::PassLight;
 use super::key_sources::KeySources;
 use super::memo::{Client, Same, Slot};
@@ -66,10 +67,27 @@ impl<'a> Job<'a> {
             remembers: true,
         };
         job.guide = match scene.filter(|_| sources.traces()) {
-            Some(scene) => Some(stages.guide(&job, scene)?),
+            Some(scene) => Some(job.learn_guide(scene)?),
             None => None,
         };
         Ok(job)
+    }
+
+    /// The emission guide of the scene, remembered.
+    fn learn_guide(&self, scene: &Arc<Scene>) -> Result<Arc<EmissionGuide>> {
+        let learn = || {
+            let learn = || Tracer::new(scene, self.sources.seed(), self.progress);
+            self.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.guide().clone()))
+        };
+        let Some(desc) = &self.project.scene else { return learn() };
+        let input = GuideInput {
+            geometry: Same::of(scene.geometry()),
+            lights: desc.lights.clone(),
+            receiver: desc.receiver.clone(),
+            seed: self.sources.seed(),
+        };
+        let slot = Slot { quality: Quality::Final, ..self.slot(0) };
+        self.stages.guides.get(slot, input, self.progress, |_| learn())
     }
 
     /// The slot of a segment or key frame in a memo.

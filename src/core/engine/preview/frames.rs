@@ -7,13 +7,13 @@ use glam::{Vec2, Vec3};
 
 use super::field::FieldAt;
 use crate::engine::Quality;
-use crate::engine::exposure::{between, total};
-use crate::engine::flow::FittedSegment;
+use crate::engine::energy_balance::{between, total};
+use crate::engine::fitted_segment::FittedSegment;
+use crate::engine::flow_numbers::FlowNumbers;
 use crate::engine::grouping::CausticFlux;
 use crate::engine::key_photons::{KeyPhotons, all_flux, all_positions};
 use crate::engine::meter::StageCost;
 use crate::engine::plan::LeftOut;
-use crate::engine::summary::FlowNumbers;
 use crate::flow::{Fields, flux};
 use crate::project::SegmentTime;
 use crate::{Progress, Result};

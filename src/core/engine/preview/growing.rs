@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::frames::{Keys, Preview};
-use crate::engine::flow::FittedSegment;
+use crate::engine::fitted_segment::FittedSegment;
 use crate::engine::key_photons::{KeyPhotons, all_positions};
 
 /// Snapshots of one preview at most, about: each holds one pointer per frame.
