@@ -182,7 +182,7 @@ mod tests {
         let extent = Vec2::new(0.55, 1.0);
         let maker = NoiseMaker::new(&settings, extent);
         let [a, b] = maker.keys(1, 2).try_into().unwrap_or_else(|_| unreachable!());
-        let fields = |noise: &Noise| super::fields(maker.grids(), noise, 1.0);
+        let fields = |noise: &Noise| fields(maker.grids(), noise, 1.0);
         let (fa, fb) = (fields(&a), fields(&b));
         let velocity = |fields: &[Field], p: [f64; 2]| {
             let all = fields.iter().map(|field| field.velocity_f64(p));
