@@ -9,7 +9,7 @@ use crate::{Error, Result};
 pub struct Common;
 
 impl Common {
-    /// The name of a light that is given none.
+    /// The name of a light without one.
     pub(super) const DEFAULT_NAME: &str = "light";
 }
 
@@ -26,14 +26,14 @@ settings! { Common {
     TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
 } }
 
-/// What a light does at a point that sees it.
+/// The illumination of a point by one light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illumination {
     /// Unit vector from the point to the light.
     pub direction: Vec3,
-    /// Distance to the light [m]; infinite for a directional one.
+    /// Distance to the light (m); infinite for a directional one.
     pub distance: f32,
-    /// RGB irradiance on a surface that faces it [W/m^2]; for lights with a size, of one random place, whose mean is right.
+    /// RGB irradiance on a surface that faces it [W/m^2]; for area lights an unbiased sample.
     pub irradiance: Vec3,
 }
 
@@ -53,7 +53,7 @@ pub(super) fn check_target(place: &str, position: [f32; 3], target: [f32; 3]) ->
     Ok(())
 }
 
-/// Two unit vectors that form a right-handed frame with the unit vector `z` (Duff et al. 2017).
+/// Two unit vectors that complete the unit vector `z` to a right-handed frame (Duff et al. 2017).
 pub(super) fn frame(z: Vec3) -> (Vec3, Vec3) {
     z.any_orthonormal_pair()
 }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::common::{Common, Illumination, check_lamp, check_target};
-use super::emission::{Ball, Cone, Emission, Profile, Source};
+use super::emission::{Cone, Emission, Profile, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
@@ -17,13 +17,13 @@ use crate::setting::{Setting, settings};
 pub struct SpotLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole cone [W].
+    /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
-    /// The point it looks at, world [m].
+    /// The point it looks at, world (m).
     pub target: [f32; 3],
     /// Opening angle of the cone from edge to edge, degrees.
     pub angle_deg: f32,
@@ -74,11 +74,11 @@ impl SpotLight {
         Vec3::from(self.colour) * (self.watts / profile.solid_angle())
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
         let profile = self.profile();
         let own = Cone { axis: profile.axis, one_minus_cos: profile.outer };
-        let aimed = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let aimed = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let cone = if aimed.one_minus_cos < own.one_minus_cos { aimed } else { own };
         let flux = self.intensity(&profile) * cone.solid_angle();
         Emission { flux, source: Source::Spot { origin, cone, profile } }
