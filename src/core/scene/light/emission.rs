@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::frame;
+use super::common::frame;
 use crate::math::rng::Stream;
 use crate::scene::Ray;
 
@@ -90,6 +90,33 @@ pub(super) fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
     (x * disk.x + y * disk.y + normal * (1.0 - disk.length_squared()).max(0.0).sqrt()).normalize()
 }
 
+/// Relative intensity by direction, 0..=1.
+#[derive(Clone, Debug)]
+pub(super) struct Profile {
+    pub axis: Vec3,
+    /// 1 - cosine where the fading begins and ends.
+    pub inner: f32,
+    pub outer: f32,
+}
+
+impl Profile {
+    /// Smoothstep in the cosine of the angle; its mean over the soft edge is one half.
+    pub(super) fn at(&self, direction: Vec3) -> f32 {
+        // 1 - cosine by the chord: accurate for narrow cones too.
+        let off = (direction - self.axis).length_squared() / 2.0;
+        if off <= self.inner {
+            return 1.0;
+        }
+        let x = ((self.outer - off) / (self.outer - self.inner)).clamp(0.0, 1.0);
+        x * x * (3.0 - 2.0 * x)
+    }
+
+    /// Integral over all directions [sr].
+    pub(super) fn solid_angle(&self) -> f32 {
+        TAU * (self.inner + self.outer) / 2.0
+    }
+}
+
 /// The emission of one light.
 #[derive(Clone, Debug)]
 pub struct Emission {
@@ -104,7 +131,7 @@ pub(super) enum Source {
     /// From a point into a cone.
     Point { origin: Vec3, cone: Cone },
     /// From a point into a cone, with rejection by the profile of a spot light.
-    Spot { origin: Vec3, cone: Cone, profile: super::spot::Profile },
+    Spot { origin: Vec3, cone: Cone, profile: Profile },
     /// Nearly parallel, through a disk around the target sphere.
     Parallel { sun: Cone, target: Sphere, distance: f32 },
     /// From a Lambertian surface, in all directions.

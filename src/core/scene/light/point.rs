@@ -6,15 +6,15 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
+use super::common::{Common, Illumination, check_lamp};
+use super::emission::{Cone, Emission, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
 
 /// A point light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS))]
 pub struct PointLight {
     /// Its name.
     pub name: String,
@@ -29,10 +29,10 @@ pub struct PointLight {
 impl Default for PointLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
         }
     }
 }

@@ -6,8 +6,8 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Emitter};
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
+use super::common::{Common, Illumination, check_lamp};
+use super::emission::{Cone, Emission, Emitter, Sphere};
 use crate::Result;
 use crate::scene::Ray;
 use crate::setting::schema::Describe;
@@ -16,7 +16,7 @@ use crate::setting::{Setting, settings};
 /// A ball of light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SphereLight {
     /// Its name.
     pub name: String,
@@ -38,10 +38,10 @@ settings! { SphereLight {
 impl Default for SphereLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
             radius: Self::RADIUS.value(),
         }
     }
