@@ -95,10 +95,10 @@ impl App {
             (PendingQuestion::Leave(leave), dialogs::Answer::No) => self.go(ctx, leave),
             (PendingQuestion::Recover(recovery), dialogs::Answer::Yes) => self.recover(*recovery),
             (PendingQuestion::Recover(recovery), dialogs::Answer::No) => {
-                self.request(StoreRequest::Discard(recovery))
+                self.request(StoreRequest::Discard(recovery));
             }
             (PendingQuestion::Changed(save), dialogs::Answer::Yes) => {
-                self.request(StoreRequest::Open(save.path))
+                self.request(StoreRequest::Open(save.path));
             }
             (PendingQuestion::Changed(save), dialogs::Answer::No) => {
                 self.request(StoreRequest::Save(SaveRequest { seen: None, ..*save }));

@@ -184,7 +184,7 @@ impl Tool for Place {
         match gesture {
             Gesture::Hover(p) => self.over = Self::handle(p, &frame, context),
             Gesture::Press(p) => {
-                self.taken = Self::handle(p, &frame, context).map(|handle| (handle, p, frame))
+                self.taken = Self::handle(p, &frame, context).map(|handle| (handle, p, frame));
             }
             Gesture::Drag(p) => {
                 return self.drag(p, context).map(|f| ask(f.placement())).into_iter().collect();
