@@ -20,6 +20,7 @@ pub mod playback;
 pub mod preferences;
 pub mod preview;
 mod relative_path;
+mod reset_label;
 pub mod selection;
 pub mod session;
 pub mod shortcuts;

@@ -1,7 +1,8 @@
 //! The preferences window.
 
-use egui::{Context, DragValue, Grid, Response, RichText, ThemePreference, Ui};
+use egui::{Context, DragValue, Grid, ThemePreference, Ui};
 
+use super::reset_label::reset_label;
 use super::store::preferences::{PhotonRenderer, Preferences, Theme, UI_SCALES};
 
 /// The themes and their names.
@@ -26,7 +27,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
         ui.set_width(400.0);
         Grid::new("preferences").num_columns(2).spacing([18.0, 10.0]).show(ui, |ui| {
             let default = Preferences::default();
-            name(
+            reset_label(
                 ui,
                 "Theme",
                 "Caustics are judged best in dark surroundings; the pictures always have them.",
@@ -39,7 +40,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
                 }
             });
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Interface scale",
                 "Texts and controls, 50 to 300 %. The pictures keep their pixels.",
@@ -48,7 +49,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             );
             scale(ui, &mut preferences.ui_scale);
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Photon renderer",
                 "Renderer of the preview. Exports do not depend on it.",
@@ -61,7 +62,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
                 }
             });
             ui.end_row();
-            name(
+            reset_label(
                 ui,
                 "Drawing",
                 "Hold Ctrl while drawing to disable it.",
@@ -125,15 +126,6 @@ fn scale(ui: &mut Ui, scale: &mut f32) {
     } else if dragged.is_some() || response.changed() {
         ui.data_mut(|data| data.remove::<f32>(held));
         *scale = percent / 100.0;
-    }
-}
-
-/// The label of a preference: double click resets it.
-fn name<T: Clone + PartialEq>(ui: &mut Ui, label: &str, tip: &str, value: &mut T, default: &T) {
-    let text = if value == default { RichText::new(label) } else { RichText::new(label).strong() };
-    let response: Response = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
-    if response.on_hover_text(format!("{tip} Double click resets it.")).double_clicked() {
-        value.clone_from(default);
     }
 }
 

@@ -7,9 +7,9 @@ use lightloom_core::engine::{Engine, OrbitView, PreviewExposure, Quality};
 use lightloom_core::files::npy;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::project::{AssetFolder, Ease};
-use lightloom_core::render::density::Smoother;
+use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
-use lightloom_core::render::{MarkKind, ReceiverTexture};
+use lightloom_core::render::{MarkerKind, ReceiverTexture};
 use lightloom_core::scene::CameraDesc;
 
 #[test]
@@ -61,7 +61,7 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
         let apart = (apart / wanted.len() as f32).sqrt();
         let mut texture = ReceiverTexture::new(*shown.layout());
         Splatter::default().splat(&wanted, &flux(&preview, number), &mut texture);
-        Smoother::default().filter(&mut texture, PreviewExposure::radius(&preview));
+        KernelFilter::default().filter(&mut texture, PreviewExposure::radius(&preview));
         let difference = difference(&shown, &texture);
         println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
         // The preview's field has half the cells and three quarters of the steps. A photon is off by a part of a cell of
@@ -110,8 +110,8 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     };
     assert!(at(&lit, Vec2::new(0.2, 0.8)) > 1.5 * at(&dark, Vec2::new(0.2, 0.8)));
     assert!(at(&dark, Vec2::new(0.5, 0.5)) > 0.0, "the receiver is seen without light");
-    let kinds: Vec<MarkKind> = lit.marks.iter().map(|mark| mark.kind).collect();
-    assert_eq!(kinds, [MarkKind::Light(0), MarkKind::Light(1), MarkKind::Camera]);
+    let kinds: Vec<MarkerKind> = lit.marks.iter().map(|mark| mark.kind).collect();
+    assert_eq!(kinds, [MarkerKind::Light(0), MarkerKind::Light(1), MarkerKind::Camera]);
     let (flat, engine) = example("letters_free");
     let plane = engine.orbit_view(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
     assert!(plane.marks.is_empty() && plane.image.pixels.iter().all(|p| p.is_finite()));

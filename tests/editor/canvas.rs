@@ -155,7 +155,7 @@ fn the_wheel_zooms_about_the_pointer() {
 #[test]
 fn every_tool_stands_in_the_bar() {
     let mut harness = window();
-    let tools: Vec<_> = harness.state().toolbox.tools().map(|tool| tool.name().to_owned()).collect();
+    let tools: Vec<_> = harness.state().toolbox.tools().map(|tool| tool.info().name.to_owned()).collect();
     assert_eq!(tools.len(), 8);
     for (i, name) in tools.iter().enumerate() {
         take(&mut harness, name);

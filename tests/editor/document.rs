@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 /// Something a user does, with a number to choose by.
 #[derive(Clone, Debug)]
-enum Deed {
+enum Step {
     Gamma(f32),
     Exposure(f32),
     Line(f32, f32),
@@ -26,50 +26,50 @@ enum Deed {
     Redo,
 }
 
-fn deeds() -> impl Strategy<Value = Vec<Deed>> {
-    let deed = prop_oneof![
-        (-0.5_f32..1.5).prop_map(Deed::Gamma),
-        (-3.0_f32..3.0).prop_map(Deed::Exposure),
-        (0.0_f32..1.0, 0.0_f32..1.0).prop_map(|(x, y)| Deed::Line(x, y)),
-        (0.0_f32..1.0, 0.0_f32..1.0).prop_map(|(x, y)| Deed::Wall(x, y)),
-        (0_usize..6).prop_map(Deed::Remove),
-        "[a-zA-Z ]{0,12}".prop_map(Deed::Rename),
-        (-20_i32..200).prop_map(Deed::Retime),
-        any::<bool>().prop_map(Deed::Method),
-        Just(Deed::Settle),
-        Just(Deed::Settle),
-        Just(Deed::Undo),
-        Just(Deed::Redo),
+fn steps_taken() -> impl Strategy<Value = Vec<Step>> {
+    let step = prop_oneof![
+        (-0.5_f32..1.5).prop_map(Step::Gamma),
+        (-3.0_f32..3.0).prop_map(Step::Exposure),
+        (0.0_f32..1.0, 0.0_f32..1.0).prop_map(|(x, y)| Step::Line(x, y)),
+        (0.0_f32..1.0, 0.0_f32..1.0).prop_map(|(x, y)| Step::Wall(x, y)),
+        (0_usize..6).prop_map(Step::Remove),
+        "[a-zA-Z ]{0,12}".prop_map(Step::Rename),
+        (-20_i32..200).prop_map(Step::Retime),
+        any::<bool>().prop_map(Step::Method),
+        Just(Step::Settle),
+        Just(Step::Settle),
+        Just(Step::Undo),
+        Just(Step::Redo),
     ];
-    prop::collection::vec(deed, 1..60)
+    prop::collection::vec(step, 1..60)
 }
 
-/// The edit of a deed; none for those that are no edit.
-fn edit(deed: &Deed, project: &Project) -> Option<Edit> {
-    Some(match deed {
-        Deed::Gamma(gamma) => {
+/// The edit of a step; none for those that are no edit.
+fn edit(step: &Step, project: &Project) -> Option<Edit> {
+    Some(match step {
+        Step::Gamma(gamma) => {
             let mut flow = project.flow.clone();
             flow.gamma = *gamma;
             Edit::Flow(flow)
         }
-        Deed::Exposure(exposure) => {
+        Step::Exposure(exposure) => {
             let mut render = project.render.clone();
             render.view.exposure = *exposure;
             Edit::Render(render)
         }
-        Deed::Line(x, y) => {
+        Step::Line(x, y) => {
             Edit::Add(vec![Constraint::DirectedLine(DirectedLine::new(vec![[*x, *y], [*y, *x]]))])
         }
-        Deed::Wall(x, y) => Edit::Add(vec![Constraint::Wall(Wall::new(vec![[*x, *y], [0.5, *x]]))]),
-        Deed::Remove(index) => Edit::Remove([*index].into()),
-        Deed::Rename(name) => Edit::Name(name.clone()),
-        Deed::Retime(frame) => {
+        Step::Wall(x, y) => Edit::Add(vec![Constraint::Wall(Wall::new(vec![[*x, *y], [0.5, *x]]))]),
+        Step::Remove(index) => Edit::Remove([*index].into()),
+        Step::Rename(name) => Edit::Name(name.clone()),
+        Step::Retime(frame) => {
             let mut keys = project.keys.clone();
             keys.last_mut()?.frame = *frame;
             Edit::Keys(keys)
         }
-        Deed::Method(linear) => Edit::Method(if *linear { Movement::Linear } else { Movement::Flow }),
-        Deed::Settle | Deed::Undo | Deed::Redo => return None,
+        Step::Method(linear) => Edit::Method(if *linear { Movement::Linear } else { Movement::Flow }),
+        Step::Settle | Step::Undo | Step::Redo => return None,
     })
 }
 
@@ -80,13 +80,13 @@ fn text(document: &mut Document) -> String {
 
 proptest! {
     #[test]
-    fn undo_after_anything_leads_back_to_the_bytes_of_the_file(deeds in deeds()) {
+    fn undo_after_anything_leads_back_to_the_bytes_of_the_file(steps_taken in steps_taken()) {
         let examples = window::examples();
         let path = window::project(&examples, "bottles");
         let bytes = fs::read_to_string(&path).unwrap();
         let mut document = window::document(&path);
-        for deed in &deeds {
-            match (deed, edit(deed, document.project())) {
+        for step in &steps_taken {
+            match (step, edit(step, document.project())) {
                 // What cannot be is refused and changes nothing.
                 (_, Some(edit)) => {
                     let before = document.project().clone();
@@ -94,8 +94,8 @@ proptest! {
                         prop_assert_eq!(&before, document.project());
                     }
                 }
-                (Deed::Undo, None) => document.undo(),
-                (Deed::Redo, None) => document.redo(),
+                (Step::Undo, None) => document.undo(),
+                (Step::Redo, None) => document.redo(),
                 _ => document.settle(),
             }
             prop_assert!(document.project().check().is_ok());

@@ -21,7 +21,7 @@ use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
 
 fn tool_keys() -> Vec<(&'static str, Key)> {
-    tools::all().iter().map(|tool| (tool.name(), tool.key())).collect()
+    tools::all().iter().map(|tool| (tool.info().name, tool.info().key)).collect()
 }
 
 /// An editor in which every command would do something.

@@ -11,11 +11,11 @@ use lightloom::editor::panels::PANELS;
 use lightloom::editor::selection::Selection;
 use lightloom::editor::session::Panel;
 use lightloom_core::project::Project;
-use support::{Bench, bench, examples};
+use support::{PanelHarness, examples, panel_harness};
 
 /// The last edit that was asked for.
-fn last_edit(bench: &Bench) -> Edit {
-    let mut edits = bench.state().asked.iter().filter_map(|action| match action {
+fn last_edit(harness: &PanelHarness) -> Edit {
+    let mut edits = harness.state().asked.iter().filter_map(|action| match action {
         Action::Edit(edit) => Some(edit.clone()),
         _ => None,
     });
@@ -26,11 +26,11 @@ fn last_edit(bench: &Bench) -> Edit {
 fn every_panel_shows_every_project_and_asks_for_nothing_by_itself() {
     for (name, project) in examples() {
         for entry in PANELS {
-            let mut bench = bench(project.clone(), entry.panel);
-            bench.state_mut().session.focus = support::first_of_everything(&project);
-            bench.state_mut().session.selection = Selection::all(0..project.constraints.len());
-            bench.run();
-            assert!(bench.state().asked.is_empty(), "{name}, {}: {:?}", entry.name, bench.state().asked);
+            let mut harness = panel_harness(project.clone(), entry.panel);
+            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
+            harness.run();
+            assert!(harness.state().asked.is_empty(), "{name}, {}: {:?}", entry.name, harness.state().asked);
         }
     }
 }
@@ -39,10 +39,10 @@ fn every_panel_shows_every_project_and_asks_for_nothing_by_itself() {
 fn no_two_inputs_of_a_panel_bear_the_same_name() {
     for (project_name, project) in examples() {
         for entry in PANELS {
-            let mut bench = bench(project.clone(), entry.panel);
-            bench.state_mut().session.focus = support::first_of_everything(&project);
-            bench.run();
-            let mut names: Vec<(Role, String)> = bench
+            let mut harness = panel_harness(project.clone(), entry.panel);
+            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.run();
+            let mut names: Vec<(Role, String)> = harness
                 .root()
                 .children_recursive()
                 .map(|node| node.accesskit_node())
@@ -59,23 +59,23 @@ fn no_two_inputs_of_a_panel_bear_the_same_name() {
 #[test]
 fn the_gamma_slider_asks_for_that_gamma_and_does_not_write_it() {
     let before = support::example("letters_free");
-    let mut bench = bench(before.clone(), Panel::Flow);
-    bench.state_mut().applies = false;
-    bench.get_by_role_and_label(Role::Slider, "Gamma").set_value_accesskit(0.75);
-    bench.run();
+    let mut harness = panel_harness(before.clone(), Panel::Flow);
+    harness.state_mut().applies = false;
+    harness.get_by_role_and_label(Role::Slider, "Gamma").set_value_accesskit(0.75);
+    harness.run();
     let mut flow = before.flow.clone();
     flow.gamma = 0.75;
-    assert_eq!(last_edit(&bench), Edit::Flow(flow));
-    assert_eq!(**bench.state().document.project(), before);
+    assert_eq!(last_edit(&harness), Edit::Flow(flow));
+    assert_eq!(**harness.state().document.project(), before);
 }
 
 #[test]
 fn a_double_click_on_the_name_resets() {
     let mut project = support::example("letters_free");
     project.flow.gamma = 0.1;
-    let mut bench = bench(project, Panel::Flow);
-    support::double_click(&mut bench, Role::Label, "Gamma");
-    assert_eq!(bench.state().document.project().flow.gamma, 0.5);
+    let mut harness = panel_harness(project, Panel::Flow);
+    support::double_click(&mut harness, Role::Label, "Gamma");
+    assert_eq!(harness.state().document.project().flow.gamma, 0.5);
 }
 
 #[test]
@@ -83,9 +83,9 @@ fn a_double_click_on_the_slider_or_the_field_resets() {
     for (role, name) in [(Role::Slider, "Gamma"), (Role::SpinButton, "Gamma value")] {
         let mut project = support::example("letters_free");
         project.flow.gamma = 0.1;
-        let mut bench = bench(project, Panel::Flow);
-        support::double_click(&mut bench, role, name);
-        assert_eq!(bench.state().document.project().flow.gamma, 0.5, "{name}");
+        let mut harness = panel_harness(project, Panel::Flow);
+        support::double_click(&mut harness, role, name);
+        assert_eq!(harness.state().document.project().flow.gamma, 0.5, "{name}");
     }
 }
 
@@ -93,34 +93,34 @@ fn a_double_click_on_the_slider_or_the_field_resets() {
 fn a_value_beyond_the_range_never_leaves_a_panel() {
     let project = support::example("letters_free");
     for value in [-3.0, 7.0, f64::NAN, f64::INFINITY] {
-        let mut bench = bench(project.clone(), Panel::Flow);
-        bench.get_by_role_and_label(Role::SpinButton, "Gamma value").set_value_accesskit(value);
-        bench.run();
-        let gamma = bench.state().document.project().flow.gamma;
+        let mut harness = panel_harness(project.clone(), Panel::Flow);
+        harness.get_by_role_and_label(Role::SpinButton, "Gamma value").set_value_accesskit(value);
+        harness.run();
+        let gamma = harness.state().document.project().flow.gamma;
         assert!((0.0..=1.0).contains(&gamma), "{value} gave {gamma}");
     }
 }
 
 #[test]
 fn a_preset_sets_the_flow_in_one_click() {
-    let mut bench = bench(support::example("letters_free"), Panel::Flow);
-    bench.get_by_label("Preset Storm").click();
-    bench.run();
-    assert_eq!(bench.state().document.project().flow.turbulence.as_ref().map(|t| t.strength), Some(50.0));
+    let mut harness = panel_harness(support::example("letters_free"), Panel::Flow);
+    harness.get_by_label("Preset Storm").click();
+    harness.run();
+    assert_eq!(harness.state().document.project().flow.turbulence.as_ref().map(|t| t.strength), Some(50.0));
 }
 
 #[test]
 fn a_click_selects_what_was_drawn_and_ctrl_adds() {
-    let mut bench = bench(support::example("letters"), Panel::Drawn);
-    bench.get_by_label("upper hollow").click();
-    bench.run();
-    assert_eq!(bench.state().session.selection, Selection::one(0));
-    bench.get_by_label("lower hollow").click_modifiers(egui::Modifiers::COMMAND);
-    bench.run();
-    assert_eq!(bench.state().session.selection, Selection::all([0, 1]));
-    bench.get_by_role_and_label(Role::Slider, "Thickness").set_value_accesskit(0.1);
-    bench.run();
-    for constraint in &bench.state().document.project().constraints {
+    let mut harness = panel_harness(support::example("letters"), Panel::Drawn);
+    harness.get_by_label("upper hollow").click();
+    harness.run();
+    assert_eq!(harness.state().session.selection, Selection::one(0));
+    harness.get_by_label("lower hollow").click_modifiers(egui::Modifiers::COMMAND);
+    harness.run();
+    assert_eq!(harness.state().session.selection, Selection::all([0, 1]));
+    harness.get_by_role_and_label(Role::Slider, "Thickness").set_value_accesskit(0.1);
+    harness.run();
+    for constraint in &harness.state().document.project().constraints {
         let lightloom_core::constraint::Constraint::Wall(wall) = constraint else { panic!("a wall") };
         assert_eq!(wall.thickness, 0.1);
     }
@@ -128,92 +128,92 @@ fn a_click_selects_what_was_drawn_and_ctrl_adds() {
 
 #[test]
 fn what_is_locked_keeps_its_values_and_stays() {
-    let mut bench = bench(support::example("letters"), Panel::Drawn);
-    bench.get_by_label("Lock: upper hollow").click();
-    bench.run();
-    bench.state_mut().session.selection = Selection::all([0, 1]);
-    bench.run();
-    let before = bench.state().document.project().constraints[0].clone();
-    bench.get_by_role_and_label(Role::Slider, "Thickness").set_value_accesskit(0.1);
-    bench.run();
-    bench.get_by_label("Delete what is selected").click();
-    bench.run();
-    assert_eq!(bench.state().document.project().constraints, [before]);
+    let mut harness = panel_harness(support::example("letters"), Panel::Drawn);
+    harness.get_by_label("Lock: upper hollow").click();
+    harness.run();
+    harness.state_mut().session.selection = Selection::all([0, 1]);
+    harness.run();
+    let before = harness.state().document.project().constraints[0].clone();
+    harness.get_by_role_and_label(Role::Slider, "Thickness").set_value_accesskit(0.1);
+    harness.run();
+    harness.get_by_label("Delete what is selected").click();
+    harness.run();
+    assert_eq!(harness.state().document.project().constraints, [before]);
 }
 
 #[test]
 fn the_eye_and_solo_of_a_caustic_change_the_window_and_not_the_project() {
     let project = support::example("bottles");
-    let mut bench = bench(project.clone(), Panel::Caustics);
-    bench.get_by_label("Hide: white").click();
-    bench.run();
-    assert!(!bench.state().session.shows_group(1));
-    bench.get_by_label("Solo: blue").click();
-    bench.run();
-    assert!(bench.state().session.shows_group(2) && !bench.state().session.shows_group(0));
-    assert_eq!(**bench.state().document.project(), project);
+    let mut harness = panel_harness(project.clone(), Panel::Caustics);
+    harness.get_by_label("Hide: white").click();
+    harness.run();
+    assert!(!harness.state().session.shows_group(1));
+    harness.get_by_label("Solo: blue").click();
+    harness.run();
+    assert!(harness.state().session.shows_group(2) && !harness.state().session.shows_group(0));
+    assert_eq!(**harness.state().document.project(), project);
 }
 
 #[test]
 fn a_caustic_of_a_key_frame_takes_a_colour_and_forgets_it_again() {
-    let mut bench = bench(support::example("bottles"), Panel::Caustics);
-    bench.state_mut().session.focus.caustic = Some(0);
-    bench.state_mut().session.focus.key = Some(0);
-    bench.run();
-    let slider = |bench: &Bench, value| {
-        bench.get_by_role_and_label(Role::Slider, "Brightness").set_value_accesskit(value);
+    let mut harness = panel_harness(support::example("bottles"), Panel::Caustics);
+    harness.state_mut().session.focus.caustic = Some(0);
+    harness.state_mut().session.focus.key = Some(0);
+    harness.run();
+    let slider = |harness: &PanelHarness, value| {
+        harness.get_by_role_and_label(Role::Slider, "Brightness").set_value_accesskit(value);
     };
-    slider(&bench, 2.0);
-    bench.run();
-    assert_eq!(bench.state().document.project().keys[0].caustics["green"].brightness, 2.0);
-    slider(&bench, 1.0);
-    bench.run();
-    assert!(bench.state().document.project().keys[0].caustics.is_empty());
+    slider(&harness, 2.0);
+    harness.run();
+    assert_eq!(harness.state().document.project().keys[0].caustics["green"].brightness, 2.0);
+    slider(&harness, 1.0);
+    harness.run();
+    assert!(harness.state().document.project().keys[0].caustics.is_empty());
 }
 
 #[test]
 fn a_mesh_becomes_glass_in_one_click() {
     let mut project = support::example("bottles");
     project.scene.as_mut().unwrap().meshes[0].material = None;
-    let mut bench = bench(project, Panel::Scene);
-    bench.state_mut().session.focus.mesh = Some(0);
-    bench.run();
-    bench.get_by_label("Assign glass").click();
-    bench.run();
-    let project: &Project = bench.state().document.project();
+    let mut harness = panel_harness(project, Panel::Scene);
+    harness.state_mut().session.focus.mesh = Some(0);
+    harness.run();
+    harness.get_by_label("Assign glass").click();
+    harness.run();
+    let project: &Project = harness.state().document.project();
     let material = project.scene.as_ref().unwrap().meshes[0].material.as_ref();
     assert!(material.is_some_and(|material| material.is_specular()));
 }
 
 #[test]
 fn a_project_keeps_one_format_at_least() {
-    let mut bench = bench(support::example("letters"), Panel::Render);
+    let mut harness = panel_harness(support::example("letters"), Panel::Render);
     for format in ["EXR", "PNG"] {
-        bench.get_by_role_and_label(Role::CheckBox, format).click();
-        bench.run();
+        harness.get_by_role_and_label(Role::CheckBox, format).click();
+        harness.run();
     }
-    assert_eq!(bench.state().document.project().output.formats.len(), 1);
+    assert_eq!(harness.state().document.project().output.formats.len(), 1);
 }
 
 #[test]
 fn nothing_is_wider_than_the_panel() {
     for (name, project) in examples() {
         for entry in PANELS {
-            let mut bench = bench(project.clone(), entry.panel);
-            bench.state_mut().session.focus = support::first_of_everything(&project);
-            bench.state_mut().session.selection = Selection::all(0..project.constraints.len());
-            bench.run();
+            let mut harness = panel_harness(project.clone(), entry.panel);
+            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
+            harness.run();
             // Tables of the tree itself stand nowhere.
             let beyond = |node: &egui_kittest::Node| {
                 node.accesskit_node().raw_bounds().is_some_and(|bounds| bounds.x1 > f64::from(support::WIDTH))
             };
-            let wide = bench.root().children_recursive().find(beyond);
+            let wide = harness.root().children_recursive().find(beyond);
             assert!(wide.is_none(), "{name}, {}: {wide:?}", entry.name);
         }
     }
 }
 
-/// To look at: `cargo test --release --test panels -- --ignored` writes pictures of all panels to `target/panels`.
+/// To look at: `cargo test --release --test editor panels -- --ignored` writes pictures of all panels to `target/panels`.
 #[test]
 #[ignore = "writes pictures, which only an eye can judge"]
 fn pictures_of_every_panel() {
@@ -223,27 +223,27 @@ fn pictures_of_every_panel() {
         for name in ["bottles", "rabbit_fine", "letters"] {
             let project = support::example(name);
             for entry in PANELS {
-                let mut bench = support::bench_in(project.clone(), entry.panel, theme);
-                bench.state_mut().session.focus = support::first_of_everything(&project);
-                bench.state_mut().session.selection = Selection::all(0..project.constraints.len());
-                bench.run();
+                let mut harness = support::panel_harness_in(project.clone(), entry.panel, theme);
+                harness.state_mut().session.focus = support::first_of_everything(&project);
+                harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
+                harness.run();
                 for folded in ["Advanced", "Project", "Camera", "Receiver", "Sky"] {
-                    if let Some(header) = bench.query_by_label(folded) {
+                    if let Some(header) = harness.query_by_label(folded) {
                         header.click_accesskit();
-                        bench.run();
+                        harness.run();
                     }
                 }
                 let path = folder.join(format!("{name}_{}_{shade}.png", entry.name.to_lowercase()));
-                bench.render().unwrap().save(path).unwrap();
+                harness.render().unwrap().save(path).unwrap();
             }
         }
     }
-    let mut bench = bench(support::example("rabbit_fine"), Panel::Flow);
+    let mut harness = panel_harness(support::example("rabbit_fine"), Panel::Flow);
     // Tooltips want more room than the panel.
-    bench.set_size(egui::vec2(480.0, 640.0));
+    harness.set_size(egui::vec2(480.0, 640.0));
     for name in ["Gamma", "Alpha", "Beta", "Strength"] {
-        bench.get_by_role_and_label(Role::Label, name).hover();
-        bench.run_steps(8);
-        bench.render().unwrap().save(folder.join(format!("tooltip_{}.png", name.to_lowercase()))).unwrap();
+        harness.get_by_role_and_label(Role::Label, name).hover();
+        harness.run_steps(8);
+        harness.render().unwrap().save(folder.join(format!("tooltip_{}.png", name.to_lowercase()))).unwrap();
     }
 }

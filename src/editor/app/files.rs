@@ -253,7 +253,7 @@ impl App {
             Some(pick) => self.insert(pick, &file),
             None => {
                 self.editor.status =
-                    format!("'{}' is not a project, mesh, picture or point file", name(&file))
+                    format!("'{}' is not a project, mesh, picture or point file", name(&file));
             }
         }
     }

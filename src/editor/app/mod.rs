@@ -143,7 +143,7 @@ impl App {
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
         self.play(&ctx);
-        let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.name(), tool.key())).collect();
+        let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);
         actions.extend(keyboard::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
         self.layout(ui, &mut actions);

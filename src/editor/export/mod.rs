@@ -1,6 +1,8 @@
 //! Exports beside editing: each renders a frozen project on threads of its own, one after the other.
 
+mod form;
 mod job;
+mod job_list;
 mod options;
 mod queue;
 mod status_line;

@@ -7,6 +7,7 @@ pub mod gpu;
 mod orbit_worker;
 mod picture_worker;
 mod preview_worker;
+mod requested;
 mod requests;
 mod subject;
 mod target;
@@ -20,7 +21,7 @@ use lightloom_core::engine::{Client, Preview, Shot};
 use lightloom_core::project::Project;
 pub use orbit_worker::Seen;
 pub use picture_worker::{Painted, Plane};
-pub use requests::Wanted;
+pub use requested::Wanted;
 pub use subject::Subject;
 pub use target::TargetPicture;
 
@@ -32,7 +33,7 @@ use flow::FlowViewer;
 use orbit_worker::OrbitWorker;
 use picture_worker::PictureWorker;
 use preview_worker::{Found, PreviewWorker};
-use requests::Requests;
+use requested::Requests;
 use target::Targets;
 use worker::Share;
 
@@ -210,7 +211,7 @@ impl LivePreview {
         self.pictures.painted()
     }
 
-    /// What the free look saw last.
+    /// The last picture of the orbit view.
     pub fn look(&self) -> Seen {
         self.orbit.seen()
     }

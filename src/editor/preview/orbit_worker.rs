@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::ColorImage;
 use lightloom_core::Result;
 use lightloom_core::engine::{OrbitView, PreviewExposure};
-use lightloom_core::render::{Mark, PlaneView, ViewSettings};
+use lightloom_core::render::{PlaneView, SceneMarker, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 
 use super::picture_worker::{Moment, shown};
@@ -36,7 +36,7 @@ pub struct Seen {
     /// As the screen shows it.
     pub picture: Option<Arc<ColorImage>>,
     /// Lights and camera in it.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<SceneMarker>,
     /// Where plane points are in it.
     pub plane: Option<PlaneView>,
 }
@@ -53,7 +53,7 @@ impl OrbitWorker {
         let seen: Arc<Mutex<Seen>> = Arc::default();
         let theirs = seen.clone();
         let tell = wake.clone();
-        let worker = Worker::new("free look", Share::Whole, wake, move || {
+        let worker = Worker::new("orbit view", Share::Whole, wake, move || {
             let (engine, seen, tell) = (engine.clone(), theirs.clone(), tell.clone());
             let mut exposure = PreviewExposure::default();
             move |request: OrbitRequest, turn: &Turn| {

@@ -1,78 +1,16 @@
 //! Requests to the workers, sent once for each change.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightloom_core::engine::{Preview, Shot};
+use lightloom_core::engine::Preview;
 use lightloom_core::project::Project;
-use lightloom_core::render::{Paper, ViewSettings};
-use lightloom_core::scene::{CameraDesc, SceneDesc};
+use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
-use super::picture_worker::{Moment, PictureRequest, Plane};
+use super::picture_worker::{Moment, PictureRequest};
+use super::requested::{Painting, Same, Staging, Wanted};
 use super::{LivePreview, Subject};
 use crate::editor::session::Session;
-
-/// Which pictures the views want.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
-    /// How the plane is wanted.
-    pub plane: Plane,
-    /// Pixels of the shot, where it is wanted.
-    pub shot: Option<[u32; 2]>,
-    /// From where, and in how many pixels, a free look is wanted.
-    pub look: Option<(CameraDesc, [u32; 2])>,
-}
-
-impl Default for Wanted {
-    fn default() -> Self {
-        Self { plane: Plane::Hidden, shot: None, look: None }
-    }
-}
-
-/// What was asked for last.
-#[derive(Default)]
-pub(super) struct Requests {
-    painted: Option<Painting>,
-    staged: Option<Staging>,
-    looked: Option<(Painting, Same<Project>, CameraDesc, [u32; 2])>,
-}
-
-/// An object by identity. It is kept, so that no other takes its address meanwhile.
-struct Same<T>(Option<Arc<T>>);
-
-impl<T> PartialEq for Same<T> {
-    fn eq(&self, other: &Self) -> bool {
-        match (&self.0, &other.0) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-            (None, None) => true,
-            _ => false,
-        }
-    }
-}
-
-/// All that a picture of a moment depends on.
-#[derive(PartialEq)]
-struct Painting {
-    previews: [Same<Preview>; 2],
-    shot: Same<Shot>,
-    frame: i32,
-    shown: Vec<bool>,
-    view: ViewSettings,
-    paper: Paper,
-    plane: Plane,
-}
-
-/// All that the picture without caustics depends on.
-#[derive(Clone, PartialEq)]
-struct Staging {
-    scene: Option<SceneDesc>,
-    aspect: f32,
-    size: [u32; 2],
-    seed: u64,
-    /// Where its files are found, and whether from anywhere.
-    files: (PathBuf, bool),
-}
 
 impl LivePreview {
     /// Sends the requests that were not sent yet.
@@ -137,14 +75,14 @@ impl LivePreview {
 }
 
 /// How light on the plane becomes visible.
-pub(super) fn paper(project: &Project) -> Paper {
+pub(super) fn paper(project: &Project) -> PlaneMaterial {
     let receiver = project.scene.as_ref().and_then(|scene| scene.camera_and_receiver().ok());
-    receiver.map_or(Paper::WHITE, |(_, receiver)| Paper::of(&receiver))
+    receiver.map_or(PlaneMaterial::WHITE, |(_, receiver)| PlaneMaterial::of(&receiver))
 }
 
 impl LivePreview {
     /// How light on the plane becomes visible.
-    pub fn paper(&self) -> Paper {
-        self.subject.as_ref().map_or(Paper::WHITE, |subject| paper(&subject.project))
+    pub fn paper(&self) -> PlaneMaterial {
+        self.subject.as_ref().map_or(PlaneMaterial::WHITE, |subject| paper(&subject.project))
     }
 }

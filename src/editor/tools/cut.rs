@@ -43,13 +43,13 @@ pub(super) fn cut(points: &[Vec2], centre: Vec2, radius: f32) -> Vec<Vec<Vec2>> 
 
 /// The parameters in 0..=1 between which the segment from `a` to `b` is inside the disc.
 fn inside(a: Vec2, b: Vec2, centre: Vec2, radius: f32) -> Option<[f32; 2]> {
-    let (way, off) = (b - a, a - centre);
-    let squared = way.length_squared();
+    let (along, off) = (b - a, a - centre);
+    let squared = along.length_squared();
     if squared <= 0.0 {
         return (off.length() < radius).then_some([0.0, 1.0]);
     }
-    let nearest = -off.dot(way) / squared;
-    let reach = (radius * radius - (off + way * nearest).length_squared()) / squared;
+    let nearest = -off.dot(along) / squared;
+    let reach = (radius * radius - (off + along * nearest).length_squared()) / squared;
     if reach <= 0.0 {
         return None;
     }

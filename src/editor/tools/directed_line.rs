@@ -5,7 +5,7 @@ use lightloom_core::constraint::{Constraint, DirectedLine};
 
 use super::icon;
 use super::pen::{Pen, add};
-use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::tool::{Gesture, Ghost, Tool, ToolContext, ToolInfo};
 use crate::editor::action::Action;
 
 /// The tool that draws directed lines.
@@ -15,16 +15,12 @@ pub(super) struct DrawLine {
 }
 
 impl Tool for DrawLine {
-    fn name(&self) -> &'static str {
-        "Directed line"
-    }
-
-    fn key(&self) -> Key {
-        Key::D
-    }
-
-    fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point: Enter finishes, Backspace removes a point, Esc cancels, Shift draws straight"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Directed line",
+            key: Key::D,
+            hint: "Drag to draw freehand, or click point by point: Enter finishes, Backspace removes a point, Esc cancels, Shift draws straight",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

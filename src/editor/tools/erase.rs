@@ -4,7 +4,7 @@ use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 use lightloom_core::constraint::{Constraint, stroke};
 
-use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::tool::{Gesture, Ghost, Tool, ToolContext, ToolInfo};
 use super::{arrange, cut, icon};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
@@ -60,16 +60,8 @@ fn rub(constraint: &Constraint, centre: Vec2, radius: f32, context: &ToolContext
 }
 
 impl Tool for Erase {
-    fn name(&self) -> &'static str {
-        "Erase"
-    }
-
-    fn key(&self) -> Key {
-        Key::E
-    }
-
-    fn hint(&self) -> &'static str {
-        "Drag over lines and walls to remove the touched parts"
+    fn info(&self) -> ToolInfo {
+        ToolInfo { name: "Erase", key: Key::E, hint: "Drag over lines and walls to remove the touched parts" }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

@@ -20,5 +20,5 @@ mod wall;
 mod zoom;
 
 pub use target::target_corners;
-pub use tool::{Gesture, Ghost, HeldKeys, PointerMode, Tool, ToolContext};
+pub use tool::{Gesture, Ghost, HeldKeys, PointerMode, Tool, ToolContext, ToolInfo};
 pub use toolbox::{Toolbox, all};

@@ -3,22 +3,18 @@
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
 use super::icon;
-use super::tool::{PointerMode, Tool};
+use super::tool::{PointerMode, Tool, ToolInfo};
 
 /// The pan tool; the middle button and Space pan with any tool.
 pub(super) struct Pan;
 
 impl Tool for Pan {
-    fn name(&self) -> &'static str {
-        "Pan"
-    }
-
-    fn key(&self) -> Key {
-        Key::H
-    }
-
-    fn hint(&self) -> &'static str {
-        "Drag to move the view; the middle button, or Space and drag, pans with any tool"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Pan",
+            key: Key::H,
+            hint: "Drag to move the view; the middle button, or Space and drag, pans with any tool",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

@@ -4,7 +4,7 @@ use egui::{Key, Painter, Rect, Stroke};
 use glam::Vec2;
 
 use super::icon;
-use super::tool::{Gesture, Tool, ToolContext};
+use super::tool::{Gesture, Tool, ToolContext, ToolInfo};
 use crate::editor::action::Action;
 
 /// Maximum distance of the photon from the pointer, screen points.
@@ -17,16 +17,12 @@ pub(super) struct Probe {
 }
 
 impl Tool for Probe {
-    fn name(&self) -> &'static str {
-        "Probe"
-    }
-
-    fn key(&self) -> Key {
-        Key::P
-    }
-
-    fn hint(&self) -> &'static str {
-        "Click light to follow its photon: its path, its target, the way around walls. Esc ends"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Probe",
+            key: Key::P,
+            hint: "Click light to follow its photon: its path, its target, the way around walls. Esc ends",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

@@ -6,7 +6,7 @@ use lightloom_core::constraint::Constraint;
 
 use super::hit_test::{self, Hit};
 use super::snap::Snap;
-use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::tool::{Gesture, Ghost, Tool, ToolContext, ToolInfo};
 use super::{arrange, icon};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
@@ -161,16 +161,12 @@ fn key(key: Key, context: &ToolContext) -> Vec<Action> {
 }
 
 impl Tool for Select {
-    fn name(&self) -> &'static str {
-        "Select"
-    }
-
-    fn key(&self) -> Key {
-        Key::V
-    }
-
-    fn hint(&self) -> &'static str {
-        "Click or drag a box to select (Shift adds, Alt removes), drag to move, double click a line to add a point"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Select",
+            key: Key::V,
+            hint: "Click or drag a box to select (Shift adds, Alt removes), drag to move, double click a line to add a point",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

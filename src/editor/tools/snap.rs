@@ -72,12 +72,12 @@ impl Snap<'_> {
 
 /// The projection of `p` on the nearest snapping direction from `from`.
 pub(super) fn straight(p: Vec2, from: Vec2) -> Vec2 {
-    let way = p - from;
-    if way == Vec2::ZERO {
+    let along = p - from;
+    if along == Vec2::ZERO {
         return p;
     }
-    let direction = Vec2::from_angle((way.to_angle() / STEP).round() * STEP);
-    from + direction * way.dot(direction)
+    let direction = Vec2::from_angle((along.to_angle() / STEP).round() * STEP);
+    from + direction * along.dot(direction)
 }
 
 fn grid_node(p: Vec2, context: &ToolContext) -> Vec2 {

@@ -6,7 +6,7 @@ use lightloom_core::targets::Placement;
 
 use super::icon;
 use super::snap::Snap;
-use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::tool::{Gesture, Ghost, Tool, ToolContext, ToolInfo};
 use crate::editor::action::Action;
 use crate::editor::document::Edit;
 use crate::editor::target_image::TargetImage;
@@ -140,16 +140,12 @@ fn turned(frame: Frame, from: Vec2, p: Vec2, context: &ToolContext) -> Frame {
 }
 
 impl Tool for Place {
-    fn name(&self) -> &'static str {
-        "Place target"
-    }
-
-    fn key(&self) -> Key {
-        Key::M
-    }
-
-    fn hint(&self) -> &'static str {
-        "Drag the picture to move it, a corner to scale it (Alt: about the centre), the knob to rotate it; double click resets it"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Place target",
+            key: Key::M,
+            hint: "Drag the picture to move it, a corner to scale it (Alt: about the centre), the knob to rotate it; double click resets it",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

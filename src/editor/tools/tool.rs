@@ -106,14 +106,21 @@ pub enum PointerMode {
     Zoom,
 }
 
+/// Name, key and tooltip of a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ToolInfo {
+    /// Its name.
+    pub name: &'static str,
+    /// The key that selects it.
+    pub key: Key,
+    /// One line on its use.
+    pub hint: &'static str,
+}
+
 /// A tool.
 pub trait Tool: Send {
-    /// Its name.
-    fn name(&self) -> &'static str;
-    /// The key that selects it.
-    fn key(&self) -> Key;
-    /// One line on its use, for the tooltip.
-    fn hint(&self) -> &'static str;
+    /// Its name, key and tooltip.
+    fn info(&self) -> ToolInfo;
     /// Paints its icon in a square, with one stroke.
     fn icon(&self, painter: &egui::Painter, square: egui::Rect, stroke: egui::Stroke);
     /// The cursor over the plane.

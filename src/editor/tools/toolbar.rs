@@ -43,7 +43,8 @@ pub fn show(ui: &mut Ui, editor: &mut EditorContext, toolbox: &Toolbox) -> [Rect
 
 fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> (Rect, bool) {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), active, tool.name()));
+    let info = tool.info();
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), active, info.name));
     let visuals = ui.visuals();
     let (fill, colour) = if active {
         (theme::ACCENT, egui::Color32::WHITE)
@@ -59,11 +60,11 @@ fn button(ui: &mut Ui, tool: &dyn Tool, active: bool) -> (Rect, bool) {
     let clicked = response.clicked();
     response.on_hover_ui(|ui| {
         ui.horizontal(|ui| {
-            ui.strong(tool.name());
-            ui.weak(tool.key().name());
+            ui.strong(info.name);
+            ui.weak(info.key.name());
         });
         ui.set_max_width(260.0);
-        ui.label(tool.hint());
+        ui.label(info.hint);
     });
     (rect, clicked)
 }

@@ -93,9 +93,13 @@ mod tests {
                     .filter_map(|entry| entry.shortcut)
                     .any(|s| s.modifiers.is_none() && s.logical_key == key)
             };
-            assert!(!taken(tool.key()), "{} and a command", tool.name());
+            assert!(!taken(tool.info().key), "{} and a command", tool.info().name);
             for other in toolbox.tools().skip(i + 1) {
-                assert!(tool.key() != other.key() && tool.name() != other.name(), "{}", tool.name());
+                assert!(
+                    tool.info().key != other.info().key && tool.info().name != other.info().name,
+                    "{}",
+                    tool.info().name
+                );
             }
         }
     }

@@ -5,7 +5,7 @@ use lightloom_core::constraint::{Constraint, Wall};
 
 use super::icon;
 use super::pen::{Pen, add};
-use super::tool::{Gesture, Ghost, Tool, ToolContext};
+use super::tool::{Gesture, Ghost, Tool, ToolContext, ToolInfo};
 use crate::editor::action::Action;
 
 /// The tool that draws walls.
@@ -20,16 +20,12 @@ impl Default for DrawWall {
 }
 
 impl Tool for DrawWall {
-    fn name(&self) -> &'static str {
-        "Wall"
-    }
-
-    fn key(&self) -> Key {
-        Key::W
-    }
-
-    fn hint(&self) -> &'static str {
-        "Drag to draw freehand, or click point by point; at the first point the wall closes. Enter finishes, Esc cancels"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Wall",
+            key: Key::W,
+            hint: "Drag to draw freehand, or click point by point; at the first point the wall closes. Enter finishes, Esc cancels",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

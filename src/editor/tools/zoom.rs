@@ -3,22 +3,18 @@
 use egui::{CursorIcon, Key, Painter, Rect, Stroke};
 
 use super::icon;
-use super::tool::{PointerMode, Tool};
+use super::tool::{PointerMode, Tool, ToolInfo};
 
 /// The zoom tool; the wheel zooms with any tool.
 pub(super) struct Zoom;
 
 impl Tool for Zoom {
-    fn name(&self) -> &'static str {
-        "Zoom"
-    }
-
-    fn key(&self) -> Key {
-        Key::Z
-    }
-
-    fn hint(&self) -> &'static str {
-        "Click to zoom in, with Shift or Alt to zoom out, or drag; the wheel zooms with any tool"
+    fn info(&self) -> ToolInfo {
+        ToolInfo {
+            name: "Zoom",
+            key: Key::Z,
+            hint: "Click to zoom in, with Shift or Alt to zoom out, or drag; the wheel zooms with any tool",
+        }
     }
 
     fn icon(&self, painter: &Painter, square: Rect, stroke: Stroke) {

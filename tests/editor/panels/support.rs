@@ -14,7 +14,7 @@ use lightloom_core::project::Project;
 use crate::window::Editor;
 
 /// A window with nothing but the panels.
-pub(crate) type Bench = Harness<'static, Editor>;
+pub(crate) type PanelHarness = Harness<'static, Editor>;
 
 fn projects() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("projects")
@@ -51,22 +51,22 @@ pub(crate) fn first_of_everything(project: &Project) -> Focus {
 pub(crate) const WIDTH: f32 = 300.0;
 
 /// The panels over a project, with one of them chosen.
-pub(crate) fn bench(project: Project, panel: Panel) -> Bench {
-    bench_in(project, panel, egui::Theme::Dark)
+pub(crate) fn panel_harness(project: Project, panel: Panel) -> PanelHarness {
+    panel_harness_in(project, panel, egui::Theme::Dark)
 }
 
 /// The same in a theme.
-pub(crate) fn bench_in(project: Project, panel: Panel, of: egui::Theme) -> Bench {
+pub(crate) fn panel_harness_in(project: Project, panel: Panel, of: egui::Theme) -> PanelHarness {
     let mut editor = Editor::with_project(project);
     editor.session.panel = panel;
-    let mut bench = Harness::builder()
+    let mut harness = Harness::builder()
         .with_size(egui::vec2(WIDTH, 1000.0))
         .with_theme(of)
         .with_max_steps(20)
         .with_context_setup(theme::apply)
         .build_ui_state(show, editor);
-    bench.run();
-    bench
+    harness.run();
+    harness
 }
 
 fn show(ui: &mut egui::Ui, editor: &mut Editor) {
@@ -75,8 +75,8 @@ fn show(ui: &mut egui::Ui, editor: &mut Editor) {
 }
 
 /// Two clicks in one place, quick enough to be one gesture.
-pub(crate) fn double_click(bench: &mut Bench, role: Role, name: &str) {
-    let pos = bench.get_by_role_and_label(role, name).rect().center();
+pub(crate) fn double_click(harness: &mut PanelHarness, role: Role, name: &str) {
+    let pos = harness.get_by_role_and_label(role, name).rect().center();
     let button = |pressed| Event::PointerButton {
         pos,
         button: PointerButton::Primary,
@@ -85,6 +85,6 @@ pub(crate) fn double_click(bench: &mut Bench, role: Role, name: &str) {
     };
     let events = [Event::PointerMoved(pos), button(true), button(false), button(true), button(false)];
     // All in one step: the harness lets more time pass between steps than a double click may take.
-    bench.input_mut().events.extend(events);
-    bench.run();
+    harness.input_mut().events.extend(events);
+    harness.run();
 }

@@ -6,23 +6,23 @@ use super::*;
 fn what_is_locked_is_touched_by_no_tool() {
     let drawn = vec![locked(&[[0.2, 0.5], [0.5, 0.5], [0.8, 0.5]])];
     for tool in ["Select", "Erase"] {
-        let mut studio = Studio::new(tool, drawn.clone());
+        let mut harness = ToolHarness::new(tool, drawn.clone());
         for selection in [Selection::default(), Selection::one(0), Selection::point(0, 1)] {
-            studio.session.selection = selection;
-            studio.drag(&way(vec2(0.5, 0.5), vec2(0.6, 0.7), 6));
-            studio.double_click(vec2(0.3, 0.5));
+            harness.session.selection = selection;
+            harness.drag(&path(vec2(0.5, 0.5), vec2(0.6, 0.7), 6));
+            harness.double_click(vec2(0.3, 0.5));
             for key in [Key::Delete, Key::ArrowUp] {
-                studio.session.selection = Selection::one(0);
-                studio.key(key);
+                harness.session.selection = Selection::one(0);
+                harness.key(key);
             }
             let commands: [fn(&Project, &Selection) -> Arranged; 4] =
                 [arrange::reverse, arrange::join, arrange::split, arrange::delete];
             for command in commands {
-                studio.session.selection = Selection::some(0, [1]);
-                assert!(!studio.arrange(command), "{tool}");
+                harness.session.selection = Selection::some(0, [1]);
+                assert!(!harness.arrange(command), "{tool}");
             }
         }
-        assert_eq!(studio.constraints(), drawn, "{tool}");
+        assert_eq!(harness.constraints(), drawn, "{tool}");
     }
 }
 

@@ -24,14 +24,14 @@ mod selecting;
 const PER_POINT: f32 = 0.001;
 
 /// An editor with a tool in hand.
-struct Studio {
+struct ToolHarness {
     editor: Editor,
     toolbox: Toolbox,
     held: HeldKeys,
     photons: Vec<Vec2>,
 }
 
-impl Deref for Studio {
+impl Deref for ToolHarness {
     type Target = Editor;
 
     fn deref(&self) -> &Editor {
@@ -39,19 +39,19 @@ impl Deref for Studio {
     }
 }
 
-impl DerefMut for Studio {
+impl DerefMut for ToolHarness {
     fn deref_mut(&mut self) -> &mut Editor {
         &mut self.editor
     }
 }
 
-impl Studio {
+impl ToolHarness {
     fn new(tool: &str, constraints: Vec<Constraint>) -> Self {
         let text = r#"{ "lightloom": 1, "keys": [ { "frame": 1, "shows": { "image": { "file": "a.png" } } },
             { "frame": 60, "shows": { "image": { "file": "b.png" } } } ] }"#;
         let mut editor = Editor::with_project(Project { constraints, ..serde_json::from_str(text).unwrap() });
         let mut toolbox = Toolbox::default();
-        let index = toolbox.tools().position(|known| known.name() == tool).unwrap();
+        let index = toolbox.tools().position(|known| known.info().name == tool).unwrap();
         toolbox.take(index);
         editor.session.tool = index;
         Self { editor, toolbox, held: HeldKeys::default(), photons: Vec::new() }
@@ -101,17 +101,17 @@ impl Studio {
         self.gesture(Gesture::DoubleClick(p));
     }
 
-    fn press_and_drag(&mut self, way: &[Vec2]) {
-        self.gesture(Gesture::Hover(way[0]));
-        self.gesture(Gesture::Press(way[0]));
-        for &p in &way[1..] {
+    fn press_and_drag(&mut self, path: &[Vec2]) {
+        self.gesture(Gesture::Hover(path[0]));
+        self.gesture(Gesture::Press(path[0]));
+        for &p in &path[1..] {
             self.gesture(Gesture::Drag(p));
         }
     }
 
-    fn drag(&mut self, way: &[Vec2]) {
-        self.press_and_drag(way);
-        self.gesture(Gesture::Release(way[way.len() - 1]));
+    fn drag(&mut self, path: &[Vec2]) {
+        self.press_and_drag(path);
+        self.gesture(Gesture::Release(path[path.len() - 1]));
     }
 
     fn key(&mut self, key: Key) {
@@ -150,7 +150,7 @@ fn locked(points: &[[f32; 2]]) -> Constraint {
     Constraint::Wall(Wall { locked: true, ..Wall::new(points.to_vec()) })
 }
 
-fn way(from: Vec2, to: Vec2, steps: usize) -> Vec<Vec2> {
+fn path(from: Vec2, to: Vec2, steps: usize) -> Vec<Vec2> {
     (0..=steps).map(|i| from.lerp(to, i as f32 / steps as f32)).collect()
 }
 
@@ -164,13 +164,13 @@ fn stray(points: &[Vec2], line: &[Vec2]) -> f32 {
 
 #[test]
 fn the_probe_follows_the_nearest_photon_and_none_far_away() {
-    let mut studio = Studio::new("Probe", Vec::new());
-    studio.photons = vec![vec2(0.1, 0.1), vec2(0.5, 0.5), vec2(0.52, 0.5)];
-    studio.click(vec2(0.515, 0.5));
-    assert_eq!(studio.session.probe, Some(2));
-    studio.click(vec2(0.9, 0.1));
-    assert_eq!(studio.session.probe, None);
-    studio.click(vec2(0.5, 0.5));
-    studio.key(Key::Escape);
-    assert_eq!(studio.session.probe, None);
+    let mut harness = ToolHarness::new("Probe", Vec::new());
+    harness.photons = vec![vec2(0.1, 0.1), vec2(0.5, 0.5), vec2(0.52, 0.5)];
+    harness.click(vec2(0.515, 0.5));
+    assert_eq!(harness.session.probe, Some(2));
+    harness.click(vec2(0.9, 0.1));
+    assert_eq!(harness.session.probe, None);
+    harness.click(vec2(0.5, 0.5));
+    harness.key(Key::Escape);
+    assert_eq!(harness.session.probe, None);
 }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, LightDesc};
+use super::{Emission, Illumination, LightDesc, Sphere};
 use crate::Result;
 use crate::scene::check;
 use crate::setting::schema::Describe;
@@ -62,16 +62,16 @@ impl DirectionalLight {
         Cone { axis: Vec3::from(self.direction).normalize_or(Vec3::NEG_Y), one_minus_cos }
     }
 
-    /// Irradiance of a plane across the single directions, summed over the disk. A disk of even radiance L gives
+    /// Normal irradiance, integrated over the disk. A disk of even radiance L gives
     /// E = L pi sin^2(a) on a surface that faces its middle, and L x solid angle = E x 2 / (1 + cos a) here.
     fn normal_irradiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.irradiance * 2.0 / (2.0 - self.sun().one_minus_cos))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         let target = target.unwrap_or(world);
         let area = std::f32::consts::PI * target.radius * target.radius;
-        // Starts outside everything: any point of the disk, moved back by this, has left the world.
+        // Any point of the disk, moved back by this, lies outside the world.
         let distance = world.centre.distance(target.centre) + world.radius + target.radius;
         Emission {
             flux: self.normal_irradiance() * area,

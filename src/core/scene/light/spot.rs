@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, LightDesc, check_lamp, check_target};
+use super::{Emission, Illumination, LightDesc, Sphere, check_lamp, check_target};
 use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
@@ -19,13 +19,13 @@ use crate::setting::{Setting, settings};
 pub struct SpotLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole cone [W].
+    /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
-    /// The point it looks at, world [m].
+    /// The point it looks at, world (m).
     pub target: [f32; 3],
     /// Opening angle of the cone from edge to edge, degrees.
     pub angle_deg: f32,
@@ -54,7 +54,7 @@ impl Default for SpotLight {
     }
 }
 
-/// How bright the light is by direction, between 0 and 1.
+/// Relative intensity by direction, 0..=1.
 #[derive(Clone, Debug)]
 pub(super) struct Profile {
     axis: Vec3,
@@ -64,7 +64,7 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// Smooth in the cosine of the angle; its mean over the fading rim is one half.
+    /// Smoothstep in the cosine of the angle; its mean over the soft edge is one half.
     pub(super) fn at(&self, direction: Vec3) -> f32 {
         // 1 - cosine by the chord: accurate for narrow cones too.
         let off = (direction - self.axis).length_squared() / 2.0;
@@ -103,11 +103,11 @@ impl SpotLight {
         Vec3::from(self.colour) * (self.watts / profile.solid_angle())
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
         let profile = self.profile();
         let own = Cone { axis: profile.axis, one_minus_cos: profile.outer };
-        let aimed = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let aimed = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let cone = if aimed.one_minus_cos < own.one_minus_cos { aimed } else { own };
         let flux = self.intensity(&profile) * cone.solid_angle();
         Emission { flux, source: Source::Spot { origin, cone, profile } }

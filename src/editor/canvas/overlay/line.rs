@@ -65,10 +65,10 @@ impl Overlay<'_> {
     }
 
     /// An arrow head with its tip at a screen position.
-    fn head(&self, tip: Pos2, way: egui::Vec2, colour: Color32) {
-        let tip = tip + way * (0.25 * HEAD[0]);
-        let (back, side) = (tip - way * HEAD[0], way.rot90() * HEAD[1]);
-        let corners = vec![tip, back + side, back + way * 2.5, back - side];
+    fn head(&self, tip: Pos2, along: egui::Vec2, colour: Color32) {
+        let tip = tip + along * (0.25 * HEAD[0]);
+        let (back, side) = (tip - along * HEAD[0], along.rot90() * HEAD[1]);
+        let corners = vec![tip, back + side, back + along * 2.5, back - side];
         let rim =
             Stroke::new(1.2, Color32::from_black_alpha(150).gamma_multiply(f32::from(colour.a()) / 255.0));
         // Two triangles: the notched head is not convex.

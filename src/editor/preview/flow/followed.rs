@@ -8,7 +8,8 @@ use lightloom_core::constraint::visibility::SearchBuffers;
 use lightloom_core::constraint::{ActiveWall, Constraint, VisibilityGraph, Window};
 use lightloom_core::project::Project;
 
-use super::{Followed, Request, sample};
+use super::picture::{Followed, Request};
+use super::sample;
 
 /// Most corners of a way that are drawn: more than the table of ways has.
 const MOST_CORNERS: usize = 10_000;

@@ -1,84 +1,19 @@
 //! The worker that looks at the field at the playhead: what arrows, streamlines, maps and trails are drawn from.
 
 mod followed;
+mod picture;
 mod sample;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use glam::Vec2;
 use lightloom_core::engine::Preview;
 use lightloom_core::project::Project;
 
 use super::worker::{Share, Turn, Worker};
 use crate::editor::session::{FieldMap, Overlays, Session};
 use followed::Roads;
-
-/// What is seen of the flow at one frame. Places are plane coordinates, velocities plane units per segment.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FlowPicture {
-    /// Places on a lattice, with the velocities there.
-    pub arrows: Vec<(Vec2, Vec2)>,
-    /// The speed that gets the full colour: but one in twenty places of the lattice are slower.
-    pub fast: f32,
-    /// Ways through the field as it stands, at equal steps of time.
-    pub streamlines: Vec<Vec<Vec2>>,
-    /// The map that is shown.
-    pub map: Option<HeatMap>,
-    /// The ways of some photons over all frames.
-    pub trails: Vec<Vec<Vec2>>,
-    /// The photon that is followed.
-    pub followed: Option<Followed>,
-}
-
-/// A quantity of the field on a lattice that covers the plane.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HeatMap {
-    /// Which quantity.
-    pub of: FieldMap,
-    /// Cells along x and y; there is one node more each way.
-    pub cells: [usize; 2],
-    /// Values at the nodes, row by row from y 0.
-    pub values: Vec<f32>,
-    /// The size that gets the full colour: but one in a hundred values are smaller.
-    pub most: f32,
-}
-
-/// A photon that is followed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
-    /// Its way over all frames that are worked out.
-    pub way: Vec<Vec2>,
-    /// Where it is now.
-    pub at: Vec2,
-    /// Where it is bound for at the next key.
-    pub target: Vec2,
-    /// The shortest way there around the walls that stand now; straight where none is in between, empty where none leads
-    /// there.
-    pub detour: Vec<Vec2>,
-}
-
-/// What is asked for.
-#[derive(Clone)]
-struct Request {
-    preview: Arc<Preview>,
-    project: Arc<Project>,
-    frame: i32,
-    show: Overlays,
-    /// The caustic whose own field is shown, if it has one.
-    caustic: Option<usize>,
-    probe: Option<usize>,
-    /// Arrows along the plane's longer side.
-    arrows: usize,
-}
-
-impl PartialEq for Request {
-    fn eq(&self, other: &Self) -> bool {
-        let rest = |r: &Self| (r.frame, r.show, r.caustic, r.probe, r.arrows);
-        Arc::ptr_eq(&self.preview, &other.preview)
-            && Arc::ptr_eq(&self.project, &other.project)
-            && rest(self) == rest(other)
-    }
-}
+use picture::Request;
+pub use picture::{FlowPicture, Followed, HeatMap};
 
 /// Looks at the newest field.
 pub(super) struct FlowViewer {

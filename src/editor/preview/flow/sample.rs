@@ -4,7 +4,7 @@ use glam::{Vec2, vec2};
 use lightloom_core::Progress;
 use lightloom_core::engine::FieldAt;
 
-use super::{FlowPicture, HeatMap, Request};
+use super::picture::{FlowPicture, HeatMap, Request};
 use crate::editor::session::FieldMap;
 
 /// Arrows along the longer side where the plane fits the view, and at most.

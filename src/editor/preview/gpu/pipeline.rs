@@ -5,8 +5,8 @@ use std::sync::{Arc, Weak};
 use lightloom_core::render::ViewTransform;
 use wgpu::util::DeviceExt as _;
 
+use super::drawing::{Drawing, PhotonColumns};
 use super::table::{DARKEST, ENTRIES, RANGE, table};
-use super::{Drawing, PhotonColumns};
 
 /// What the card must be able to do beside the usual.
 pub const FEATURES: wgpu::Features = wgpu::Features::FLOAT32_BLENDABLE;

@@ -1,0 +1,72 @@
+//! What the views need, and what was requested last, to send each request once.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use lightloom_core::engine::{Preview, Shot};
+use lightloom_core::project::Project;
+use lightloom_core::render::{PlaneMaterial, ViewSettings};
+use lightloom_core::scene::{CameraDesc, SceneDesc};
+
+use super::picture_worker::Plane;
+
+/// The pictures that the views need.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// How the plane is drawn.
+    pub plane: Plane,
+    /// Size of the shot in pixels; none where it is not visible.
+    pub shot: Option<[u32; 2]>,
+    /// Camera and size in pixels of the orbit view; none where it is not visible.
+    pub look: Option<(CameraDesc, [u32; 2])>,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Self { plane: Plane::Hidden, shot: None, look: None }
+    }
+}
+
+/// The last request to each worker.
+#[derive(Default)]
+pub(super) struct Requests {
+    pub(super) painted: Option<Painting>,
+    pub(super) staged: Option<Staging>,
+    pub(super) looked: Option<(Painting, Same<Project>, CameraDesc, [u32; 2])>,
+}
+
+/// An object compared by identity. It is kept alive, so that its address is not reused.
+pub(super) struct Same<T>(pub(super) Option<Arc<T>>);
+
+impl<T> PartialEq for Same<T> {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+}
+
+/// The inputs of the pictures at one frame.
+#[derive(PartialEq)]
+pub(super) struct Painting {
+    pub(super) previews: [Same<Preview>; 2],
+    pub(super) shot: Same<Shot>,
+    pub(super) frame: i32,
+    pub(super) shown: Vec<bool>,
+    pub(super) view: ViewSettings,
+    pub(super) paper: PlaneMaterial,
+    pub(super) plane: Plane,
+}
+
+/// The inputs of the background.
+#[derive(Clone, PartialEq)]
+pub(super) struct Staging {
+    pub(super) scene: Option<SceneDesc>,
+    pub(super) aspect: f32,
+    pub(super) size: [u32; 2],
+    pub(super) seed: u64,
+    /// The project file, and whether external files may be read.
+    pub(super) files: (PathBuf, bool),
+}
