@@ -25,7 +25,7 @@ fn a_new_gamma_fits_anew_but_neither_traces_nor_matches() {
     assert_eq!(stages(&second), ["load", "fit"]);
     assert_ne!(bits(&first), bits(&second));
     // What was remembered is what would have been worked out.
-    assert_eq!(bits(&second), bits(&draft(&mut example("dark_glass").1, &project)));
+    assert_eq!(bits(&second), bits(&draft(&example("dark_glass").1, &project)));
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn a_key_moved_in_time_leaves_the_fields() {
     assert_eq!(stages(&moved), ["load", "carry"]);
     assert_eq!(moved.frames().count(), count + 7);
     // Carried along remembered fields, the photons go where they went while these were fitted.
-    assert_eq!(bits(&moved), bits(&draft(&mut example("loop").1, &project)));
+    assert_eq!(bits(&moved), bits(&draft(&example("loop").1, &project)));
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn a_sketch_that_is_cancelled_stops_and_harms_none_after_it() {
     assert!(matches!(engine.shot(&project, [64, 36], 1, &progress), Err(Error::Cancelled)));
     project.flow.gamma = 0.6;
     let after = draft(&engine, &project);
-    assert_eq!(bits(&after), bits(&draft(&mut example("letters").1, &project)));
+    assert_eq!(bits(&after), bits(&draft(&example("letters").1, &project)));
     let (project, engine) = example("dark_glass");
     let none = engine.preview(&project, Quality::Draft, 1, &progress, &mut |_| ());
     assert!(matches!(none, Err(Error::Cancelled)), "a scene is not even loaded");

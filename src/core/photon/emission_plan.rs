@@ -104,7 +104,7 @@ impl EmissionPlan {
                     leaves.push(Leaf { domain: index as u32, level: 0, at: [0, 0], active: true });
                 }
                 EmissionGuiding::Learned => {
-                    leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?)
+                    leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?);
                 }
             }
             progress.advance(1);
