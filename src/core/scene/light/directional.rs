@@ -4,8 +4,9 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Emission, Illumination, LightDesc, Sphere};
+use super::emission::{Cone, Emission, Source, Sphere};
+use super::illumination::Illumination;
+use super::shared::{DEFAULT_NAME, LightSettings};
 use crate::Result;
 use crate::scene::check;
 use crate::setting::schema::Describe;
@@ -14,7 +15,7 @@ use crate::setting::{ANY, Setting, settings};
 /// A directional light. It is infinitely far and has no total power: its strength is an irradiance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(LightSettings::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct DirectionalLight {
     /// Its name.
     pub name: String,
@@ -40,9 +41,9 @@ settings! { DirectionalLight {
 impl Default for DirectionalLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
+            name: DEFAULT_NAME.into(),
             irradiance: Self::IRRADIANCE.value(),
-            colour: LightDesc::COLOUR.value(),
+            colour: LightSettings::COLOUR.value(),
             direction: Self::DIRECTION.value(),
             angle_deg: Self::ANGLE.value(),
         }
@@ -52,7 +53,7 @@ impl Default for DirectionalLight {
 impl DirectionalLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
         Self::IRRADIANCE.check(self.irradiance, place)?;
-        LightDesc::COLOUR.check(self.colour, place)?;
+        LightSettings::COLOUR.check(self.colour, place)?;
         check::direction(place, "direction", self.direction)?;
         Self::ANGLE.check(self.angle_deg, place)
     }

@@ -5,7 +5,8 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::frame;
+use super::frame::frame;
+use super::spot_profile::Profile;
 use crate::math::rng::Stream;
 use crate::scene::Ray;
 
@@ -104,7 +105,7 @@ pub(super) enum Source {
     /// From a point into a cone.
     Point { origin: Vec3, cone: Cone },
     /// From a point into a cone, with rejection by the profile of a spot light.
-    Spot { origin: Vec3, cone: Cone, profile: super::spot::Profile },
+    Spot { origin: Vec3, cone: Cone, profile: Profile },
     /// Nearly parallel, through a disk around the target sphere.
     Parallel { sun: Cone, target: Sphere, distance: f32 },
     /// From a Lambertian surface, in all directions.

@@ -6,10 +6,14 @@
 
 mod directional;
 mod emission;
+mod frame;
+mod illumination;
 mod point;
 mod rectangle;
+mod shared;
 mod sphere;
 mod spot;
+mod spot_profile;
 
 use glam::Vec3;
 use schemars::JsonSchema;
@@ -17,14 +21,17 @@ use serde::{Deserialize, Serialize};
 
 pub use directional::DirectionalLight;
 pub use emission::{Emission, Sphere};
+pub use illumination::Illumination;
 pub use point::PointLight;
 pub use rectangle::RectangleLight;
+pub use shared::LightSettings;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
 
+use crate::Result;
+use crate::scene::Ray;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
-use crate::{Error, Result};
 
 /// A light, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,33 +59,9 @@ settings! { LightDesc {
         Choice { value: "rectangle", help: "a flat panel that shines to one side" },
         Choice { value: "sphere", help: "a glowing ball" },
     ]).required();
-    /// Name of the light in the list of caustics; each name once.
-    NAME = Setting::text("scene.lights[].name");
-    /// Power of the whole light. A narrower cone of the same power is brighter.
-    WATTS = Setting::real("scene.lights[].watts", [0.0, 1e9], &[10.0]).unit("W");
-    /// Factor on the power, linear Rec.709.
-    COLOUR = Setting::colour("scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
-    /// Position of the light, x y z; y is up.
-    POSITION = Setting::vector("scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0]).unit("m");
-    /// The point the light looks at.
-    TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
 } }
 
-/// The illumination of a point by one light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illumination {
-    /// Unit vector from the point to the light.
-    pub direction: Vec3,
-    /// Distance to the light (m); infinite for a directional one.
-    pub distance: f32,
-    /// RGB irradiance on a surface that faces it [W/m^2]; for area lights an unbiased sample.
-    pub irradiance: Vec3,
-}
-
 impl LightDesc {
-    /// The name of a light without one.
-    const DEFAULT_NAME: &str = "light";
-
     /// Its name in the project.
     pub fn name(&self) -> &str {
         match self {
@@ -148,32 +131,11 @@ impl LightDesc {
     }
 
     /// Distance and radiance [W/(sr m^2)] where a ray hits the light itself; area lights only.
-    pub fn intersect(&self, ray: &super::Ray) -> Option<(f32, Vec3)> {
+    pub fn intersect(&self, ray: &Ray) -> Option<(f32, Vec3)> {
         match self {
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => None,
             Self::Rectangle(light) => light.intersect(ray),
             Self::Sphere(light) => light.intersect(ray),
         }
     }
-}
-
-/// Checks that all lights but the directional share.
-fn check_lamp(place: &str, watts: f32, colour: [f32; 3], position: [f32; 3]) -> Result<()> {
-    LightDesc::WATTS.check(watts, place)?;
-    LightDesc::COLOUR.check(colour, place)?;
-    LightDesc::POSITION.check(position, place)
-}
-
-/// Checks of the lights that look at a point.
-fn check_target(place: &str, position: [f32; 3], target: [f32; 3]) -> Result<()> {
-    LightDesc::TARGET.check(target, place)?;
-    if position == target {
-        return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
-    }
-    Ok(())
-}
-
-/// Two unit vectors that complete the unit vector `z` to a right-handed frame (Duff et al. 2017).
-pub(crate) fn frame(z: Vec3) -> (Vec3, Vec3) {
-    z.any_orthonormal_pair()
 }

@@ -6,15 +6,16 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
+use super::emission::{Cone, Emission, Source, Sphere};
+use super::illumination::Illumination;
+use super::shared::{DEFAULT_NAME, LightSettings, check_lamp};
 use crate::Result;
 use crate::setting::schema::Describe;
 
 /// A point light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS))]
+#[schemars(transform = Describe(LightSettings::SETTINGS))]
 pub struct PointLight {
     /// Its name.
     pub name: String,
@@ -29,10 +30,10 @@ pub struct PointLight {
 impl Default for PointLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: DEFAULT_NAME.into(),
+            watts: LightSettings::WATTS.value(),
+            colour: LightSettings::COLOUR.value(),
+            position: LightSettings::POSITION.value(),
         }
     }
 }

@@ -6,8 +6,10 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::Emitter;
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp, check_target, frame};
+use super::emission::{Emission, Emitter, Sphere};
+use super::frame::frame;
+use super::illumination::Illumination;
+use super::shared::{DEFAULT_NAME, LightSettings, check_lamp, check_target};
 use crate::Result;
 use crate::scene::Ray;
 use crate::setting::schema::Describe;
@@ -16,7 +18,7 @@ use crate::setting::{Setting, settings};
 /// A rectangle of light. Its width lies horizontal where it can.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(LightSettings::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct RectangleLight {
     /// Its name.
     pub name: String,
@@ -40,11 +42,11 @@ settings! { RectangleLight {
 impl Default for RectangleLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
-            target: LightDesc::TARGET.value(),
+            name: DEFAULT_NAME.into(),
+            watts: LightSettings::WATTS.value(),
+            colour: LightSettings::COLOUR.value(),
+            position: LightSettings::POSITION.value(),
+            target: LightSettings::TARGET.value(),
             size: Self::SIZE.value(),
         }
     }

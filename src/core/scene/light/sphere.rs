@@ -6,8 +6,9 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Emitter};
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp};
+use super::emission::{Cone, Emission, Emitter, Sphere};
+use super::illumination::Illumination;
+use super::shared::{DEFAULT_NAME, LightSettings, check_lamp};
 use crate::Result;
 use crate::scene::Ray;
 use crate::setting::schema::Describe;
@@ -16,7 +17,7 @@ use crate::setting::{Setting, settings};
 /// A ball of light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(LightSettings::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SphereLight {
     /// Its name.
     pub name: String,
@@ -38,10 +39,10 @@ settings! { SphereLight {
 impl Default for SphereLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: DEFAULT_NAME.into(),
+            watts: LightSettings::WATTS.value(),
+            colour: LightSettings::COLOUR.value(),
+            position: LightSettings::POSITION.value(),
             radius: Self::RADIUS.value(),
         }
     }

@@ -1,13 +1,13 @@
 //! A cone of light from one point, even inside and fading out at its edge.
 
-use std::f32::consts::TAU;
-
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Emission, Illumination, LightDesc, Sphere, check_lamp, check_target};
+use super::emission::{Cone, Emission, Source, Sphere};
+use super::illumination::Illumination;
+use super::shared::{DEFAULT_NAME, LightSettings, check_lamp, check_target};
+use super::spot_profile::Profile;
 use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
@@ -15,7 +15,7 @@ use crate::setting::{Setting, settings};
 /// A spot light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(LightSettings::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SpotLight {
     /// Its name.
     pub name: String,
@@ -43,41 +43,14 @@ settings! { SpotLight {
 impl Default for SpotLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
-            target: LightDesc::TARGET.value(),
+            name: DEFAULT_NAME.into(),
+            watts: LightSettings::WATTS.value(),
+            colour: LightSettings::COLOUR.value(),
+            position: LightSettings::POSITION.value(),
+            target: LightSettings::TARGET.value(),
             angle_deg: Self::ANGLE.value(),
             soft_edge: Self::SOFT_EDGE.value(),
         }
-    }
-}
-
-/// Relative intensity by direction, 0..=1.
-#[derive(Clone, Debug)]
-pub(super) struct Profile {
-    axis: Vec3,
-    /// 1 - cosine where the fading begins and ends.
-    inner: f32,
-    outer: f32,
-}
-
-impl Profile {
-    /// Smoothstep in the cosine of the angle; its mean over the soft edge is one half.
-    pub(super) fn at(&self, direction: Vec3) -> f32 {
-        // 1 - cosine by the chord: accurate for narrow cones too.
-        let off = (direction - self.axis).length_squared() / 2.0;
-        if off <= self.inner {
-            return 1.0;
-        }
-        let x = ((self.outer - off) / (self.outer - self.inner)).clamp(0.0, 1.0);
-        x * x * (3.0 - 2.0 * x)
-    }
-
-    /// Integral over all directions [sr].
-    fn solid_angle(&self) -> f32 {
-        TAU * (self.inner + self.outer) / 2.0
     }
 }
 
