@@ -1,29 +1,29 @@
-//! What can go wrong, by cause. Every message names the place, what is wrong, and what to do.
+//! Errors, by cause. Every message names the place, what is wrong, and what to do.
 
 use std::path::{Path, PathBuf};
 
-/// The result of everything that can fail in the core.
+/// The result type of the core.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// Few variants, by cause: the command line maps each to an exit code.
+/// The errors of the core, by cause; the command line maps each to an exit code.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused: no such file, no permission, disk full.
     #[error("cannot {action} '{}': {source}", path.display())]
     Io {
-        /// What was tried, as a verb: "read", "write", "create".
+        /// The failed action, as a verb: "read", "write", "create".
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
         /// The system's reason.
         source: std::io::Error,
     },
-    /// A file was read, but what stands in it is not what its format asks for.
+    /// The content of a file is malformed.
     #[error("'{}'{}: {what}", path.display(), if place.is_empty() { String::new() } else { format!(", {place}") })]
     Format {
         /// The file.
         path: PathBuf,
-        /// Where in it, such as "line 3, column 7" or "face on line 12"; may be empty.
+        /// The place in it, such as "line 3, column 7" or "face on line 12"; may be empty.
         place: String,
         /// What is wrong, and what to do.
         what: String,
@@ -36,20 +36,20 @@ pub enum Error {
         /// What is wrong, and what to do.
         what: String,
     },
-    /// Refused before any memory was taken, because it would not fit.
+    /// A limit is exceeded; refused before any memory is allocated.
     #[error("{place}: {what}")]
     Limit {
-        /// What asked for it.
+        /// The place of the request.
         place: String,
-        /// How much it needs, what the limit is, what to do.
+        /// The need, the limit, and what to do.
         what: String,
     },
-    /// A solver or an integration failed; no result was made from it.
+    /// A solver or an integration failed; there is no result.
     #[error("{stage}: {what}")]
     Numeric {
         /// The stage that failed.
         stage: &'static str,
-        /// What was seen, such as a residual.
+        /// The observation, such as a residual.
         what: String,
     },
     /// The user asked to stop.
@@ -58,7 +58,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// For `map_err`: an input/output error at `path`.
+    /// An input/output error at `path`, for `map_err`.
     pub fn io(action: &'static str, path: impl AsRef<Path>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.as_ref().to_owned();
         move |source| Self::Io { action, path, source }
@@ -69,7 +69,7 @@ impl Error {
         Self::Format { path: path.as_ref().to_owned(), place: place.into(), what: what.into() }
     }
 
-    /// A project value that cannot be used.
+    /// An invalid value of a project.
     pub fn value(place: impl Into<String>, what: impl Into<String>) -> Self {
         Self::Value { place: place.into(), what: what.into() }
     }

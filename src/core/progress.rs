@@ -1,4 +1,4 @@
-//! How far is it, and may I go on? Long loops ask here at least every few milliseconds.
+//! Progress, pause and cancellation of long work. Long loops check at least every few milliseconds.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
@@ -7,25 +7,25 @@ use std::time::{Duration, Instant};
 
 use crate::{Error, Result};
 
-/// Shared by the thread that works and the one that watches. Cheap to clone.
+/// The progress of some work, shared by its threads and their observers. Cheap to clone.
 #[derive(Clone, Default)]
 pub struct Progress {
     control: Arc<Control>,
     work: Arc<Work>,
 }
 
-/// What the watcher wants of the work.
+/// The requests of the observer.
 #[derive(Default)]
 struct Control {
     cancelled: AtomicBool,
     abandoned: AtomicBool,
-    /// Whether `pause` holds a begin: asked often, and cheaper than its lock.
+    /// Whether `pause` is active: read often, and cheaper than its lock.
     paused: AtomicBool,
     pause: Mutex<Pause>,
-    goes_on: Condvar,
+    resumed: Condvar,
 }
 
-/// Since when the work rests, and how long it rested before.
+/// The begin of the current pause, and the duration of earlier ones.
 #[derive(Default)]
 struct Pause {
     since: Option<Instant>,
@@ -36,165 +36,166 @@ struct Pause {
 struct Work {
     done: AtomicU64,
     total: AtomicU64,
-    road: Mutex<Road>,
+    schedule: Mutex<Schedule>,
 }
 
-/// The stages ahead with the seconds each is expected to take, and the one at work.
+/// The stages with their expected seconds, and the current one.
 #[derive(Default)]
-struct Road {
+struct Schedule {
     expected: Vec<(&'static str, f64)>,
     stage: Option<(&'static str, Instant)>,
-    /// How long the work had rested when the stage began.
+    /// Total pause when the stage began.
     rested: Duration,
-    /// Index of the stage at work in `expected`.
+    /// Index of the current stage in `expected`.
     at: Option<usize>,
 }
 
-/// What the watcher sees.
+/// The progress at one moment.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// The stage at work, such as "trace"; none before the first.
+    /// The current stage, such as "trace"; none before the first.
     pub stage: Option<&'static str>,
     /// Done share of the stage, 0..=1.
     pub fraction: f64,
-    /// Done share of the whole road, 0..=1, by the seconds each stage was expected to take.
+    /// Done share of all stages, 0..=1, weighted by their expected seconds.
     pub overall: f64,
-    /// Seconds still to go, by the pace of this stage so far.
+    /// Estimated seconds left, by the pace of this stage so far.
     pub remaining: f64,
 }
 
 impl Progress {
-    /// Nothing done, not cancelled.
+    /// Progress of work that has not begun.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Declares the stages ahead, in order, with the seconds each is expected to take.
-    pub fn set_road(&self, stages: Vec<(&'static str, f64)>) {
-        *self.road() = Road { expected: stages, ..Road::default() };
+    /// Declares the stages, in order, with their expected seconds.
+    pub fn set_stages(&self, stages: Vec<(&'static str, f64)>) {
+        *self.schedule() = Schedule { expected: stages, ..Schedule::default() };
     }
 
-    /// Work inside a stage that counts for itself: cancelled with the whole, but not shown.
+    /// Progress of work inside a stage: paused and cancelled with the whole, but not shown.
     pub fn inner(&self) -> Self {
         Self { control: self.control.clone(), work: Arc::default() }
     }
 
-    /// Begins a stage of `total` units of work: the next of that name on the road.
+    /// Begins a stage of `total` units of work: the next of that name among those declared.
     pub fn begin(&self, stage: &'static str, total: u64) {
         self.work.done.store(0, Relaxed);
         self.work.total.store(total.max(1), Relaxed);
         let rested = self.rested();
-        let mut road = self.road();
-        road.stage = Some((stage, Instant::now()));
-        road.rested = rested;
-        let from = road.at.map_or(0, |at| at + 1);
-        let next = road.expected.iter().skip(from).position(|(name, _)| *name == stage);
-        road.at = next.map(|i| from + i).or(road.at);
+        let mut schedule = self.schedule();
+        schedule.stage = Some((stage, Instant::now()));
+        schedule.rested = rested;
+        let from = schedule.at.map_or(0, |at| at + 1);
+        let next = schedule.expected.iter().skip(from).position(|(name, _)| *name == stage);
+        schedule.at = next.map(|i| from + i).or(schedule.at);
     }
 
-    /// Counts `units` of the stage as done. Rests here while the work is paused.
+    /// Counts `units` of the stage as done. Blocks while paused.
     pub fn advance(&self, units: u64) {
         self.work.done.fetch_add(units, Relaxed);
-        self.rest();
+        self.wait_while_paused();
     }
 
-    /// Asks the work to stop; it does within a fraction of a second, also where it is paused. What is complete is kept.
+    /// Requests the work to stop, which it does within a fraction of a second, also when paused. Complete results are kept.
     pub fn cancel(&self) {
         self.control.cancelled.store(true, Relaxed);
         self.resume();
     }
 
-    /// Whether someone asked to stop.
+    /// Whether a stop was requested.
     pub fn is_cancelled(&self) -> bool {
         self.control.cancelled.load(Relaxed)
     }
 
-    /// As [`Self::cancel`], but what is complete is not wanted either: no more files are written.
+    /// As [`Self::cancel`], but complete results are dropped too: no more files are written.
     pub fn abandon(&self) {
         self.control.abandoned.store(true, Relaxed);
         self.cancel();
     }
 
-    /// Whether nothing of the work is wanted any more.
+    /// Whether all results are to be dropped.
     pub fn is_abandoned(&self) -> bool {
         self.control.abandoned.load(Relaxed)
     }
 
-    /// Lets the work rest at the next place where it asks whether it may go on. All its threads wait there, so that they must
-    /// be threads that nothing else needs.
+    /// Pauses the work at its next check. Its threads block there, so they must serve nothing else.
     pub fn pause(&self) {
-        let mut pause = self.paused();
+        let mut pause = self.lock_pause();
         if !self.is_cancelled() && pause.since.is_none() {
             pause.since = Some(Instant::now());
             self.control.paused.store(true, Relaxed);
         }
     }
 
-    /// Lets paused work go on.
+    /// Resumes paused work.
     pub fn resume(&self) {
-        let mut pause = self.paused();
+        let mut pause = self.lock_pause();
         let rested = pause.since.take().map_or(Duration::ZERO, |since| since.elapsed());
         pause.before += rested;
         self.control.paused.store(false, Relaxed);
-        self.control.goes_on.notify_all();
+        self.control.resumed.notify_all();
     }
 
-    /// Whether the work rests, or will as soon as it asks.
+    /// Whether the work is paused, or will be at its next check.
     pub fn is_paused(&self) -> bool {
         self.control.paused.load(Relaxed)
     }
 
-    /// How long the work rested so far.
+    /// Total duration of pauses.
     pub fn rested(&self) -> Duration {
-        let pause = self.paused();
+        let pause = self.lock_pause();
         pause.before + pause.since.map_or(Duration::ZERO, |since| since.elapsed())
     }
 
-    /// `Err(Cancelled)` once someone asked to stop. Rests here while the work is paused.
+    /// `Err(Cancelled)` once a stop is requested. Blocks while paused.
     pub fn check(&self) -> Result<()> {
-        self.rest();
+        self.wait_while_paused();
         if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
 
-    fn rest(&self) {
+    fn wait_while_paused(&self) {
         if !self.is_paused() {
             return;
         }
-        let resting = |pause: &mut Pause| pause.since.is_some();
-        let gone_on = self.control.goes_on.wait_while(self.paused(), resting);
-        drop(gone_on.unwrap_or_else(PoisonError::into_inner));
+        let paused = |pause: &mut Pause| pause.since.is_some();
+        let resumed = self.control.resumed.wait_while(self.lock_pause(), paused);
+        drop(resumed.unwrap_or_else(PoisonError::into_inner));
     }
 
-    fn paused(&self) -> MutexGuard<'_, Pause> {
+    fn lock_pause(&self) -> MutexGuard<'_, Pause> {
         self.control.pause.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// How far it is now.
+    /// The progress now.
     pub fn snapshot(&self) -> Snapshot {
         let rested = self.rested();
         let total = self.work.total.load(Relaxed).max(1) as f64;
         let fraction = (self.work.done.load(Relaxed) as f64 / total).min(1.0);
-        let road = self.road();
+        let schedule = self.schedule();
         let sum = |stages: &[(&str, f64)]| stages.iter().map(|(_, seconds)| seconds).sum::<f64>();
-        let (before, now, after) = match road.at {
-            Some(i) => (sum(&road.expected[..i]), road.expected[i].1, sum(&road.expected[i + 1..])),
-            None => (0.0, 0.0, sum(&road.expected)),
+        let (before, now, after) = match schedule.at {
+            Some(i) => {
+                (sum(&schedule.expected[..i]), schedule.expected[i].1, sum(&schedule.expected[i + 1..]))
+            }
+            None => (0.0, 0.0, sum(&schedule.expected)),
         };
-        // The expectation carries until enough of the stage is done to judge by its own pace.
-        let elapsed = road.stage.map_or(Duration::ZERO, |(_, since)| since.elapsed());
-        let elapsed = elapsed.saturating_sub(rested.saturating_sub(road.rested)).as_secs_f64();
+        // The expected seconds count until enough of the stage is done to extrapolate its pace.
+        let elapsed = schedule.stage.map_or(Duration::ZERO, |(_, since)| since.elapsed());
+        let elapsed = elapsed.saturating_sub(rested.saturating_sub(schedule.rested)).as_secs_f64();
         let stage_left =
             if fraction > 0.05 { elapsed / fraction * (1.0 - fraction) } else { now * (1.0 - fraction) };
         Snapshot {
-            stage: road.stage.map(|(name, _)| name),
+            stage: schedule.stage.map(|(name, _)| name),
             fraction,
             overall: (before + now * fraction) / (before + now + after).max(1e-9),
             remaining: stage_left + after,
         }
     }
 
-    fn road(&self) -> MutexGuard<'_, Road> {
-        self.work.road.lock().unwrap_or_else(PoisonError::into_inner)
+    fn schedule(&self) -> MutexGuard<'_, Schedule> {
+        self.work.schedule.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -205,7 +206,7 @@ mod tests {
     #[test]
     fn the_whole_counts_each_stage_by_its_expected_seconds() {
         let progress = Progress::new();
-        progress.set_road(vec![("trace", 1.0), ("render", 3.0)]);
+        progress.set_stages(vec![("trace", 1.0), ("render", 3.0)]);
         progress.begin("render", 10);
         progress.advance(5);
         let seen = progress.snapshot();
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn the_whole_never_goes_back_over_stages_that_come_twice() {
         let progress = Progress::new();
-        progress.set_road(vec![("match", 1.0), ("fit", 1.0), ("match", 1.0), ("fit", 1.0), ("write", 1.0)]);
+        progress.set_stages(vec![("match", 1.0), ("fit", 1.0), ("match", 1.0), ("fit", 1.0), ("write", 1.0)]);
         let mut last = 0.0;
         for stage in ["match", "fit", "match", "fit", "unheard of", "write"] {
             progress.begin(stage, 2);

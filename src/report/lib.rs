@@ -57,7 +57,7 @@ pub fn report(
 ) -> Result<Report> {
     let start = Instant::now();
     let chosen = sections::choose(only)?;
-    progress.set_road(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
+    progress.set_stages(chosen.iter().map(|section| (section.name, section.seconds(effort))).collect());
     let mut context = Context::new(engine, project, effort, scratch, progress)?;
     let (mut sections, mut absent) = (Vec::new(), Vec::new());
     for section in chosen {

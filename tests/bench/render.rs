@@ -5,10 +5,10 @@ use glam::{Vec2, Vec3, vec2};
 use lightloom_core::Progress;
 use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::render::density::Smoother;
+use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{
-    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, Visible,
+    GatherMatrix, Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings,
     Workspace,
 };
 
@@ -45,9 +45,9 @@ fn splatted() -> ReceiverTexture {
     texture
 }
 
-fn flat() -> Visible {
+fn flat() -> GatherMatrix {
     let settings = RenderSettings::default();
-    Visible::flat(Vec2::ONE, &layout(), &settings, &Progress::new()).expect("nobody cancels")
+    GatherMatrix::flat(Vec2::ONE, &layout(), &settings, &Progress::new()).expect("nobody cancels")
 }
 
 #[divan::bench]
@@ -61,7 +61,7 @@ fn splat_1m_photons_1024(bencher: Bencher<'_, '_>) {
 #[divan::bench(args = [0.002, 0.006, 0.05])]
 fn filter_1024(bencher: Bencher<'_, '_>, radius: f32) {
     let mut texture = splatted();
-    let mut smoother = Smoother::default();
+    let mut smoother = KernelFilter::default();
     bencher.bench_local(|| smoother.filter(&mut texture, black_box(radius)));
 }
 

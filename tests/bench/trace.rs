@@ -9,7 +9,7 @@ use divan::counter::ItemsCount;
 use glam::Vec3;
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::photon::{Aim, Tracer};
+use lightloom_core::photon::{EmissionGuiding, Tracer};
 use lightloom_core::scene::{Ray, Scene};
 use scenes::{Stage, glass, icosphere, obj, point, wine_glass_obj};
 
@@ -82,7 +82,7 @@ fn photons(bencher: Bencher) {
 #[divan::bench(sample_count = 10)]
 fn photons_aimed_at_bounds(bencher: Bencher) {
     let scene = wine_scene();
-    let tracer = Tracer::aimed(&scene, Aim::Bounds, 1, &Progress::new()).unwrap();
+    let tracer = Tracer::with_guiding(&scene, EmissionGuiding::Bounds, 1, &Progress::new()).unwrap();
     bencher
         .counter(ItemsCount::new(50_000_usize))
         .bench_local(|| tracer.trace(0, 50_000, &Progress::new()).unwrap());

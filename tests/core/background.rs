@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use glam::{Vec3, vec2};
 use lightloom_core::render::{
-    Image, ReceiverTexture, RenderSettings, TextureLayout, Visible, background, layout_for,
+    GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, layout_for,
 };
 use lightloom_core::scene::light::{LightDesc, PointLight, RectangleLight};
 use lightloom_core::scene::material::{Diffuse, Glass, Material, Mirror};
@@ -200,7 +200,8 @@ fn even(layout: &TextureLayout, metres: f32) -> ReceiverTexture {
 fn the_camera_sees_the_texture_directly_through_a_pane_and_in_a_mirror() {
     let look = |scene: &Scene| {
         let layout = layout_for(Some(scene), scene.receiver().extent(), &settings(1), (0.02, 0.01));
-        let visible = Visible::through_camera(scene, &layout, &settings(1), 5, &Progress::new()).unwrap();
+        let visible =
+            GatherMatrix::through_camera(scene, &layout, &settings(1), 5, &Progress::new()).unwrap();
         visible.gather(&even(&layout, 4.0))
     };
     let albedo = Vec3::new(0.5, 0.4, 0.3);
@@ -227,7 +228,8 @@ fn background_and_view_are_the_same_bytes_for_one_and_two_threads() {
     let run = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let seen = Visible::through_camera(&scene, &layout, &settings(4), 5, &Progress::new()).unwrap();
+            let seen =
+                GatherMatrix::through_camera(&scene, &layout, &settings(4), 5, &Progress::new()).unwrap();
             (render(&scene, 4), seen)
         })
     };

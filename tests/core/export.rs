@@ -7,7 +7,7 @@ use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
 use glam::Vec3;
 use half::f16;
 use lightloom_core::export::{
-    Frame, FrameFormat, FramePattern, Metadata, Overlay, PngDepth, Repairs, evenly_chosen,
+    Frame, FrameFormat, FramePattern, Metadata, Overlay, PngDepth, RepairedSamples, evenly_chosen,
     write_contact_sheet, write_frame,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
@@ -45,7 +45,7 @@ fn write(
     format: FrameFormat,
     background: &Image,
     caustic: &Image,
-) -> lightloom_core::Result<Repairs> {
+) -> lightloom_core::Result<RepairedSamples> {
     let frame = Frame { background, caustic, metadata: &metadata() };
     write_frame(path, format, &frame, &view(ViewTransform::Agx), PngDepth::Eight)
 }
@@ -72,7 +72,7 @@ fn an_exr_holds_beauty_caustic_and_background_as_half_floats() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.0017.exr");
     let (background, caustic) = (noise(1, 1.0), noise(2, 50.0));
-    assert_eq!(write(&path, FrameFormat::Exr, &background, &caustic).unwrap(), Repairs::default());
+    assert_eq!(write(&path, FrameFormat::Exr, &background, &caustic).unwrap(), RepairedSamples::default());
     let layers = read_exr(&path);
     assert_eq!(layers.iter().map(|l| l.0.as_str()).collect::<Vec<_>>(), ["rgba", "caustic", "background"]);
     let channel = |layer: usize, name: &str| &layers[layer].1.iter().find(|c| c.0 == name).unwrap().1;
@@ -133,7 +133,7 @@ fn what_a_half_float_cannot_hold_is_clamped_and_counted() {
     caustic.pixels[3] = Vec3::new(0.25, f32::NEG_INFINITY, 1e6);
     let repairs = write(&path, FrameFormat::Exr, &background, &caustic).unwrap();
     // The blue sample is too large in the caustic and in the beauty.
-    assert_eq!(repairs, Repairs { half_clamped: 2, nonfinite_replaced: 2 });
+    assert_eq!(repairs, RepairedSamples { half_clamped: 2, nonfinite_replaced: 2 });
     let layers = read_exr(&path);
     let at = |layer: usize, name: &str| layers[layer].1.iter().find(|c| c.0 == name).unwrap().1[3].to_f32();
     assert_eq!([at(0, "R"), at(0, "G"), at(0, "B")], [0.25, 1.0, 65504.0]);

@@ -139,14 +139,18 @@ fn a_glass_sphere_focuses_as_calculated() {
 #[test]
 fn lossless_glass_loses_nothing() {
     let (_, report) = trace(&glass_sphere(), 200_000);
-    let ledger = report.ledger;
-    let out =
-        ledger.landed + ledger.surround + ledger.escaped + ledger.blocked + ledger.capped + ledger.direct;
+    let balance = report.balance;
+    let out = balance.landed
+        + balance.surround
+        + balance.escaped
+        + balance.blocked
+        + balance.capped
+        + balance.direct;
     // f32 photons summed in f64.
-    assert!((out / ledger.emitted - 1.0).abs().max_element() < 1e-6, "{ledger:?}");
-    assert_eq!(ledger.absorbed, glam::DVec3::ZERO);
+    assert!((out / balance.emitted - 1.0).abs().max_element() < 1e-6, "{balance:?}");
+    assert_eq!(balance.absorbed, glam::DVec3::ZERO);
     // In a true sphere every ray that comes in goes out again; facets catch a few for longer than paths are followed.
-    assert!(ledger.capped.x < 1e-4 * ledger.emitted.x, "{ledger:?}");
+    assert!(balance.capped.x < 1e-4 * balance.emitted.x, "{balance:?}");
 }
 
 /// A slab of 10 mm over the receiver in parallel light from above, 1 W/m^2, of which `count` photons land.
@@ -172,10 +176,14 @@ fn coloured_glass_absorbs_by_distance() {
         // 200 000 photons over 1 m^2, of unequal colour: 3e-3 is three standard errors of the mean.
         assert!((total[channel] / want - 1.0).abs() < 1e-2, "{channel}: {total} against {want}");
     }
-    let ledger = report.ledger;
-    let out =
-        ledger.landed + ledger.surround + ledger.escaped + ledger.blocked + ledger.capped + ledger.direct;
-    assert!(((out + ledger.absorbed) / ledger.emitted - 1.0).abs().max_element() < 1e-6, "{ledger:?}");
+    let balance = report.balance;
+    let out = balance.landed
+        + balance.surround
+        + balance.escaped
+        + balance.blocked
+        + balance.capped
+        + balance.direct;
+    assert!(((out + balance.absorbed) / balance.emitted - 1.0).abs().max_element() < 1e-6, "{balance:?}");
     let mean = |flux: &Vec3| flux.element_sum() / 3.0;
     let first = mean(&photons.flux[0]);
     assert!(photons.flux.iter().filter(|f| (mean(f) / first - 1.0).abs() < 1e-4).count() > 199_000);
@@ -331,9 +339,9 @@ fn oblique_silhouettes_of_coarse_glass_keep_all_energy() {
     stage.desc.lights.push(point(1.0, [1.0, 2.0, 0.5]));
     stage.desc.receiver.size = [20.0, 20.0];
     let (_, report) = trace(&stage.load(), 100_000);
-    let ledger = report.ledger;
-    let out = ledger.landed + ledger.surround + ledger.escaped + ledger.capped + ledger.direct;
-    assert!((out.x / ledger.emitted.x - 1.0).abs() < 1e-6, "{ledger:?}");
-    assert!(ledger.blocked.x < 1e-5 * ledger.emitted.x, "nothing comes from below the floor: {ledger:?}");
-    assert!(ledger.capped.x < 1e-4 * ledger.emitted.x, "{ledger:?}");
+    let balance = report.balance;
+    let out = balance.landed + balance.surround + balance.escaped + balance.capped + balance.direct;
+    assert!((out.x / balance.emitted.x - 1.0).abs() < 1e-6, "{balance:?}");
+    assert!(balance.blocked.x < 1e-5 * balance.emitted.x, "nothing comes from below the floor: {balance:?}");
+    assert!(balance.capped.x < 1e-4 * balance.emitted.x, "{balance:?}");
 }

@@ -5,9 +5,9 @@ use std::f32::consts::PI;
 use crate::scenes::{Stage, box_obj, glass, mirror, point, sphere_obj, wine_glass_obj};
 use glam::{DVec3, Vec3};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::photon::{Aim, Photons, Tracer};
+use lightloom_core::photon::{EmissionGuiding, Photons, Tracer};
 use lightloom_core::scene::light::{
-    Ball, DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight,
+    DirectionalLight, PointLight, RectangleLight, Sphere, SphereLight, SpotLight,
 };
 use lightloom_core::scene::material::{Diffuse, Glass, Material};
 use lightloom_core::scene::{LightDesc, Ray, Scene};
@@ -134,12 +134,12 @@ fn quarters(scene: &Scene, photons: &Photons) -> [(f64, f64); 4] {
 fn aimed_emission_lands_the_same_light_as_shining_everywhere() {
     let scene = crowded();
     let by = |aim, count| {
-        let tracer = Tracer::aimed(&scene, aim, 11, &Progress::new()).unwrap();
+        let tracer = Tracer::with_guiding(&scene, aim, 11, &Progress::new()).unwrap();
         (quarters(&scene, &trace(&tracer, 0, count)), tracer.landing_rate())
     };
-    let (everywhere, rate) = by(Aim::Nowhere, 30_000);
-    let (bounds, _) = by(Aim::Bounds, 100_000);
-    let (learned, learned_rate) = by(Aim::Learned, 300_000);
+    let (everywhere, rate) = by(EmissionGuiding::Unguided, 30_000);
+    let (bounds, _) = by(EmissionGuiding::Bounds, 100_000);
+    let (learned, learned_rate) = by(EmissionGuiding::Learned, 300_000);
     for quarter in 0..4 {
         for aimed in [bounds, learned] {
             let difference = aimed[quarter].0 - everywhere[quarter].0;
@@ -183,8 +183,8 @@ fn lights() -> Vec<LightDesc> {
 }
 
 /// Mean over the square of what an emission sends along rays that pass `keep` [W], red channel.
-fn emitted(light: &LightDesc, target: Option<Ball>, keep: impl Fn(&Ray) -> bool) -> f64 {
-    let emission = light.emission(target, Ball { centre: Vec3::ZERO, radius: 10.0 });
+fn emitted(light: &LightDesc, target: Option<Sphere>, keep: impl Fn(&Ray) -> bool) -> f64 {
+    let emission = light.emission(target, Sphere { centre: Vec3::ZERO, radius: 10.0 });
     let n = 600;
     let mut rng = Stream::new(9, Purpose::Trace, 0, 0);
     let kept = (0..n * n)
@@ -209,9 +209,9 @@ fn every_light_emits_its_watts() {
 fn every_light_sends_the_same_to_a_ball_aimed_or_not() {
     let sun = LightDesc::Directional(DirectionalLight { angle_deg: 5.0, ..Default::default() });
     for light in lights().into_iter().chain([sun]) {
-        for target in [Ball { centre: Vec3::ZERO, radius: 0.5 }, Ball { centre: Vec3::Y, radius: 0.8 }] {
-            let all = emitted(&light, None, |ray| target.meets(ray));
-            let aimed = emitted(&light, Some(target), |ray| target.meets(ray));
+        for target in [Sphere { centre: Vec3::ZERO, radius: 0.5 }, Sphere { centre: Vec3::Y, radius: 0.8 }] {
+            let all = emitted(&light, None, |ray| target.intersects(ray));
+            let aimed = emitted(&light, Some(target), |ray| target.intersects(ray));
             // The unaimed share is a few percent of 360 000 at least, for the sun 0.25 %.
             assert!((aimed / all - 1.0).abs() < 0.06, "{light:?}: {aimed} against {all}");
             let cut = emitted(&light, Some(target), |_| true);
@@ -223,10 +223,11 @@ fn every_light_sends_the_same_to_a_ball_aimed_or_not() {
 #[test]
 fn photons_and_shadow_rays_agree_on_the_irradiance() {
     let place = Vec3::new(0.1, 0.0, 0.2);
-    let small = Ball { centre: place, radius: 0.01 };
+    let small = Sphere { centre: place, radius: 0.01 };
     let sun = LightDesc::Directional(DirectionalLight { angle_deg: 5.0, ..Default::default() });
     for light in lights().into_iter().chain([sun]) {
-        let by_photons = emitted(&light, Some(small), |ray| small.meets(ray)) / f64::from(PI * 0.01 * 0.01);
+        let by_photons =
+            emitted(&light, Some(small), |ray| small.intersects(ray)) / f64::from(PI * 0.01 * 0.01);
         let mut rng = Stream::new(9, Purpose::Trace, 0, 1);
         let n = 20_000;
         let sum: f64 = (0..n)
@@ -307,11 +308,11 @@ fn tracing_stops_when_asked() {
 }
 
 #[test]
-fn the_ledger_adds_up() {
+fn the_flux_balance_adds_up() {
     let scene = crowded();
     let tracer = Tracer::new(&scene, 1, &Progress::new()).unwrap();
     let (photons, report) = tracer.trace(0, 100_000, &Progress::new()).unwrap();
-    let l = report.ledger;
+    let l = report.balance;
     let sum: DVec3 = l.landed + l.surround + l.escaped + l.blocked + l.absorbed + l.capped + l.direct;
     // f32 weights, up to a dozen events each.
     assert!((sum / l.emitted - 1.0).abs().max_element() < 1e-5, "{l:?}");

@@ -1,4 +1,4 @@
-//! The light of a sketch: on the receiver, in the shot, in a free look, and beside the final flow's.
+//! The light of a preview: on the receiver, in the shot, in an orbit view, and beside the final flow's.
 
 use crate::previews::{draft, example, example_path, flux, two_balls};
 use glam::{Vec2, Vec3, Vec4};
@@ -7,20 +7,20 @@ use lightloom_core::engine::{Engine, OrbitView, PreviewExposure, Quality};
 use lightloom_core::files::npy;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::project::{AssetFolder, Ease};
-use lightloom_core::render::density::Smoother;
+use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
-use lightloom_core::render::{MarkKind, ReceiverTexture};
+use lightloom_core::render::{MarkerKind, ReceiverTexture};
 use lightloom_core::scene::CameraDesc;
 
 #[test]
 fn hidden_caustics_give_no_light_and_the_others_all_of_theirs() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let mut exposure = PreviewExposure::default();
-    let mut total = |shown: &[bool]| exposure.expose(&sketch, 5, 128, shown).unwrap().total().element_sum();
+    let mut total = |shown: &[bool]| exposure.expose(&preview, 5, 128, shown).unwrap().total().element_sum();
     let all = total(&[]);
     let parts = [[true, false, false], [false, true, false], [false, false, true]].map(|s| total(&s));
-    let watts: f64 = flux(&sketch, 5).iter().map(|f| f.as_dvec3().element_sum()).sum();
+    let watts: f64 = flux(&preview, 5).iter().map(|f| f.as_dvec3().element_sum()).sum();
     // Splatting and filtering keep the flux but for sums in f32; no photon is beyond the margin.
     assert!((all / watts - 1.0).abs() < 1e-4, "{all} of {watts}");
     assert!((parts.iter().sum::<f64>() / all - 1.0).abs() < 1e-4);
@@ -61,7 +61,7 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
         let apart = (apart / wanted.len() as f32).sqrt();
         let mut texture = ReceiverTexture::new(*shown.layout());
         Splatter::default().splat(&wanted, &flux(&preview, number), &mut texture);
-        Smoother::default().filter(&mut texture, PreviewExposure::radius(&preview));
+        KernelFilter::default().filter(&mut texture, PreviewExposure::radius(&preview));
         let difference = difference(&shown, &texture);
         println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
         // The preview's field has half the cells and three quarters of the steps. A photon is off by a part of a cell of
@@ -74,10 +74,10 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
 #[test]
 fn a_shot_takes_the_light_of_a_sketch() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let shot = engine.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
     let mut exposure = PreviewExposure::default();
-    let light = exposure.expose(&sketch, 9, shot.resolution(), &[]).unwrap();
+    let light = exposure.expose(&preview, 9, shot.resolution(), &[]).unwrap();
     let picture = shot.picture(light).unwrap();
     assert_eq!([picture.width, picture.height], [64, 36]);
     // Light is added where the square is seen, and none to speak of between the squares; no pixel gets darker.
@@ -90,16 +90,16 @@ fn a_shot_takes_the_light_of_a_sketch() {
     assert!(square > 10.0 * middle && square > 0.0, "{square} {middle}");
     let darker = |(a, b): (&Vec3, &Vec3)| a.cmplt(*b).any();
     assert!(!picture.pixels.iter().zip(&shot.background.pixels).any(darker));
-    let other = exposure.expose(&sketch, 9, shot.resolution() + 8, &[]).unwrap();
+    let other = exposure.expose(&preview, 9, shot.resolution() + 8, &[]).unwrap();
     assert!(shot.picture(other).is_none(), "a texture of another resolution is refused");
 }
 
 #[test]
 fn a_look_shows_glass_receiver_caustic_and_marks() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let mut exposure = PreviewExposure::default();
-    let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
+    let light = exposure.expose(&preview, 9, 128, &[]).unwrap();
     let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
     let size = [96, 54];
     let look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();
@@ -110,8 +110,8 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     };
     assert!(at(&lit, Vec2::new(0.2, 0.8)) > 1.5 * at(&dark, Vec2::new(0.2, 0.8)));
     assert!(at(&dark, Vec2::new(0.5, 0.5)) > 0.0, "the receiver is seen without light");
-    let kinds: Vec<MarkKind> = lit.marks.iter().map(|mark| mark.kind).collect();
-    assert_eq!(kinds, [MarkKind::Light(0), MarkKind::Light(1), MarkKind::Camera]);
+    let kinds: Vec<MarkerKind> = lit.marks.iter().map(|mark| mark.kind).collect();
+    assert_eq!(kinds, [MarkerKind::Light(0), MarkerKind::Light(1), MarkerKind::Camera]);
     let (flat, engine) = example("letters_free");
     let plane = engine.orbit_view(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
     assert!(plane.marks.is_empty() && plane.image.pixels.iter().all(|p| p.is_finite()));

@@ -3,11 +3,11 @@
 use glam::{DVec3, Vec2, Vec3, Vec3Swizzles, vec2};
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::render::density::{Smoother, default_radius, radius_of_pass};
-use lightloom_core::render::splat::{Outside, Splatter};
+use lightloom_core::render::density::{KernelFilter, default_radius, radius_of_pass};
+use lightloom_core::render::splat::{OutsidePhotons, Splatter};
 use lightloom_core::render::{
-    Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings, ViewTransform,
-    Visible, Workspace, layout_for,
+    GatherMatrix, Image, ProgressiveRender, ReceiverTexture, RenderSettings, TextureLayout, ViewSettings,
+    ViewTransform, Workspace, layout_for,
 };
 
 /// Photons over the plane, some a little and some far outside, with coloured flux.
@@ -26,7 +26,7 @@ fn relative_gap(a: DVec3, b: DVec3) -> f64 {
     ((a - b).abs() / b.abs()).max_element()
 }
 
-fn splat(positions: &[Vec2], flux: &[Vec3], layout: TextureLayout) -> (ReceiverTexture, Outside) {
+fn splat(positions: &[Vec2], flux: &[Vec3], layout: TextureLayout) -> (ReceiverTexture, OutsidePhotons) {
     let mut texture = ReceiverTexture::new(layout);
     let outside = Splatter::default().splat(positions, flux, &mut texture);
     (texture, outside)
@@ -69,7 +69,7 @@ fn splat_and_filter_give_the_same_bytes_for_one_and_two_threads() {
     let (positions, flux) = scattered(300_000, 0);
     let run = || {
         let (mut texture, _) = splat(&positions, &flux, TextureLayout::new(vec2(1.0, 0.7), 500, 0.03));
-        Smoother::default().filter(&mut texture, 0.0123);
+        KernelFilter::default().filter(&mut texture, 0.0123);
         texture
     };
     let (one, two) = (with_threads(1, run), with_threads(2, run));
@@ -89,7 +89,7 @@ fn the_filter_conserves_flux_for_any_radius() {
     let whole = texture.total();
     for radius in [0.0, 1e-4, 0.004, 0.005, 0.0071, 0.03, 0.2, 3.0] {
         let mut filtered = texture.clone();
-        Smoother::default().filter(&mut filtered, radius);
+        KernelFilter::default().filter(&mut filtered, radius);
         // 40 000 texels rounded to f32 with random signs.
         assert!(relative_gap(filtered.total(), whole) < 1e-6, "radius {radius}");
         assert!(filtered.texels().iter().all(|t| t.min_element() >= 0.0), "radius {radius}");
@@ -102,7 +102,7 @@ fn the_kernel_has_the_variance_and_the_reach_it_says() {
     let centre = layout.plane_from_texel(layout.columns / 2, layout.rows / 2);
     for radius in [0.006_f32, 0.0101, 0.02, 0.0777, 0.2] {
         let (mut texture, _) = splat(&[centre], &[Vec3::ONE], layout);
-        Smoother::default().filter(&mut texture, radius);
+        KernelFilter::default().filter(&mut texture, radius);
         let (mut x2, mut y2, mut reach) = (0.0, 0.0, 0.0_f32);
         for (i, texel) in texture.texels().iter().enumerate() {
             let offset = layout.plane_from_texel(i % layout.columns, i / layout.columns) - centre;
@@ -210,7 +210,7 @@ fn the_flat_view_shows_the_whole_plane_upright_with_its_irradiance() {
     let settings = RenderSettings { width: 160, height: 120, ..RenderSettings::default() };
     let extent = vec2(1.0, 0.5);
     let layout = layout_for(None, extent, &settings, (0.05, 0.03));
-    let visible = Visible::flat(extent, &layout, &settings, &Progress::new()).unwrap();
+    let visible = GatherMatrix::flat(extent, &layout, &settings, &Progress::new()).unwrap();
     let mut texture = ReceiverTexture::new(layout);
     let per_texel = layout.texel * layout.texel;
     for i in 0..layout.len() {

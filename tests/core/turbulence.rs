@@ -333,7 +333,7 @@ fn settings_out_of_range_are_named() {
         (TurbulenceSettings { seed: 1 << 53, ..good() }, "flow.turbulence.seed"),
         (grids(&[]), "flow.turbulence.grids: has 0 grids"),
         (grids(&[4, 5, 6, 7, 8, 9, 10, 11, 12]), "has 9 grids"),
-        (grids(&[30, 3]), "flow.turbulence.grids[1]: is 3 cells"),
+        (grids(&[30, 3]), "flow.turbulence.grids[1]: is 3, must be 4 to 512 cells"),
         (grids(&[513]), "4 to 512"),
         (grids(&[30, 8, 30]), "flow.turbulence.grids[2]: is 30 cells once more"),
         (weights(&[1.0]), "flow.turbulence.weights: has 1 values for 2 grids"),

@@ -3,6 +3,7 @@
 
 mod app;
 mod canvas;
+mod crash;
 mod dialogs;
 mod document;
 mod export_window;

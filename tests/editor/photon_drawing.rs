@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, vec2, vec3};
 use lightloom::editor::preview::gpu::{Drawing, FEATURES, PhotonColumns, Renderer};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::render::density::Smoother;
+use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
 use lightloom_core::render::{
-    Image, Paper, ReceiverTexture, TextureLayout, ViewSettings, ViewTransform, plane_picture,
+    Image, PlaneMaterial, ReceiverTexture, TextureLayout, ViewSettings, ViewTransform, plane_image,
 };
 
 const SIDE: u32 = 256;
@@ -33,8 +33,8 @@ fn photons() -> (Vec<Vec2>, Vec<Vec3>) {
 fn by_the_core(positions: &[Vec2], flux: &[Vec3], radius: f32, view: &ViewSettings) -> Image {
     let mut texture = ReceiverTexture::new(TextureLayout::new(Vec2::ONE, SIDE as usize, radius));
     Splatter::default().splat(positions, flux, &mut texture);
-    Smoother::default().filter(&mut texture, radius);
-    view.view().apply(&plane_picture(&texture, Vec2::ONE, Paper::WHITE))
+    KernelFilter::default().filter(&mut texture, radius);
+    view.view().apply(&plane_image(&texture, Vec2::ONE, PlaneMaterial::WHITE))
 }
 
 /// What the card shows; none where there is no adapter that can.
@@ -112,7 +112,7 @@ fn the_card_shows_the_light_that_the_core_shows() {
             origin: vec2(0.0, SIDE as f32),
             scale: SIDE as f32,
             extent: Vec2::ONE,
-            radiance: Paper::WHITE.radiance_per_watt(1.0),
+            radiance: PlaneMaterial::WHITE.radiance_per_watt(1.0),
             view: view.clone(),
         };
         let Some(card) = by_the_card(&drawing) else {

@@ -5,7 +5,6 @@ use std::path::Path;
 
 mod cli;
 mod compare;
-mod crash;
 #[path = "../letters/mod.rs"]
 mod letters;
 mod real_window;

@@ -70,7 +70,7 @@ impl Constraint {
         }
     }
 
-    /// When it acts; always where there is no span.
+    /// When it acts; always without a span.
     pub fn span(&self) -> Option<&Span> {
         match self {
             Self::DirectedLine(line) => line.span.as_ref(),

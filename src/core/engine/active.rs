@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use crate::constraint::{ActiveLine, ActiveWall, Barriers, Constraint, Window, stroke};
-use crate::export::{Drawn, MAGENTA, ORANGE};
+use crate::export::{MAGENTA, ORANGE, OverlayLine};
 use crate::project::Project;
 
 /// Width of a directed line on a sheet, plane units.
@@ -49,12 +49,16 @@ fn window(project: &Project, constraint: &Constraint, segment: usize) -> Option<
 }
 
 /// The enabled constraints as they are drawn on a sheet: lines in orange, walls in magenta.
-pub(super) fn drawn(project: &Project) -> Vec<Drawn> {
+pub(super) fn drawn(project: &Project) -> Vec<OverlayLine> {
     let drawn = |constraint: &Constraint| {
         let points = stroke::clean(constraint.points());
         match constraint {
-            Constraint::DirectedLine(_) => Drawn { points, colour: ORANGE, width: LINE_WIDTH, arrow: true },
-            Constraint::Wall(wall) => Drawn { points, colour: MAGENTA, width: wall.thickness, arrow: false },
+            Constraint::DirectedLine(_) => {
+                OverlayLine { points, colour: ORANGE, width: LINE_WIDTH, arrow: true }
+            }
+            Constraint::Wall(wall) => {
+                OverlayLine { points, colour: MAGENTA, width: wall.thickness, arrow: false }
+            }
         }
     };
     project.constraints.iter().filter(|constraint| constraint.is_enabled()).map(drawn).collect()

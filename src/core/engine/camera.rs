@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::inputs::ViewInput;
 use super::memo::{Same, Slot};
 use super::meter::Meter;
 use super::prepare::Prepared;
@@ -11,21 +12,11 @@ use super::stages::Stages;
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Image, RenderSettings, TextureLayout, Visible, background, first_radius, layout_for, rough_background,
+    GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
+    rough_background,
 };
 use crate::scene::Scene;
 use crate::{Progress, Result};
-
-/// Everything that the camera's stages depend on.
-#[derive(Clone, PartialEq)]
-pub(super) struct ViewInput {
-    scene: Option<Same<Scene>>,
-    render: RenderSettings,
-    extent: Vec2,
-    seed: u64,
-    layout: Option<TextureLayout>,
-    rough: bool,
-}
 
 /// A project's camera, receiver and the texture that lies on it.
 pub(super) struct CameraView<'a> {
@@ -60,7 +51,7 @@ impl Stages {
         view: &CameraView,
         meter: &Meter,
         progress: &Progress,
-    ) -> Result<(Arc<Visible>, Arc<Image>)> {
+    ) -> Result<(Arc<GatherMatrix>, Arc<Image>)> {
         let CameraView { project, scene, extent, layout, rough } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
@@ -69,8 +60,10 @@ impl Stages {
         let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
             meter.measure("visible", || match scene {
-                Some(scene) => Visible::through_camera(scene, &layout, render, seed, progress).map(Arc::new),
-                None => Visible::flat(extent, &layout, render, progress).map(Arc::new),
+                Some(scene) => {
+                    GatherMatrix::through_camera(scene, &layout, render, seed, progress).map(Arc::new)
+                }
+                None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
         let background = match scene {

@@ -9,7 +9,7 @@ use super::meter::Meter;
 use super::prepare::Prepared;
 use super::render::{Output, Rendered};
 use super::{Engine, Summary, active};
-use crate::export::{Comparison as Sheet, Drawn, Overlay, Row, evenly_chosen, write_comparison};
+use crate::export::{ComparisonSheet, MethodRow, Overlay, OverlayLine, evenly_chosen, write_comparison};
 use crate::flow::Movement;
 use crate::matching::Method;
 use crate::project::Project;
@@ -86,7 +86,7 @@ impl Engine {
         for (prepared, _) in &prepared {
             prepared.plan.require_memory()?;
         }
-        progress.set_road(road(&prepared));
+        progress.set_stages(road(&prepared));
         let mut done: Vec<(Movement, Rendered)> = Vec::new();
         let mut stopped = false;
         for ((method, _), (prepared, meter)) in variants.iter().zip(prepared) {
@@ -156,11 +156,11 @@ impl Comparison {
     }
 
     /// Draws all methods on one page.
-    fn write_sheet(&self, path: &Path, drawn: &[Drawn], done: &[(Movement, Rendered)]) -> Result<()> {
-        let rows: Vec<Row> =
+    fn write_sheet(&self, path: &Path, drawn: &[OverlayLine], done: &[(Movement, Rendered)]) -> Result<()> {
+        let rows: Vec<MethodRow> =
             self.methods.iter().zip(done).map(|(m, (_, r))| m.row(&self.frames, r)).collect();
         let size = rows.iter().flat_map(|row| &row.pictures).next().map_or([1, 1], |p| [p.width, p.height]);
-        let sheet = Sheet {
+        let sheet = ComparisonSheet {
             heading: self.project.clone(),
             subheading: format!("{}, seed {}", self.photons_in_words(), self.seed),
             numbers: self.frames.clone(),
@@ -168,7 +168,7 @@ impl Comparison {
         };
         let plane = done.first().map(|(_, rendered)| &rendered.plane);
         let pixel_from_plane = |point| plane.and_then(|plane| plane.pixel_from_plane(point, size));
-        write_comparison(path, &sheet, Overlay { drawn, pixel_from_plane: &pixel_from_plane })
+        write_comparison(path, &sheet, Overlay { lines: drawn, pixel_from_plane: &pixel_from_plane })
     }
 
     fn photons_in_words(&self) -> String {
@@ -238,13 +238,13 @@ impl Compared {
     }
 
     /// Its row of the sheet.
-    fn row(&self, frames: &[i32], rendered: &Rendered) -> Row {
+    fn row(&self, frames: &[i32], rendered: &Rendered) -> MethodRow {
         let small =
             |picture: &Image| picture.resized(WIDTH, (WIDTH * picture.height).div_ceil(picture.width));
         let picture = |frame: &i32| rendered.thumbnails.iter().find(|(number, _)| number == frame);
         let mut lines = vec![(self.method.describe().to_owned(), String::new())];
         lines.extend(self.lines());
-        Row {
+        MethodRow {
             title: self.method.name().to_owned(),
             lines,
             pictures: frames.iter().filter_map(picture).map(|(_, p)| small(p)).collect(),

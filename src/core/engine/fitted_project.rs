@@ -7,14 +7,16 @@ use std::time::Instant;
 use glam::Vec2;
 
 use super::Engine;
-use super::exposure::{EnergyBalance, Exposures};
-use super::flow::{self, FittedFlow, FittedSegment};
+use super::energy_balance::EnergyBalance;
+use super::exposure::Exposures;
+use super::fitted_segment::{FittedFlow, FittedSegment};
+use super::flow;
 use super::frame_times::FrameTimes;
 use super::job::Job;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use crate::project::Project;
-use crate::render::{Paper, ProgressiveRender, ReceiverTexture, TextureLayout, layout_for};
+use crate::render::{PlaneMaterial, ProgressiveRender, ReceiverTexture, TextureLayout, layout_for};
 use crate::{Error, Progress, Result};
 
 /// A project whose flow is fitted.
@@ -113,8 +115,8 @@ impl FittedProject {
     }
 
     /// The look of light on the plane.
-    pub fn paper(&self) -> Paper {
-        self.prepared.paper()
+    pub fn plane_material(&self) -> PlaneMaterial {
+        self.prepared.plane_material()
     }
 
     /// The texture of a render whose kernel has the first of these radii at first and the second in the end, plane units.

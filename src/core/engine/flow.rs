@@ -7,70 +7,20 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::active::ActiveConstraints;
-use super::grouping::{CausticFlux, Grouping};
+use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput, Layer};
+use super::flow_numbers::FlowNumbers;
 use super::job::Job;
 use super::key_photons::KeyPhotons;
+use super::matched::SegmentPhotons;
 use super::memo::Same;
 use super::meter::Meter;
-use super::pairing::TransportCost;
-use super::summary::FlowNumbers;
-use super::walk::{Maps, MapsFrom, Matched, SegmentPhotons, Walk};
+use super::walk::{MapsFrom, Walk};
 use crate::flow::{
-    Fields, FlowReport, FlowSettings, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots,
+    FlowReport, FlowSettings, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots,
     fit_with_snapshots, path_report,
 };
 use crate::project::Project;
 use crate::{Progress, Result};
-
-/// The fitted flow of one segment.
-pub(super) struct FittedSegment {
-    pub(super) maps: Arc<Maps>,
-    pub(super) layers: Vec<Layer>,
-    /// By layer.
-    pub(super) reports: Vec<FlowReport>,
-    /// Transport cost of the pairing of pass 0.
-    pub(super) cost: TransportCost,
-}
-
-/// Groups that flow together.
-pub(super) struct Layer {
-    pub(super) groups: Vec<usize>,
-    pub(super) flow: SegmentFlow,
-}
-
-/// The fitted flow of a project; no segments where there is one key frame.
-pub(super) struct FittedFlow {
-    pub(super) segments: Vec<Arc<FittedSegment>>,
-    /// The worst over the segments; absent where nothing moves.
-    pub(super) numbers: Option<FlowNumbers>,
-    /// The light of each group; empty where no caustic is named.
-    pub(super) caustics: Vec<CausticFlux>,
-}
-
-/// Everything that the fit of a segment depends on.
-#[derive(PartialEq)]
-pub(super) struct FlowInput {
-    matched: Same<Matched>,
-    active: ActiveConstraints,
-    method: Movement,
-    settings: FlowSettings,
-}
-
-impl FittedSegment {
-    /// The flow of a group; none where it rests, or where the fit saw no photon of it.
-    pub(super) fn flow_of(&self, group: usize) -> Option<&SegmentFlow> {
-        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.flow)
-    }
-
-    /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with
-    /// the number of the caustic.
-    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &Fields)> {
-        self.layers.iter().filter_map(|layer| {
-            let own = layer.groups.iter().copied().find(|&group| grouping.own_flow(group));
-            Some((own, layer.flow.fields()?))
-        })
-    }
-}
 
 /// Matches and fits all segments with the photons of pass 0.
 pub(super) fn fit(job: &Job) -> Result<FittedFlow> {
@@ -105,12 +55,15 @@ pub(super) fn fit_segment(
     })
 }
 
+/// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.
+type ShowSample<'a> = dyn FnMut(&[usize], usize, &[Vec2]) + 'a;
+
 /// Times at which photons are shown while fields are fitted to them.
 pub(super) struct LayerSamples<'a> {
     /// Times within 0..=1, rising.
     pub(super) times: &'a [f64],
-    /// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.
-    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+    /// Called with each.
+    pub(super) show: &'a mut ShowSample<'a>,
 }
 
 impl SegmentPhotons {

@@ -1,24 +1,25 @@
 //! The moments of the requested frames. Frames that show the same moment share one.
 
-use crate::project::{KeyFrame, Moment, moment};
+use crate::project::{KeyFrame, SegmentTime, segment_time};
 
 /// The distinct moments of a list of frames, in the order in which photons pass them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct FrameTimes {
-    /// Snapshots, segment by segment, times rising.
-    pub(super) moments: Vec<Moment>,
+    /// The segment times, in rising order.
+    pub(super) moments: Vec<SegmentTime>,
     /// For each requested frame, in the requested order: its number and the index of its moment.
     pub(super) frames: Vec<(i32, usize)>,
 }
 
 impl FrameTimes {
     pub(super) fn new(keys: &[KeyFrame], frames: &[i32]) -> Self {
-        let mut moments: Vec<Moment> = frames.iter().map(|&frame| moment(keys, frame)).collect();
-        let order = |a: &Moment, b: &Moment| a.segment.cmp(&b.segment).then(a.time.total_cmp(&b.time));
+        let mut moments: Vec<SegmentTime> = frames.iter().map(|&frame| segment_time(keys, frame)).collect();
+        let order =
+            |a: &SegmentTime, b: &SegmentTime| a.segment.cmp(&b.segment).then(a.time.total_cmp(&b.time));
         moments.sort_by(order);
         moments.dedup();
         let slot = |frame: i32| {
-            let wanted = moment(keys, frame);
+            let wanted = segment_time(keys, frame);
             moments.binary_search_by(|m| order(m, &wanted)).unwrap_or(0)
         };
         let frames = frames.iter().map(|&frame| (frame, slot(frame))).collect();
@@ -27,7 +28,7 @@ impl FrameTimes {
 
     /// The moments of one segment with their indices.
     pub(super) fn of_segment(&self, segment: usize) -> impl Iterator<Item = (usize, f64)> {
-        let at = move |(slot, m): (usize, &Moment)| (m.segment == segment).then_some((slot, m.time));
+        let at = move |(slot, m): (usize, &SegmentTime)| (m.segment == segment).then_some((slot, m.time));
         self.moments.iter().enumerate().filter_map(at)
     }
 }

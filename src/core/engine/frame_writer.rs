@@ -7,10 +7,12 @@ use rayon::prelude::*;
 
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
-use crate::export::{Drawn, Frame, FramePattern, Metadata, Overlay, Repairs, sheet, write_frame};
+use crate::export::{
+    Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
+};
 use crate::flow::Movement;
 use crate::project::Project;
-use crate::render::{Image, PlaneView, ProgressiveRender, View, Visible};
+use crate::render::{GatherMatrix, Image, PlaneView, ProgressiveRender, View};
 use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
@@ -27,12 +29,12 @@ pub(super) type Thumbnails = Vec<(i32, Image)>;
 pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
     pub(super) render: &'a ProgressiveRender,
-    pub(super) visible: &'a Visible,
+    pub(super) visible: &'a GatherMatrix,
     pub(super) background: &'a Image,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
-    pub(super) drawn: &'a [Drawn],
+    pub(super) drawn: &'a [OverlayLine],
     pub(super) plane: PlaneView,
     /// Told of each file as it is complete.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
@@ -47,7 +49,7 @@ impl FrameWriter<'_> {
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
         let view = self.project.render.view.view();
         let thumbnails = Mutex::new(Vec::new());
-        let repairs: Vec<(i32, Repairs)> = times
+        let repairs: Vec<(i32, RepairedSamples)> = times
             .frames
             .par_iter()
             .map(|&(frame, slot)| {
@@ -69,7 +71,7 @@ impl FrameWriter<'_> {
         let path = self.folder.join("contact_sheet.png");
         let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
         let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
-        let overlay = Overlay { drawn: self.drawn, pixel_from_plane: &pixel_from_plane };
+        let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
         sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay)?;
         (self.saved)(&path);
         Ok((BadValues::sum(&repairs), thumbnails))
@@ -86,14 +88,14 @@ impl FrameWriter<'_> {
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
-    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(Repairs, Image)> {
+    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(RepairedSamples, Image)> {
         let (texture, passes) = self.render.mean(slot)?;
         let caustic = self.visible.gather(&texture);
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
         let picture = Frame { background: self.background, caustic: &caustic, metadata: &metadata };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
-        let mut all = Repairs::default();
+        let mut all = RepairedSamples::default();
         for &format in &output.formats {
             let path = pattern.path(self.folder, frame, format);
             all += write_frame(&path, format, &picture, view, output.png_depth())?;

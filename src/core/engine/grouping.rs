@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::flow::flux;
 use crate::photon::Photons;
-use crate::project::{CausticDesc, Project, unknown};
+use crate::project::{CausticDesc, Project, unknown_name};
 use crate::scene::Scene;
 use crate::{Error, Result};
 
@@ -131,9 +131,10 @@ impl Grouping {
 /// Checks that caustic `i` has any light or mesh of the name it asks for.
 fn require(kind: &str, i: usize, name: Option<&str>, known: &[&str], takes: &[bool]) -> Result<()> {
     match name {
-        Some(name) if !takes.contains(&true) => {
-            Err(Error::value(format!("caustics[{i}].{kind}"), unknown(kind, name, known.iter().copied())))
-        }
+        Some(name) if !takes.contains(&true) => Err(Error::value(
+            format!("caustics[{i}].{kind}"),
+            unknown_name(kind, name, known.iter().copied()),
+        )),
         _ => Ok(()),
     }
 }

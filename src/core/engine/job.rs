@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::inputs::GuideInput;
 use super::key_photons::PassLight;
 use super::key_sources::KeySources;
 use super::memo::{Client, Same, Slot};
 use super::meter::Meter;
 use super::stages::Stages;
 use super::{Quality, prepare::Prepared};
-use crate::photon::{Lesson, Photons, Tracer};
+use crate::photon::{EmissionGuide, Photons, Tracer};
 use crate::project::Project;
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -27,7 +28,7 @@ pub(super) struct Job<'a> {
     pub(super) sources: &'a KeySources,
     pub(super) scene: Option<&'a Arc<Scene>>,
     /// Absent where no photons are traced.
-    pub(super) guide: Option<Arc<Lesson>>,
+    pub(super) guide: Option<Arc<EmissionGuide>>,
     /// Photons of one pass.
     pub(super) photons: usize,
     /// Most anchors of a map around walls.
@@ -66,10 +67,27 @@ impl<'a> Job<'a> {
             remembers: true,
         };
         job.guide = match scene.filter(|_| sources.traces()) {
-            Some(scene) => Some(stages.guide(&job, scene)?),
+            Some(scene) => Some(job.learn_guide(scene)?),
             None => None,
         };
         Ok(job)
+    }
+
+    /// The emission guide of the scene, remembered.
+    fn learn_guide(&self, scene: &Arc<Scene>) -> Result<Arc<EmissionGuide>> {
+        let learn = || {
+            let learn = || Tracer::new(scene, self.sources.seed(), self.progress);
+            self.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.guide().clone()))
+        };
+        let Some(desc) = &self.project.scene else { return learn() };
+        let input = GuideInput {
+            geometry: Same::of(scene.geometry()),
+            lights: desc.lights.clone(),
+            receiver: desc.receiver.clone(),
+            seed: self.sources.seed(),
+        };
+        let slot = Slot { quality: Quality::Final, ..self.slot(0) };
+        self.stages.guides.get(slot, input, self.progress, |_| learn())
     }
 
     /// The slot of a segment or key frame in a memo.
@@ -79,7 +97,7 @@ impl<'a> Job<'a> {
 
     /// The tracer of the scene; none where no photons are traced.
     pub(super) fn tracer(&self) -> Option<Tracer<'a>> {
-        self.scene.zip(self.guide.as_ref()).map(|(scene, guide)| Tracer::resume(scene, (**guide).clone()))
+        self.scene.zip(self.guide.as_ref()).map(|(scene, guide)| Tracer::with_guide(scene, (**guide).clone()))
     }
 
     /// The light of the photons of `pass`; they are traced where a key frame shows them, or caustics are told apart.

@@ -9,15 +9,16 @@ use super::flow::LayerSamples;
 use super::gauge::Traced;
 use super::job::Job;
 use super::key_photons::{all_flux, count};
+use super::matched::SegmentPhotons;
 use super::meter::Meter;
 use super::pairing::takes_part;
-use super::walk::{MapsFrom, SegmentPhotons, Walk};
+use super::walk::{MapsFrom, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;
 use crate::flow::{FlowReport, FlowSettings, Segment, flux};
 use crate::photon::Tracer;
 use crate::project::Project;
-use crate::render::Paper;
+use crate::render::PlaneMaterial;
 use crate::{Error, Progress, Result};
 
 /// The photons of the first two key frames between which they move, matched: row k of [`Self::target`] is where photon k of
@@ -41,7 +42,7 @@ pub struct MovingSegment {
     /// Seconds of the matching, over all segments up to this one.
     pub match_seconds: f64,
     /// The look of light on the plane.
-    pub paper: Paper,
+    pub plane_material: PlaneMaterial,
     project: Project,
     photons: SegmentPhotons,
 }
@@ -79,7 +80,7 @@ impl Engine {
         let (landed, report) = job.tracer().map(trace).transpose()?.unzip();
         let traced = report.map(|report| Traced {
             photons: job.photons,
-            rays: report.ledger.rays,
+            rays: report.balance.rays,
             seconds: report.seconds,
         });
         let mut walk = Walk::with_light(&job, 0, job.sources.light_of(landed, job.photons));
@@ -98,7 +99,7 @@ impl Engine {
                         walls: photons.active.walls.clone(),
                         traced,
                         match_seconds,
-                        paper: prepared.paper(),
+                        plane_material: prepared.plane_material(),
                         project: project.clone(),
                         photons,
                     });

@@ -12,7 +12,7 @@ use super::stages::Stages;
 use super::{Quality, active, grouping};
 use crate::flow::{FlowSettings, GridSize};
 use crate::project::{Project, Shows};
-use crate::render::Paper;
+use crate::render::PlaneMaterial;
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -73,8 +73,8 @@ impl Stages {
 
 impl Prepared {
     /// The look of light on the plane.
-    pub(super) fn paper(&self) -> Paper {
-        self.scene.as_ref().map_or(Paper::WHITE, |scene| Paper::of(scene.receiver()))
+    pub(super) fn plane_material(&self) -> PlaneMaterial {
+        self.scene.as_ref().map_or(PlaneMaterial::WHITE, |scene| PlaneMaterial::of(scene.receiver()))
     }
 
     /// The same with at most `photons` photons in a pass, at a lower quality.

@@ -66,7 +66,7 @@ impl Engine {
         let meter = Meter::default();
         let prepared = self.prepare(project, &meter, progress)?;
         prepared.plan.require_memory()?;
-        progress.set_road(prepared.plan.stages.clone());
+        progress.set_stages(prepared.plan.stages.clone());
         observer.planned(&prepared.plan);
         let output = Output { folder: out, progress, saved, observer };
         self.render_prepared(prepared, &meter, &output).map(|rendered| rendered.summary)
@@ -129,8 +129,9 @@ impl Engine {
             ));
         }
         let road = prepared.plan.stages.iter().copied();
-        progress
-            .set_road(road.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect());
+        progress.set_stages(
+            road.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect(),
+        );
         let fitted = self.fit_prepared(prepared, &meter, progress)?;
         let FittedProject { prepared, flow, .. } = &fitted;
         let inner = progress.inner();

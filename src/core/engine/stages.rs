@@ -6,17 +6,15 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::Quality;
-use super::camera::ViewInput;
-use super::flow::{FittedSegment, FlowInput};
-use super::job::Job;
+use super::fitted_segment::{FittedSegment, FlowInput};
+use super::inputs::{GuideInput, PositionsInput, ViewInput};
 use super::key_sources::{self, KeySource, SourceInput};
+use super::matched::{MatchInput, Matched};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
-use super::preview::PositionsInput;
-use super::walk::{MatchInput, Matched};
-use crate::photon::{Lesson, Photons, Tracer};
+use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{Image, Visible};
-use crate::scene::{Geometry, LightDesc, MeshDesc, ReceiverDesc, Scene, SceneDesc};
+use crate::render::{GatherMatrix, Image};
+use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
 /// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
@@ -25,26 +23,17 @@ pub(super) struct Stages {
     geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), Noted<Geometry>>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
-    guides: Memo<GuideInput, Arc<Lesson>>,
-    pub(super) photons: Memo<(Same<Lesson>, usize), Arc<Photons>>,
+    pub(super) guides: Memo<GuideInput, Arc<EmissionGuide>>,
+    pub(super) photons: Memo<(Same<EmissionGuide>, usize), Arc<Photons>>,
     pub(super) matchings: Memo<MatchInput, Arc<Matched>>,
     pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
-    pub(super) visible: Memo<ViewInput, Arc<Visible>>,
+    pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
     pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
 }
 
 /// A result, and notes for the artist.
 pub(super) type Noted<T> = (Arc<T>, Arc<Vec<String>>);
-
-/// Everything that the emission guide of a scene depends on.
-#[derive(PartialEq)]
-struct GuideInput {
-    geometry: Same<Geometry>,
-    lights: Vec<LightDesc>,
-    receiver: ReceiverDesc,
-    seed: u64,
-}
 
 impl Stages {
     /// Stages that remember nothing and find files through `assets`.
@@ -86,7 +75,7 @@ impl Stages {
         })?;
         let input = (desc.clone(), Same::of(&geometry));
         let (scene, of_scene) =
-            self.scenes.get(slot, input, progress, |_| Scene::with(desc, geometry).map(noted))?;
+            self.scenes.get(slot, input, progress, |_| Scene::with_geometry(desc, geometry).map(noted))?;
         Ok((scene, Arc::new(of_meshes.iter().chain(&*of_scene).cloned().collect())))
     }
 
@@ -106,27 +95,6 @@ impl Stages {
         let open = |_: &SourceInput| key_sources::open(shows, file.as_deref(), place, extent).map(Arc::new);
         self.sources.get(slot, input, progress, open)
     }
-
-    /// The emission guide of a job's scene.
-    ///
-    /// # Errors
-    /// No caustic falls on the receiver; cancelled.
-    pub(super) fn guide(&self, job: &Job, scene: &Arc<Scene>) -> Result<Arc<Lesson>> {
-        let Some(desc) = &job.project.scene else { return learn(scene, job) };
-        let input = GuideInput {
-            geometry: Same::of(scene.geometry()),
-            lights: desc.lights.clone(),
-            receiver: desc.receiver.clone(),
-            seed: job.sources.seed(),
-        };
-        let slot = Slot { quality: Quality::Final, ..job.slot(0) };
-        self.guides.get(slot, input, job.progress, |_| learn(scene, job))
-    }
-}
-
-fn learn(scene: &Arc<Scene>, job: &Job) -> Result<Arc<Lesson>> {
-    let learn = || Tracer::new(scene, job.sources.seed(), job.progress);
-    job.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.lesson().clone()))
 }
 
 fn noted<T>((result, notes): (T, Vec<String>)) -> Noted<T> {

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use super::exposure::{EnergyBalance, between, total};
-use super::flow::FittedFlow;
+use super::energy_balance::{EnergyBalance, between, total};
+use super::fitted_segment::FittedFlow;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, count};
 use super::trajectories::SegmentTrajectories;

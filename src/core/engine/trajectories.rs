@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::flow::FittedSegment;
+use super::fitted_segment::FittedSegment;
 use super::key_photons::KeyPhotons;
 use crate::flow::{Trajectories, WallViolations, flux};
 use crate::{Progress, Result};

@@ -4,21 +4,15 @@
 
 use std::sync::Arc;
 
-use super::active::{ActiveConstraints, active};
+use super::active::active;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, PassLight};
-use super::key_sources::KeySource;
+use super::matched::{FirstKey, Maps, MatchInput, Matched, Origin, SegmentPhotons};
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, Method, mean_square_distance};
-use crate::photon::Lesson;
-use crate::project::CausticDesc;
 use crate::{Progress, Result};
-
-/// The continuous maps of a segment by group; absent where rows are paired as given, where the group rests, and where it
-/// has no photon.
-pub(super) type Maps = Vec<Option<ContinuousMap>>;
 
 /// The photons of one pass at a key frame, on their way to the next.
 pub(super) struct Walk<'a> {
@@ -30,68 +24,12 @@ pub(super) struct Walk<'a> {
     origin: Origin,
 }
 
-/// The photons of a pass at both key frames of a segment, row by row.
-pub(super) struct SegmentPhotons {
-    /// Number of the segment, from 0.
-    pub(super) number: usize,
-    /// By group, at the earlier key frame.
-    pub(super) from: Arc<Vec<KeyPhotons>>,
-    /// By group, at the later one.
-    pub(super) to: Arc<Vec<KeyPhotons>>,
-    /// Flux that all photons should have at both, watts; rho does not count.
-    pub(super) requested: [f64; 2],
-    /// The groups that move; those together that share a field.
-    pub(super) layers: Vec<Vec<usize>>,
-    pub(super) matched: Arc<Matched>,
-    /// The lines and walls that act between the two.
-    pub(super) active: ActiveConstraints,
-}
-
-/// The matching of one segment.
-pub(super) struct Matched {
-    /// By group.
-    pairings: Vec<Pairing>,
-    pub(super) maps: Arc<Maps>,
-    pub(super) cost: TransportCost,
-}
-
 /// Where the maps of a segment come from.
 pub(super) enum MapsFrom<'a> {
     /// The photons of the walk itself. `bounded` asks for a lower bound of the transport cost, which takes as long as a map.
     Own { bounded: bool },
     /// Other photons of the same key frames, matched before.
     Others(&'a Arc<Maps>),
-}
-
-/// Everything that a matching depends on.
-#[derive(PartialEq)]
-pub(super) struct MatchInput {
-    from: Origin,
-    sources: Vec<Same<KeySource>>,
-    method: PairingMethod,
-    anchors: usize,
-    bounded: bool,
-    maps: Option<Same<Maps>>,
-}
-
-/// Everything that the photons at a key frame depend on.
-#[derive(Clone, PartialEq)]
-enum Origin {
-    /// At the first key frame.
-    First(Box<FirstKey>),
-    /// At a later one, as they were matched.
-    Matched(Same<Matched>),
-}
-
-#[derive(Clone, PartialEq)]
-struct FirstKey {
-    guide: Option<Same<Lesson>>,
-    photons: usize,
-    seed: u64,
-    extent: glam::Vec2,
-    caustics: Vec<CausticDesc>,
-    rows: Method,
-    sources: Vec<Same<KeySource>>,
 }
 
 impl<'a> Walk<'a> {

@@ -1,4 +1,4 @@
-//! The comparison sheet: the same frames by several methods, a row for each.
+//! The comparison sheet: the same frames by several methods, a row per method.
 
 use std::path::Path;
 
@@ -9,40 +9,40 @@ use super::text;
 use crate::Result;
 use crate::render::image::Image;
 
-/// Width of the column with the words, pixels.
-const WORDS: usize = 450;
-/// Heights of the lines of the heading, of a row's title, and of its other lines.
+/// Width of the text column, pixels.
+const TEXT_WIDTH: usize = 450;
+/// Line heights of the heading, of a row's title, and of its other lines.
 const HEADING: f32 = 46.0;
 const TITLE: f32 = 44.0;
 const LINE: f32 = 30.0;
-/// Height of small letters.
+/// Font size of small text.
 const SMALL: f32 = 26.0;
 /// Height of the line with the frame numbers.
 const NUMBERS: usize = 34;
 /// Titles, screen values.
 const BRIGHT: glam::Vec3 = glam::Vec3::splat(0.93);
 
-/// What the sheet shows.
+/// The content of the sheet.
 #[derive(Clone, Debug)]
-pub struct Comparison {
-    /// Above all.
+pub struct ComparisonSheet {
+    /// Heading.
     pub heading: String,
-    /// Beside it, smaller.
+    /// Smaller text beside the heading.
     pub subheading: String,
-    /// The frames' numbers, above the columns.
+    /// Frame numbers, above the columns.
     pub numbers: Vec<i32>,
-    /// One for each method.
-    pub rows: Vec<Row>,
+    /// One row per method.
+    pub rows: Vec<MethodRow>,
 }
 
-/// One method.
+/// The row of one method.
 #[derive(Clone, Debug)]
-pub struct Row {
-    /// Its name.
+pub struct MethodRow {
+    /// Name of the method.
     pub title: String,
-    /// What is told of it, a name and a value in each line.
+    /// Its figures, a name and a value per line.
     pub lines: Vec<(String, String)>,
-    /// Screen values, one for each number, all of one size.
+    /// One picture per frame, screen values, all of one size.
     pub pictures: Vec<Image>,
 }
 
@@ -50,19 +50,19 @@ pub struct Row {
 ///
 /// # Panics
 /// If the pictures differ in size.
-pub fn write_comparison(path: &Path, comparison: &Comparison, overlay: Overlay) -> Result<()> {
+pub fn write_comparison(path: &Path, comparison: &ComparisonSheet, overlay: Overlay) -> Result<()> {
     png::write(path, &arrange(comparison, overlay), PngDepth::Eight)
 }
 
-fn arrange(comparison: &Comparison, overlay: Overlay) -> Image {
-    let Comparison { heading, subheading, numbers, rows } = comparison;
+fn arrange(comparison: &ComparisonSheet, overlay: Overlay) -> Image {
+    let ComparisonSheet { heading, subheading, numbers, rows } = comparison;
     let pictures = || rows.iter().flat_map(|row| &row.pictures);
     let (width, height) = pictures().next().map_or((1, 1), |p| (p.width, p.height));
     assert!(pictures().all(|p| (p.width, p.height) == (width, height)), "pictures of one size");
     let lines = rows.iter().map(|row| row.lines.len()).max().unwrap_or(0);
     let row_height = height.max((TITLE + LINE * (lines as f32 + 0.5)) as usize) + GAP;
     let top = 2 * GAP + HEADING as usize + NUMBERS;
-    let left = 2 * GAP + WORDS;
+    let left = 2 * GAP + TEXT_WIDTH;
     let mut page = Image::new(left + numbers.len() * (width + GAP), top + rows.len() * row_height);
     page.pixels.fill(SURROUND);
 
@@ -75,7 +75,7 @@ fn arrange(comparison: &Comparison, overlay: Overlay) -> Image {
     }
     for (i, row) in rows.iter().enumerate() {
         let top = top + i * row_height;
-        words(&mut page, row, top as f32);
+        draw_text(&mut page, row, top as f32);
         for (column, picture) in row.pictures.iter().enumerate() {
             paste(&mut page, picture, left + column * (width + GAP), top, overlay);
         }
@@ -83,14 +83,14 @@ fn arrange(comparison: &Comparison, overlay: Overlay) -> Image {
     page
 }
 
-/// The title of a row and its lines below, names left and values in a column of their own.
-fn words(page: &mut Image, row: &Row, top: f32) {
+/// The title of a row and its lines below, in columns of names and values.
+fn draw_text(page: &mut Image, row: &MethodRow, top: f32) {
     let left = GAP as f32 * 1.5;
     text::draw(page, &row.title, [left, top - 4.0], TITLE, BRIGHT);
     for (i, (name, value)) in row.lines.iter().enumerate() {
         let y = top + TITLE + LINE * i as f32;
         text::draw(page, name, [left, y], SMALL, INK);
-        text::draw(page, value, [left + 0.42 * WORDS as f32, y], SMALL, BRIGHT);
+        text::draw(page, value, [left + 0.42 * TEXT_WIDTH as f32, y], SMALL, BRIGHT);
     }
 }
 
@@ -100,20 +100,20 @@ mod tests {
 
     #[test]
     fn the_page_has_room_for_all_words_and_pictures() {
-        let row = |count| Row {
+        let row = |count| MethodRow {
             title: "flow".into(),
             lines: vec![("transport cost".into(), "1.01".into()); 6],
             pictures: vec![Image::new(40, 20); count],
         };
         for (count, rows) in [(0, 0), (0, 1), (1, 1), (3, 2)] {
-            let sheet = Comparison {
+            let sheet = ComparisonSheet {
                 heading: "Letters".into(),
                 subheading: "two methods".into(),
                 numbers: (0..count as i32).collect(),
                 rows: vec![row(count); rows],
             };
             let page = arrange(&sheet, Overlay::NONE);
-            assert!(page.width >= WORDS + count * 40 && page.height >= rows * 150);
+            assert!(page.width >= TEXT_WIDTH + count * 40 && page.height >= rows * 150);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! OpenEXR, half float: part `rgba` is the beauty, then the parts `caustic` and `background`.
+//! OpenEXR, half float: part `rgba` is the beauty, followed by the parts `caustic` and `background`.
 //!
 //! Beauty is background + caustic, summed in f32 before each is rounded to half. The files hold no date and no host
 //! name, and their attributes are sorted: equal input gives equal bytes.
@@ -15,29 +15,29 @@ use exr::prelude::{
 use glam::Vec3;
 use half::f16;
 
-use super::{Frame, Repairs};
+use super::{Frame, RepairedSamples};
 use crate::{Error, Result};
 
-/// What a frame's file says about itself.
+/// The metadata of a frame's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metadata {
     /// Frame number.
     pub frame: i32,
     /// Frames per second as a fraction, such as (24, 1) or (30000, 1001).
     pub frames_per_second: (i32, u32),
-    /// Seed of the whole run.
+    /// Seed of the run.
     pub seed: u64,
     /// Passes in this frame.
     pub passes: u32,
-    /// More names and values, such as settings; each name is written with `lightloom:` before it.
+    /// Further names and values, such as settings; each name is prefixed with `lightloom:`.
     pub settings: Vec<(String, String)>,
 }
 
-/// Writes a frame. Returns what had to be repaired; the numbers stand in the file, too.
-pub fn write(path: &Path, frame: &Frame<'_>) -> Result<Repairs> {
+/// Writes a frame; returns the repaired samples, which the metadata counts too.
+pub fn write(path: &Path, frame: &Frame<'_>) -> Result<RepairedSamples> {
     let size = (frame.background.width, frame.background.height);
     assert_eq!(size, (frame.caustic.width, frame.caustic.height), "layers of one size");
-    let mut repairs = Repairs::default();
+    let mut repairs = RepairedSamples::default();
     let mut finite = |v: Vec3| {
         let fixed = v.to_array().map(|v| if v.is_finite() { v } else { 0.0 });
         repairs.nonfinite_replaced += v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
@@ -81,11 +81,11 @@ fn encoding() -> Encoding {
     Encoding { compression: Compression::PIZ, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing }
 }
 
-fn attributes(name: &str, metadata: &Metadata, repairs: Repairs) -> LayerAttributes {
+fn attributes(name: &str, metadata: &Metadata, repairs: RepairedSamples) -> LayerAttributes {
     let mut attributes = LayerAttributes::named(name);
     attributes.software_name = Some(Text::from(concat!("Lightloom ", env!("CARGO_PKG_VERSION"))));
     attributes.frames_per_second = Some(metadata.frames_per_second);
-    // As UTF-8; the crate's own conversion refuses what is not Latin-1.
+    // UTF-8; the crate's conversion refuses anything but Latin-1.
     let utf8 = |text: &str| Text::from_slice_unchecked(text.as_bytes());
     let text = |value: &str| AttributeValue::Text(utf8(value));
     let mut other = HashMap::new();
@@ -145,7 +145,7 @@ fn sort_attributes(bytes: &mut [u8], headers: usize) {
     }
 }
 
-/// The place after the next zero byte.
+/// The position after the next zero byte.
 fn after_zero(bytes: &[u8], from: usize) -> usize {
     bytes[from..].iter().position(|b| *b == 0).map_or(bytes.len(), |length| from + length + 1)
 }

@@ -1,4 +1,4 @@
-//! Picture files. A new format is a file here, a variant of [`FrameFormat`] and its arms.
+//! Picture files. A new format is a file here and a variant of [`FrameFormat`].
 
 pub mod comparison;
 pub mod exr;
@@ -15,10 +15,10 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use comparison::{Comparison, Row, write_comparison};
+pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use exr::Metadata;
 pub use fields::{SegmentFields, load_fields, write_fields};
-pub use overlay::{Drawn, MAGENTA, ORANGE, Overlay};
+pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};
@@ -41,7 +41,7 @@ impl FrameFormat {
     /// All formats.
     pub const ALL: [Self; 2] = [Self::Exr, Self::Png];
 
-    /// The end of the file name, without a dot; also the name by which a user asks for the format.
+    /// The file name extension, without a dot; also the name of the format in settings.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Exr => "exr",
@@ -57,28 +57,28 @@ pub struct Frame<'a> {
     pub background: &'a Image,
     /// The caustics alone, linear, of the same size.
     pub caustic: &'a Image,
-    /// What the file says about itself.
+    /// Metadata of the file.
     pub metadata: &'a Metadata,
 }
 
-/// Values that no file can hold, and what became of them.
+/// Counts of samples that the file format cannot hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Repairs {
+pub struct RepairedSamples {
     /// Samples beyond the largest half float, clamped to it.
     pub half_clamped: u64,
     /// Samples that were not finite, replaced by 0.
     pub nonfinite_replaced: u64,
 }
 
-impl std::ops::AddAssign for Repairs {
+impl std::ops::AddAssign for RepairedSamples {
     fn add_assign(&mut self, other: Self) {
         self.half_clamped += other.half_clamped;
         self.nonfinite_replaced += other.nonfinite_replaced;
     }
 }
 
-/// Writes a frame whole or not at all: to a temporary file in the same folder, then renamed. `view` and `depth` concern
-/// PNG only. Equal input gives equal bytes. Runs on the calling thread; write several frames at once to use more.
+/// Writes a frame atomically: to a temporary file in the same folder, then renamed. `view` and `depth` apply to PNG only.
+/// Equal input gives equal bytes. Runs on the calling thread; write frames in parallel to use more.
 ///
 /// # Panics
 /// If the layers differ in size.
@@ -88,7 +88,7 @@ pub fn write_frame(
     frame: &Frame<'_>,
     view: &View,
     depth: PngDepth,
-) -> Result<Repairs> {
+) -> Result<RepairedSamples> {
     match format {
         FrameFormat::Exr => exr::write(path, frame),
         FrameFormat::Png => {
@@ -96,7 +96,7 @@ pub fn write_frame(
             let nonfinite =
                 beauty.pixels.iter().flat_map(|p| p.to_array()).filter(|v| !v.is_finite()).count();
             png::write(path, &view.apply(&beauty), depth)?;
-            Ok(Repairs { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
+            Ok(RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What the artist drew, over the pictures of a sheet: polylines of the plane with soft edges, as the camera sees them.
+//! The overlay of constraints on the pictures of a sheet: antialiased polylines of the plane in the camera's perspective.
 
 use glam::{Vec2, Vec3};
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
@@ -12,16 +12,16 @@ pub const MAGENTA: Vec3 = Vec3::new(0.93, 0.16, 0.78);
 
 /// Least width of a line in the picture, pixels.
 const LEAST_WIDTH: f32 = 2.0;
-/// Length of an arrow head over the width of its line, and at least in pixels.
+/// Length of an arrow head, relative to the width of its line, and at least in pixels.
 const HEAD: (f32, f32) = (4.0, 11.0);
-/// Corners of the round end of a line.
+/// Corners of the round cap of a line.
 const CORNERS: u32 = 16;
-/// Width of the dark rim that sets a line off from bright light, pixels, and its cover.
+/// Width of the dark rim that sets a line off from bright light, pixels, and its opacity.
 const RIM: (f32, f32) = (1.6, 0.55);
 
 /// One polyline on the plane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct OverlayLine {
     /// Plane coordinates.
     pub points: Vec<Vec2>,
     /// Screen values, such as [`ORANGE`] or [`MAGENTA`].
@@ -32,23 +32,23 @@ pub struct Drawn {
     pub arrow: bool,
 }
 
-/// Lines, and where plane points are seen in the picture.
+/// Lines with the projection of plane points to the picture.
 #[derive(Clone, Copy)]
 pub struct Overlay<'a> {
-    /// Drawn one after the other.
-    pub drawn: &'a [Drawn],
-    /// The pixel (from the upper left corner) of a plane point; none where it is not seen.
+    /// The lines, in drawing order.
+    pub lines: &'a [OverlayLine],
+    /// The pixel (from the upper left corner) of a plane point; none behind the camera.
     pub pixel_from_plane: &'a dyn Fn(Vec2) -> Option<Vec2>,
 }
 
 impl Overlay<'_> {
-    /// Nothing to draw.
-    pub const NONE: Overlay<'static> = Overlay { drawn: &[], pixel_from_plane: &|_| None };
+    /// No lines.
+    pub const NONE: Overlay<'static> = Overlay { lines: &[], pixel_from_plane: &|_| None };
 
     /// Draws the lines over a picture of screen values.
     pub fn draw(&self, picture: &mut Image) {
-        let paths: Vec<(&Drawn, Path)> =
-            self.drawn.iter().filter_map(|line| Some((line, self.outline(line)?))).collect();
+        let paths: Vec<(&OverlayLine, Path)> =
+            self.lines.iter().filter_map(|line| Some((line, self.outline(line)?))).collect();
         if paths.is_empty() {
             return;
         }
@@ -64,13 +64,13 @@ impl Overlay<'_> {
         for (pixel, over) in picture.pixels.iter_mut().zip(layer.pixels()) {
             let [r, g, b, a] =
                 [over.red(), over.green(), over.blue(), over.alpha()].map(|v| f32::from(v) / 255.0);
-            // The layer's colours are times their cover already.
+            // The layer's colours are premultiplied.
             *pixel = *pixel * (1.0 - a) + Vec3::new(r, g, b);
         }
     }
 
     /// The outline of a line in pixels: a quad for each piece, a disc for each point, a triangle for the head.
-    fn outline(&self, line: &Drawn) -> Option<Path> {
+    fn outline(&self, line: &OverlayLine) -> Option<Path> {
         let mut path = PathBuilder::new();
         let see = |p: Vec2| (self.pixel_from_plane)(p).filter(|pixel| pixel.is_finite());
         for piece in line.points.windows(2) {
@@ -101,9 +101,9 @@ impl Overlay<'_> {
         path.finish()
     }
 
-    /// From a point of the line to its edge in the direction `towards` of the plane, pixels.
+    /// The offset in pixels from a point of the line to its edge in the plane direction `towards`.
     fn reach(&self, point: Vec2, pixel: Vec2, towards: Vec2, width: f32) -> Vec2 {
-        // Looked at a small step aside where the line has no width to speak of.
+        // For a line of hardly any width, by a small step aside.
         let step = (0.5 * width).max(1e-4);
         let aside = (self.pixel_from_plane)(point + towards.normalize_or_zero() * step);
         let offset = aside.map_or(Vec2::ZERO, |aside| aside - pixel) * (0.5 * width / step);
@@ -112,7 +112,7 @@ impl Overlay<'_> {
     }
 }
 
-/// Adds a polygon, turned so that all have one orientation: where they overlap they then add up instead of cancelling.
+/// Adds a polygon, oriented like all others, so that overlaps add up instead of cancelling.
 fn polygon(path: &mut PathBuilder, corners: &[Vec2]) {
     let next = corners.iter().cycle().skip(1);
     let area: f32 = corners.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
@@ -139,10 +139,10 @@ mod tests {
         Some(vec2(p.x, 1.0 - p.y) * 100.0)
     }
 
-    fn drawn(line: Drawn) -> Image {
+    fn drawn(line: OverlayLine) -> Image {
         let mut picture = Image::new(100, 100);
         picture.pixels.fill(Vec3::splat(0.5));
-        Overlay { drawn: &[line], pixel_from_plane: &flat }.draw(&mut picture);
+        Overlay { lines: &[line], pixel_from_plane: &flat }.draw(&mut picture);
         picture
     }
 
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn a_wall_covers_what_its_thickness_says() {
         let points = vec![vec2(0.2, 0.5), vec2(0.8, 0.5)];
-        let picture = drawn(Drawn { points, colour: MAGENTA, width: 0.1, arrow: false });
+        let picture = drawn(OverlayLine { points, colour: MAGENTA, width: 0.1, arrow: false });
         assert!(picture.at(50, 50).distance(MAGENTA) < 0.01 && picture.at(50, 46).distance(MAGENTA) < 0.01);
         assert_eq!(picture.at(50, 30), Vec3::splat(0.5));
         assert_eq!(picture.at(90, 50), Vec3::splat(0.5));
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn a_line_that_turns_back_has_no_holes() {
         let points = vec![vec2(0.2, 0.5), vec2(0.8, 0.5), vec2(0.2, 0.5), vec2(0.5, 0.9)];
-        let picture = drawn(Drawn { points, colour: ORANGE, width: 0.08, arrow: true });
+        let picture = drawn(OverlayLine { points, colour: ORANGE, width: 0.08, arrow: true });
         for x in 20..80 {
             assert!(picture.at(x, 50).distance(ORANGE) < 0.01, "a hole at {x}");
         }
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn a_thin_arrow_is_seen_and_its_head_is_wider() {
         let points = vec![vec2(0.1, 0.5), vec2(0.7, 0.5)];
-        let picture = drawn(Drawn { points, colour: ORANGE, width: 0.0, arrow: true });
+        let picture = drawn(OverlayLine { points, colour: ORANGE, width: 0.0, arrow: true });
         let height = |x: usize| (0..100).filter(|&y| picture.at(x, y).distance(ORANGE) < 0.3).count();
         assert!((1..=3).contains(&height(40)), "{}", height(40));
         assert!(height(67) >= 6, "{}", height(67));
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn nothing_drawn_changes_nothing_and_odd_lines_do_not_fail() {
-        let through = |points: Vec<Vec2>| Drawn { points, colour: ORANGE, width: 0.1, arrow: true };
+        let through = |points: Vec<Vec2>| OverlayLine { points, colour: ORANGE, width: 0.1, arrow: true };
         let lines = [
             through(Vec::new()),
             through(vec![Vec2::ONE; 3]),
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(picture, Image::new(30, 20));
         for line in lines {
             let see = |p: Vec2| (p.x < 0.9).then_some(p);
-            Overlay { drawn: &[line], pixel_from_plane: &see }.draw(&mut picture);
+            Overlay { lines: &[line], pixel_from_plane: &see }.draw(&mut picture);
             assert!(picture.pixels.iter().all(|p| p.is_finite()));
         }
     }

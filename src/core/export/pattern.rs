@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::FrameFormat;
 use crate::{Error, Result};
 
-/// A name with a place for the frame number, such as `shot.####` or `shot.%04d`. The dot before the number is what
-/// compositing programs go by when they gather a sequence.
+/// A name with a placeholder for the frame number, such as `shot.####` or `shot.%04d`. Compositing programs recognise a
+/// sequence by the dot before the number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FramePattern {
     before: String,
@@ -15,8 +15,11 @@ pub struct FramePattern {
 }
 
 impl FramePattern {
-    /// Reads a pattern: one run of `#` (a digit each, at least) or `%04d`, after a dot. The extension of a known format
-    /// may follow and is left out. Refuses, naming `place`, a pattern without number or with a folder in it.
+    /// Parses a pattern: one run of `#` (a digit each, at least) or `%04d`, after a dot. A known extension may follow and is
+    /// dropped.
+    ///
+    /// # Errors
+    /// Names `place` for a pattern without number or with a folder.
     pub fn parse(pattern: &str, place: &str) -> Result<Self> {
         let refuse = |what: String| Err(Error::value(place, what));
         if pattern.contains(['/', '\\', '\0']) {
@@ -52,7 +55,7 @@ impl FramePattern {
     }
 }
 
-/// What stands before the place of the number, its digits, and what stands after it.
+/// The text before the placeholder, its digits, and the text after it.
 fn split_number(text: &str) -> Option<(&str, usize, &str)> {
     if let Some(start) = text.find('#') {
         let digits = text[start..].bytes().take_while(|b| *b == b'#').count();

@@ -1,4 +1,4 @@
-//! PNG, 8 or 16 bit, with the sRGB chunk: for looking, not for compositing.
+//! PNG, 8 or 16 bit, with the sRGB chunk: for viewing, not for compositing.
 
 use std::io;
 use std::path::Path;
@@ -21,16 +21,16 @@ pub enum PngDepth {
     Sixteen,
 }
 
-/// Writes screen values (0..=1, already through the view transform), rounded with a dither that hides the steps of
-/// smooth gradients. The dither depends on the place alone: it does not flicker, and grey stays grey.
+/// Writes screen values (0..=1, after the view transform), dithered against banding. The dither depends on the pixel alone:
+/// it does not flicker, and grey stays grey.
 pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
     crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth))
 }
 
-/// As [`write`], 8 bit, into memory.
+/// As [`write()`], 8 bit, into memory.
 ///
 /// # Errors
-/// A picture without pixels, or with more than PNG can count.
+/// A picture without pixels, or larger than PNG allows.
 pub fn encode(encoded: &Image) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     write_to(&mut bytes, encoded, PngDepth::Eight)
@@ -62,7 +62,7 @@ fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u
         for (x, pixel) in row.iter().enumerate() {
             let lift = dither(x, y);
             for value in pixel.to_array() {
-                // A whole value stays what it is: the lift is below 1. NaN becomes 0.
+                // A whole value is unchanged: the lift is below 1. NaN becomes 0.
                 push((value.clamp(0.0, 1.0) * most + lift) as u32, &mut bytes);
             }
         }
@@ -70,8 +70,7 @@ fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u
     bytes
 }
 
-/// A threshold in (0, 1), evenly spread over any neighbourhood: the R2 sequence folded to a triangle wave (Roberts
-/// 2018, *The unreasonable effectiveness of quasirandom sequences*).
+/// A dither threshold in (0, 1) of low discrepancy: the R2 sequence folded to a triangle wave (Roberts 2018, *The unreasonable effectiveness of quasirandom sequences*).
 fn dither(x: usize, y: usize) -> f32 {
     let v = (x as f64 * 0.754_877_666_246_693 + y as f64 * 0.569_840_290_998_053).fract();
     let triangle = if v < 0.5 { 2.0 * v } else { 2.0 - 2.0 * v };

@@ -1,4 +1,4 @@
-//! The contact sheet: a sequence on one page.
+//! The contact sheet: the frames of a sequence on one page.
 
 use std::path::Path;
 
@@ -10,18 +10,18 @@ use super::text;
 use crate::Result;
 use crate::render::image::Image;
 
-/// Surround and gap, a dark neutral grey in screen values.
+/// Background, a dark neutral grey in screen values.
 pub(super) const SURROUND: Vec3 = Vec3::splat(0.11);
 /// Captions, screen values.
 pub(super) const INK: Vec3 = Vec3::splat(0.72);
-/// Between pictures and around them, pixels.
+/// Margin between and around pictures, pixels.
 pub(super) const GAP: usize = 12;
 /// Height of the line with the frame number.
 const CAPTION: usize = 26;
-/// Height of its letters' line.
+/// Its font size.
 const LETTERS: f32 = 20.0;
 
-/// At most `count` of `frames`, evenly chosen, the first and the last among them.
+/// At most `count` of `frames`, evenly spaced, including the first and the last.
 pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
     let count = count.min(frames.len());
     // Steps between the first and the last, each rounded to the nearest frame.
@@ -29,8 +29,8 @@ pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
     (0..count).map(|i| frames[(i * (frames.len() - 1) + steps / 2) / steps]).collect()
 }
 
-/// Writes a PNG with the given pictures (screen values, all of one size) row by row, each with its number below and the
-/// overlay above.
+/// Writes a PNG with the pictures (screen values, all of one size) row by row, each under the overlay and with its number
+/// below.
 ///
 /// # Panics
 /// If the pictures differ in size.
@@ -61,7 +61,7 @@ fn arrange(pictures: &[(i32, Image)], columns: usize, overlay: Overlay) -> Image
     page
 }
 
-/// Copies a picture with the overlay upon it onto the page, which must have room for it.
+/// Copies a picture with the overlay onto the page, which must have room for it.
 pub(super) fn paste(page: &mut Image, picture: &Image, left: usize, top: usize, overlay: Overlay) {
     let mut picture = picture.clone();
     overlay.draw(&mut picture);

@@ -1,4 +1,4 @@
-//! Text on pictures: the outlines of Ubuntu Light, which come with a crate, drawn with soft edges.
+//! Text on pictures: antialiased outlines of Ubuntu Light, which comes with a crate.
 
 use std::sync::LazyLock;
 
@@ -10,8 +10,8 @@ use crate::render::image::Image;
 static FONT: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT).ok());
 
-/// Draws `text` in `ink` (screen values) with the upper left corner of its line at (`left`, `top`) pixels; `size` is the
-/// height of the line in pixels. What lies beside the picture is left out. Returns where the next letter would begin.
+/// Draws `text` in `ink` (screen values) with the upper left corner of its line at (`left`, `top`) pixels, clipped to the
+/// picture; `size` is the line height in pixels. Returns the x position after the text.
 pub(super) fn draw(picture: &mut Image, text: &str, [left, top]: [f32; 2], size: f32, ink: Vec3) -> f32 {
     let Some(font) = FONT.as_ref() else { return left };
     let scaled = font.as_scaled(PxScale::from(size));

@@ -1,5 +1,4 @@
-//! Files: read only if regular and never more than was asked for; written whole or not at all. Array files: [`npy`],
-//! [`npz`].
+//! File access: bounded reads of regular files, atomic writes; array files ([`npy`], [`npz`]).
 
 pub mod npy;
 pub mod npz;
@@ -10,15 +9,15 @@ use std::path::Path;
 
 use crate::{Error, Result};
 
-/// The whole content of the regular file at `path`.
+/// The content of the regular file at `path`.
 ///
-/// Folders, devices, pipes and sockets are refused (a pipe would wait for ever, `/dev/zero` never ends), and so is
-/// a file of more than `max_bytes`, before it is read.
+/// Folders, devices, pipes and sockets are refused (a pipe would block for ever, `/dev/zero` never ends), as is a file of
+/// more than `max_bytes`, before it is read.
 ///
 /// # Errors
 /// `Io` when the system refuses, `Format` when it is not a regular file, `Limit` when it is too large.
 pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
-    // Asked before opening: opening a pipe that nobody writes to would block.
+    // Checked before opening: opening a pipe without a writer would block.
     require_regular(path, &std::fs::metadata(path).map_err(Error::io("read", path))?)?;
     let file = File::open(path).map_err(Error::io("read", path))?;
     let metadata = file.metadata().map_err(Error::io("read", path))?;
@@ -31,20 +30,20 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Writes `path` through a temporary file beside it, which is flushed to the disk and then takes the name. If `fill` or
-/// the disk fails, the temporary file is removed and a file that had the name before is as it was.
+/// Writes `path` atomically: to a temporary file beside it, which is flushed to the disk and then renamed. If `fill` or the
+/// disk fails, the temporary file is removed and an old file of that name is unchanged.
 pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<()> {
     let folder = folder_of(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".lightloom-").suffix(".tmp");
-    // A temporary file is private by default; a frame is for everyone whom the umask lets in.
+    // Temporary files are private by default; permissions are left to the umask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let temporary = builder.tempfile_in(folder).map_err(Error::io("create a file in", folder))?;
     let mut writer = BufWriter::with_capacity(1 << 20, temporary.as_file());
     let filled = fill(&mut writer).and_then(|()| writer.flush());
     drop(writer);
-    // Whoever may read and write the old file may the new one.
+    // The new file keeps the permissions of the old one.
     #[cfg(unix)]
     let filled = filled.and_then(|()| match std::fs::metadata(path) {
         Ok(old) if old.is_file() => temporary.as_file().set_permissions(old.permissions()),
@@ -55,8 +54,8 @@ pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io:
     Ok(())
 }
 
-/// Waits until the folder of `path` is on the disk too, so that a name given to a file there outlasts a power cut. Systems
-/// that offer no such thing for folders do it on their own.
+/// Flushes the folder of `path` to the disk, so that a rename in it survives a power cut. Does nothing on systems without
+/// such a call.
 pub fn sync_folder_of(path: &Path) -> Result<()> {
     let folder = folder_of(path);
     #[cfg(unix)]

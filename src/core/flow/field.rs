@@ -76,7 +76,7 @@ impl Field {
         self.coefficients.chunks_exact(2).map(|node| (node[0], node[1])).unzip()
     }
 
-    /// `out` = `wa` a + `wb` b, for the time between two fits.
+    /// `out` = `wa` a + `wb` b.
     ///
     /// # Panics
     /// When the three grids differ.
@@ -94,7 +94,7 @@ impl Field {
         velocity
     }
 
-    /// As [`Self::velocity`] at some points, none of which waits for another.
+    /// As [`Self::velocity`] at N points, evaluated side by side.
     #[inline(always)]
     pub fn velocities<const N: usize>(&self, p: [Vec2; N]) -> [Vec2; N] {
         let (columns, fx) = locate(p.map(|p| p.x * self.per_plane.x), self.grid.cells[0]);
@@ -181,7 +181,7 @@ impl Field {
     }
 }
 
-/// The cells of some grid coordinates and the places 0..=1 in them; what lies outside is moved to the border.
+/// The cells of grid coordinates and the positions 0..=1 within them; clipped to the border.
 #[inline(always)]
 fn locate<const N: usize>(x: [f32; N], cells: usize) -> ([u32; N], [f32; N]) {
     let x = x.map(|x| x.max(0.0).min(cells as f32));

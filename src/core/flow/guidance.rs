@@ -1,6 +1,6 @@
 //! The guidance of a photon, Eq. (2): `v = (b - c) / (1 - t)`.
 //!
-//! The guidance v itself is what gets integrated. With `c = b - (1-t) v`, the motion `c' = (1-s) u + s v` becomes
+//! The guidance v itself is integrated. With `c = b - (1-t) v`, the motion `c' = (1-s) u + s v` becomes
 //!
 //! ```text
 //! v' = (1-s)/(1-t) (v - u(c, t))

@@ -24,7 +24,7 @@
 //! | 0.5 | 29.6 / 4.2 | .366 / .066 | .90 / .56 | .15 / .10 |
 //! | 1 | 32.9 / 4.2 | .356 / .068 | .89 / .57 | .15 / .09 |
 //!
-//! No fade can go below the straight lines: a photon has to be there in time. Tried and left: 1 - s = (1-t)^q for all
+//! No fade can go below the straight lines, or photons would not arrive in time. Tried and left: 1 - s = (1-t)^q for all
 //! (less wander at a higher peak); no speed limit (letters at gamma 0: 6.1 even with the fade from 0.2 to 0.8); a limit
 //! that acts below 1.2 times a photon's own straight speed (letters 3.5, but long paths leave the flow at once and tear).
 

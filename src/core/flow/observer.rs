@@ -18,7 +18,7 @@ pub(super) trait Kinematics {
     fn velocities(&self, t: f64, out: &mut [Vec2]);
 }
 
-/// Velocities of the photons and what they are made of, row by row.
+/// The velocities of photons with their guidance and field weights, row by row.
 pub(super) struct Steering {
     /// Velocities c'.
     pub velocities: Vec<Vec2>,

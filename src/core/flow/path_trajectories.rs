@@ -30,8 +30,8 @@ pub struct PathTrajectories<'a> {
 }
 
 impl<'a> PathTrajectories<'a> {
-    /// Photons at `source` bound for `targets`, row by row. `midpoint_offsets` are the offsets of their paths from the straight
-    /// ones at t = 1/2, plane units; empty where all paths are straight.
+    /// Photons at `source` bound for `targets`, row by row. `midpoint_offsets` are the offsets of their paths from the
+    /// straight ones at t = 1/2, plane units; empty where all paths are straight.
     ///
     /// # Panics
     /// When the columns differ in length.
@@ -52,16 +52,6 @@ impl<'a> PathTrajectories<'a> {
         let t = t.clamp(0.0, 1.0);
         let x = t.min(1.0 - t);
         self.each(out, [1.0 - t, t, 3.0 * x - 4.0 * x * x * x]);
-    }
-
-    /// Velocities at time `t`, per unit of t.
-    ///
-    /// # Panics
-    /// When `out` has not one position for each photon.
-    pub fn velocities(&self, t: f64, out: &mut [Vec2]) {
-        let x = t.min(1.0 - t);
-        let slope = (3.0 - 12.0 * x * x).copysign(0.5 - t);
-        self.each(out, [-1.0, 1.0, slope]);
     }
 
     /// Each photon's sum of source, target and midpoint offset with these weights.
@@ -86,7 +76,9 @@ impl Kinematics for PathTrajectories<'_> {
     }
 
     fn velocities(&self, t: f64, out: &mut [Vec2]) {
-        PathTrajectories::velocities(self, t, out);
+        let x = t.min(1.0 - t);
+        let slope = (3.0 - 12.0 * x * x).copysign(0.5 - t);
+        self.each(out, [-1.0, 1.0, slope]);
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) fn solve(
     Ok(potentials)
 }
 
-/// What [`solve`] advances the progress by: the cells of all its lattices.
+/// The progress units of [`solve`]: the cells of all its lattices.
 pub(super) fn work(lattice: &Lattice) -> u64 {
     lattice.len() as u64 + coarser(lattice).map_or(0, |coarser| work(&coarser))
 }

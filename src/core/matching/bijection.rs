@@ -185,3 +185,14 @@ pub(super) fn require_equal_counts(source: usize, target: usize) -> Result<()> {
         ),
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn applying_a_matching_puts_each_target_in_its_photons_row() {
+        let matching = Matching { target_of: vec![2, 0, 1] };
+        assert_eq!(matching.apply(&["a", "b", "c"]), ["c", "a", "b"]);
+    }
+}

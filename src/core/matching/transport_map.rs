@@ -9,7 +9,7 @@ use super::push_forward::corner_map;
 use super::settings::MapSettings;
 use crate::{Error, Progress, Result};
 
-/// Cells along the longer side at most, and at least.
+/// Limits of the cells along the longer side.
 const FINEST: usize = 256;
 const COARSEST: usize = 32;
 /// Points per cell that a lattice of fewer cells aims at.

@@ -6,7 +6,7 @@ use super::operator::Operator;
 use super::vector::GridVector;
 use crate::{Progress, Result};
 
-/// How a solve went.
+/// Statistics of a solve.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Solved {
     /// Iterations made.
@@ -21,7 +21,7 @@ pub struct LinearSystem<'a> {
     pub operator: &'a Operator<f64>,
     /// An approximate inverse of A.
     pub preconditioner: &'a mut Multigrid,
-    /// An orthonormal basis of what A maps to zero; b has no share in it.
+    /// An orthonormal basis of the null space of A, to which b is orthogonal.
     pub null: &'a [GridVector<f64>],
     /// b.
     pub right: &'a GridVector<f64>,
@@ -56,7 +56,7 @@ impl ConjugateGradients {
         }
     }
 
-    /// The condition number of the preconditioned matrix as the last solve saw it, from below; nothing if it had nothing to do.
+    /// A lower bound of the preconditioned matrix's condition number from the last solve; none without iterations.
     pub fn condition(&self) -> Option<f64> {
         condition(&self.coefficients)
     }
@@ -109,7 +109,7 @@ impl ConjugateGradients {
             x.combine(1.0, step, &self.direction);
             self.previous.convert(1.0, &self.residual);
             self.residual.combine(1.0, step, &self.image);
-            // Exactly it has no share in the null space; what rounding gives it would grow in the preconditioner.
+            // In exact arithmetic it is orthogonal to the null space; rounding errors in it would grow in the preconditioner.
             self.residual.remove(null);
             norm = self.residual.dot(&self.residual).sqrt();
             rho = rho_new;

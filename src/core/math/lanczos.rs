@@ -1,4 +1,4 @@
-//! The extreme eigenvalues that conjugate gradients have seen: their coefficients are those of Lanczos' tridiagonal matrix
+//! Extreme eigenvalues from conjugate gradients, whose coefficients are those of Lanczos' tridiagonal matrix
 //! (Saad, *Iterative Methods for Sparse Linear Systems*, 2nd ed., Sec. 6.7.3).
 
 /// The two scalars of one iteration of conjugate gradients.
@@ -6,15 +6,15 @@
 pub struct Coefficients {
     /// Length of the step along the direction.
     pub step: f64,
-    /// Share of the direction before in this one; 0 in the first iteration.
+    /// Weight of the previous direction; 0 in the first iteration.
     pub beta: f64,
 }
 
-/// Halvings of an interval of eigenvalues: to all digits of a double, whose exponent and mantissa have 64 bits.
-const HALVINGS: usize = 64;
+/// Bisections of an interval of eigenvalues: to all digits of a double, whose exponent and mantissa have 64 bits.
+const BISECTIONS: usize = 64;
 
-/// The condition number of the preconditioned matrix as far as these iterations saw it, a lower bound of the true one.
-/// Nothing where there was no iteration, or where rounding left none of them positive.
+/// A lower bound of the preconditioned matrix's condition number from these iterations. None without iterations, or where
+/// rounding left no eigenvalue positive.
 pub fn condition(iterations: &[Coefficients]) -> Option<f64> {
     let (diagonal, squares) = tridiagonal(iterations);
     // Gershgorin: no eigenvalue is larger than the largest sum of a row.
@@ -27,7 +27,7 @@ pub fn condition(iterations: &[Coefficients]) -> Option<f64> {
     // The k-th smallest lies where k - 1 are below and k are not; by their logarithm, for they may be far apart.
     let kth = |k: usize| {
         let (mut low, mut high) = ((most * f64::EPSILON.powi(2)).ln(), most.ln());
-        for _ in 0..HALVINGS {
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
             if below(&diagonal, &squares, middle.exp()) < k { low = middle } else { high = middle }
         }
@@ -53,7 +53,7 @@ fn tridiagonal(iterations: &[Coefficients]) -> (Vec<f64>, Vec<f64>) {
     (diagonal, squares)
 }
 
-/// How many eigenvalues are less than `value`: the negative pivots of the matrix less `value` (Sylvester).
+/// The number of eigenvalues below `value`: negative pivots of the matrix minus `value` (Sylvester).
 fn below(diagonal: &[f64], squares: &[f64], value: f64) -> usize {
     let (mut pivot, mut count) = (1.0, 0);
     for (i, d) in diagonal.iter().enumerate() {

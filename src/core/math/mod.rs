@@ -1,4 +1,4 @@
-//! Numbers: random streams, splines, grids and solvers. Knows nothing of light.
+//! Numerics: random streams, splines, grids and solvers; independent of all other modules.
 
 pub mod bspline;
 pub mod cg;

@@ -212,7 +212,7 @@ impl Coarsest {
         self.factor = Cholesky::new(size, matrix);
     }
 
-    /// What rounding left of the null space in `right` is taken out: it would come back much larger.
+    /// The part of `right` in the null space, which is rounding error, is removed: it would be amplified.
     fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
         for (i, value) in self.numbers.iter_mut().enumerate() {
             *value = self.scale[i] * f64::from(number(right, i));

@@ -1,8 +1,8 @@
-//! What a matrix of potentials cannot see: constants, and linear functions that cancel each other.
+//! The null space of a matrix of potentials: constants, and linear functions whose velocities cancel.
 
 use super::vector::{GridVector, Layout};
 
-/// Linear functions of the place, one per potential, on which a matrix is zero.
+/// Linear functions of position, one per potential, on which a matrix is zero.
 #[derive(Clone, Debug)]
 pub struct NullSpace {
     components: usize,

@@ -13,7 +13,7 @@ pub struct Operator<T> {
     pub layout: Layout,
     /// Potentials, 1 or 2.
     pub components: usize,
-    /// The inverse diagonal for smoothing, see [`Self::set_inverse_diagonal`]; 0 where a row is zero.
+    /// The inverse diagonal for smoothing, see `set_inverse_diagonal`; 0 where a row is zero.
     pub inverse_diagonal: GridVector<T>,
     psi: Stencil<T>,
     coupled: Option<Coupled<T>>,

@@ -4,7 +4,7 @@
 use rand_pcg::Pcg32;
 use rand_pcg::rand_core::{Rng as _, SeedableRng};
 
-/// What the numbers are for; streams of different purposes are independent.
+/// The purpose of a stream; streams of different purposes are independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Purpose {

@@ -1,4 +1,4 @@
-//! Matrices whose entries link each node with its 7 x 7 neighbours, symmetric or antisymmetric, stored by half.
+//! Symmetric or antisymmetric matrices that link each node with its 7 x 7 neighbours; one half is stored.
 //!
 //! The entries of one offset lie side by side along a row, so every loop runs over contiguous numbers.
 

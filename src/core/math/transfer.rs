@@ -1,4 +1,4 @@
-//! Between a grid and the next coarser one, where spline spaces are nested: a coarse function is a fine function, exactly.
+//! Restriction and prolongation between nested spline spaces: a coarse function is a fine function, exactly.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use super::bspline::{EXTRA, REFINE};
 use super::real::Real;
 use super::vector::{GridVector, HALO, Layout};
 
-/// Nodes of an axis when its cells are merged by two. An odd number of cells reaches half a coarse cell beyond the end.
+/// Nodes of an axis after its cells are merged in pairs; an odd number reaches half a coarse cell beyond the end.
 pub fn coarse_nodes(nodes: usize) -> usize {
     (nodes - EXTRA).div_ceil(2) + EXTRA
 }

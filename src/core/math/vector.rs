@@ -7,7 +7,7 @@ use super::real::Real;
 /// Zeros on every side: how far a cubic spline reaches.
 pub const HALO: usize = 3;
 
-/// Nodes of a grid, and how a row of them lies in memory.
+/// The nodes of a grid and the memory layout of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Layout {
     /// Nodes along x and y.
@@ -19,7 +19,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of so many nodes along x and y.
+    /// The layout of a grid with these nodes along x and y.
     pub fn new(nodes: [usize; 2]) -> Self {
         let width = nodes[0].next_multiple_of(8);
         Self { nodes, width, stride: (width + 2 * HALO).next_multiple_of(8) }
@@ -120,7 +120,7 @@ impl<T: Real> GridVector<T> {
         });
     }
 
-    /// Takes out the share in each of some orthonormal vectors.
+    /// Projects out some orthonormal vectors.
     pub fn remove(&mut self, vectors: &[Self]) {
         for vector in vectors {
             let share = self.dot(vector);

@@ -1,32 +1,32 @@
-//! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after something specular.
+//! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after a specular surface.
 
-mod aim;
-mod learn;
+mod diagnosis;
+mod emission_plan;
+mod guide_learner;
 mod path;
 mod trace;
-mod why;
 
 use glam::{Vec2, Vec3};
 
-pub use aim::Aim;
-pub use path::Ledger;
-pub use trace::{Lesson, TraceReport, Tracer};
+pub use emission_plan::EmissionGuiding;
+pub use path::FluxBalance;
+pub use trace::{EmissionGuide, TraceReport, Tracer};
 
-/// Caustic photons in columns of equal length. Their order is such that the first n are an even sample of all.
+/// Caustic photons in columns of equal length, ordered so that the first n are an even sample of all.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Photons {
-    /// Where they landed, plane units.
+    /// Positions on the receiver, plane units.
     pub positions: Vec<Vec2>,
-    /// RGB flux [W], linear Rec.709. Nearly equal among photons of a scene (the mean of the channels is).
+    /// RGB flux (W), linear Rec.709. The mean of the channels is nearly equal among the photons of a scene.
     pub flux: Vec<Vec3>,
     /// Index into `Scene::lights`.
     pub light: Vec<u16>,
-    /// Index into `Scene::meshes`: the last specular object met.
+    /// Index into `Scene::meshes`: the last specular mesh met.
     pub mesh: Vec<u16>,
 }
 
 impl Photons {
-    /// How many.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.positions.len()
     }
@@ -36,7 +36,7 @@ impl Photons {
         self.positions.is_empty()
     }
 
-    /// Sum of the flux [W].
+    /// Total flux (W).
     pub fn total_flux(&self) -> glam::DVec3 {
         self.flux.iter().map(|f| f.as_dvec3()).sum()
     }

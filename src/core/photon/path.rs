@@ -1,6 +1,6 @@
 //! One light path: from a light over glass and mirrors until it lands or is lost. The mean of a photon's channels stays
-//! what it was at the light: what surfaces and glass take away ends whole photons at random (Arvo & Kirk 1990), so all
-//! that land count the same.
+//! constant: losses at surfaces and in glass end whole photons by Russian roulette (Arvo & Kirk 1990), so that all that
+//! land have equal flux.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -8,10 +8,10 @@ use crate::math::rng::Stream;
 use crate::scene::material::Beam;
 use crate::scene::{Media, Ray, Scene, SurfaceId};
 
-/// Surfaces a path may meet. Light caught in a block of glass by total reflection never comes out; it ends here.
+/// Most surfaces of a path. Light trapped in a block of glass by total reflection ends here.
 const MAX_SURFACES: usize = 256;
-/// From then on surfaces act by their true normals. Smooth normals on coarse facets can catch light that came in, in a round
-/// of total reflections which a smooth body, by reversibility, does not have; true normals let it out.
+/// Surfaces after which true normals replace smooth ones. Smooth normals on coarse facets can trap light in a cycle of total
+/// reflections that a smooth body, by reversibility, does not have; true normals let it out.
 const SMOOTH_SURFACES: usize = 32;
 
 /// A caustic photon on the receiver.
@@ -21,71 +21,71 @@ pub(super) struct Landing {
     pub mesh: u16,
 }
 
-/// Where the flux of the lights went [W], per channel. `emitted` is the sum of all others, to rounding.
+/// The balance of the lights' flux (W) per channel. `emitted` is the sum of all others, to rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
+pub struct FluxBalance {
     /// Sent towards glass and mirrors.
     pub emitted: DVec3,
-    /// Fell on the receiver after something specular: the caustics.
+    /// Fell on the receiver after a specular surface: the caustics.
     pub landed: DVec3,
-    /// Fell on the floor around the receiver after something specular.
+    /// Fell on the floor around the receiver after a specular surface.
     pub surround: DVec3,
-    /// Left the scene after something specular.
+    /// Left the scene after a specular surface.
     pub escaped: DVec3,
-    /// Ended on a matt mesh or on the back of the receiver after something specular.
+    /// Ended on a matt mesh or the back of the receiver after a specular surface.
     pub blocked: DVec3,
-    /// Swallowed by coloured glass and mirrors.
+    /// Absorbed by coloured glass and mirrors.
     pub absorbed: DVec3,
-    /// Still under way after 256 surfaces.
+    /// Cut off after 256 surfaces.
     pub capped: DVec3,
-    /// Met nothing specular first.
+    /// Met no specular surface.
     pub direct: DVec3,
-    /// Rays followed: a count, of all candidates.
+    /// Number of rays of all candidates.
     pub rays: u64,
 }
 
-impl Ledger {
-    fn columns(&mut self) -> [&mut DVec3; 8] {
+impl FluxBalance {
+    fn fluxes(&mut self) -> [&mut DVec3; 8] {
         let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct, .. } = self;
         [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
     }
 
-    /// Whether any light met something specular.
+    /// Whether any light met a specular surface.
     pub(super) fn met_specular(&self) -> bool {
         (self.emitted - self.direct).max_element() > 1e-12 * self.emitted.max_element()
     }
 
-    /// Adds another one.
+    /// Adds another balance.
     pub(super) fn add(&mut self, mut other: Self) {
-        for (column, more) in self.columns().into_iter().zip(other.columns()) {
+        for (column, more) in self.fluxes().into_iter().zip(other.fluxes()) {
             *column += *more;
         }
         self.rays += other.rays;
     }
 
-    /// Multiplies the fluxes by a factor.
+    /// The balance with all flux times a factor.
     pub(super) fn scaled(mut self, factor: f64) -> Self {
-        self.columns().into_iter().for_each(|column| *column *= factor);
+        self.fluxes().into_iter().for_each(|column| *column *= factor);
         self
     }
 }
 
-/// Follows a photon of `flux` along `ray`, from a light in `media`, and enters its end in the ledger.
+/// Follows a photon of `flux` along `ray`, from a light in `media`, and records its end in the balance.
 pub(super) fn follow(
     scene: &Scene,
     mut ray: Ray,
     flux: Vec3,
     media: Media,
     rng: &mut Stream,
-    ledger: &mut Ledger,
+    balance: &mut FluxBalance,
 ) -> Option<Landing> {
     let mut beam = Beam::new(flux, media);
     let mut last_specular = None;
-    ledger.emitted += flux.as_dvec3();
+    balance.emitted += flux.as_dvec3();
     for surface in 0..MAX_SURFACES {
-        ledger.rays += 1;
+        balance.rays += 1;
         let Some(mut hit) = scene.intersect(&ray) else {
-            let end = if last_specular.is_some() { &mut ledger.escaped } else { &mut ledger.direct };
+            let end = if last_specular.is_some() { &mut balance.escaped } else { &mut balance.direct };
             *end += beam.weight.as_dvec3();
             return None;
         };
@@ -103,26 +103,26 @@ pub(super) fn follow(
             }
             SurfaceId::Receiver | SurfaceId::Floor => None,
         };
-        let survived = survive(&mut beam.weight, flux, rng);
-        ledger.absorbed += (arriving - beam.weight).as_dvec3();
+        let survived = roulette(&mut beam.weight, flux, rng);
+        balance.absorbed += (arriving - beam.weight).as_dvec3();
         if !survived {
             return None;
         }
         match (next, last_specular) {
             (Some(direction), _) => ray = Ray::leaving(&hit, direction),
             (None, None) => {
-                ledger.direct += beam.weight.as_dvec3();
+                balance.direct += beam.weight.as_dvec3();
                 return None;
             }
-            (None, Some(mesh)) => return end(scene, &hit, &ray, beam.weight, mesh, ledger),
+            (None, Some(mesh)) => return land(scene, &hit, &ray, beam.weight, mesh, balance),
         }
     }
-    ledger.capped += beam.weight.as_dvec3();
+    balance.capped += beam.weight.as_dvec3();
     None
 }
 
-/// Restores the mean of the channels to that of `flux`, or ends the photon, so that the expectation stays.
-fn survive(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
+/// Russian roulette: restores the mean of the channels to that of `flux`, or ends the photon; whether it survived.
+fn roulette(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
     let left = weight.element_sum() / flux.element_sum();
     if left > 0.999_999 {
         return true;
@@ -132,23 +132,23 @@ fn survive(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
     survived
 }
 
-/// A caustic photon meets something matt.
-fn end(
+/// The end of a caustic photon on a matt surface.
+fn land(
     scene: &Scene,
     hit: &crate::scene::Hit,
     ray: &Ray,
     flux: Vec3,
     mesh: u16,
-    ledger: &mut Ledger,
+    balance: &mut FluxBalance,
 ) -> Option<Landing> {
     let lit = ray.direction.dot(hit.geometric_normal) < 0.0;
     let column = match hit.surface {
         SurfaceId::Receiver if lit => {
-            ledger.landed += flux.as_dvec3();
+            balance.landed += flux.as_dvec3();
             return Some(Landing { position: scene.receiver().plane_from_world(hit.point), flux, mesh });
         }
-        SurfaceId::Floor if lit => &mut ledger.surround,
-        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut ledger.blocked,
+        SurfaceId::Floor if lit => &mut balance.surround,
+        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut balance.blocked,
     };
     *column += flux.as_dvec3();
     None

@@ -1,116 +1,121 @@
-//! Traces light paths in parallel until exactly as many photons landed as were asked for.
+//! Parallel tracing of an exact number of caustic photons.
 //!
-//! How many candidates a pass needs is fixed beforehand from the landing rate seen in [`Tracer::new`], with a margin, and all
-//! of them are traced, spread evenly (stratified) over the cells of the [`Plan`]; so what each photon stands for, flux /
-//! candidates, is known before any is traced and the estimate has no bias. Of the few photons too many an even share is
-//! left out, at random offset, and the others take over its flux in proportion. Only if luck is worse than five standard
-//! deviations are candidates added; the bias of that is far below the noise of a single photon.
+//! The number of candidates of a pass is fixed beforehand from the landing rate measured in [`Tracer::new`], with a margin,
+//! and all are traced, stratified over the cells of the [`EmissionPlan`]; so a photon's flux / candidates is known before
+//! any is traced and the estimate is unbiased. The few surplus photons are thinned out evenly, at random offset, and the
+//! others take over their flux in proportion. Candidates are added only beyond five standard deviations; the bias of
+//! that is far below the noise of a single photon.
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::aim::{Aim, Plan};
-use super::path::{Ledger, follow};
-use super::{Photons, why};
+use super::emission_plan::{EmissionGuiding, EmissionPlan};
+use super::path::{FluxBalance, follow};
+use super::{Photons, diagnosis};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Error, Progress, Result};
 
 /// Candidates per batch: the unit of parallel work.
 const BATCH: u64 = 8192;
-/// Candidates of a pilot run, which measures the landing rate.
+/// Candidates of a pilot run, the measurement of the landing rate.
 const PILOT: u64 = 4 * BATCH;
-/// Pilot runs at most; each activates cells that were missed.
+/// Most pilot runs; each activates cells that were missed.
 const PILOTS: u64 = 4;
-/// Pass number of the pilot runs; no render reaches it.
+/// Random-stream pass number of the pilot runs; no render reaches it.
 const PILOT_PASS: u64 = u64::MAX - 1;
-/// Index of the stream that chooses which photons are left out; no candidate reaches it.
+/// Random-stream index of the thinning offset; no candidate reaches it.
 const THINNING: u64 = u64::MAX;
-/// Photons are handed out in this many rounds over all that landed, a power of 2.
+/// Strided rounds of the output order, a power of 2.
 const ROUNDS: u64 = 256;
 
-/// What a pass cost and where its light went.
+/// The cost and flux balance of one pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceReport {
-    /// Candidates sent.
+    /// Number of candidates.
     pub candidates: u64,
-    /// Caustic photons that landed; a few more than were asked for.
+    /// Caustic photons that landed; a few more than requested.
     pub landed: u64,
-    /// Where the flux went [W]; `emitted` is what was sent towards glass and mirrors.
-    pub ledger: Ledger,
+    /// The balance of the flux (W) sent towards glass and mirrors.
+    pub balance: FluxBalance,
     /// Wall time.
     pub seconds: f64,
 }
 
-/// Traces the caustic photons of a scene, pass by pass.
+/// The photon tracer of a scene: its caustic photons, pass by pass.
 pub struct Tracer<'a> {
     scene: &'a Scene,
-    lesson: Lesson,
+    guide: EmissionGuide,
 }
 
-/// Where the lights of a scene must shine, learned once. It holds as long as meshes, lights, receiver and seed stay
-/// what they are. Cheap to clone.
+/// The learned emission of a scene's lights: importance sampling towards the receiver. Valid while meshes, lights, receiver
+/// and seed stay the same. Cheap to clone.
 #[derive(Clone)]
-pub struct Lesson(Arc<Learned>);
+pub struct EmissionGuide(Arc<GuidedEmission>);
 
-struct Learned {
-    plan: Plan,
+struct GuidedEmission {
+    plan: EmissionPlan,
     seed: u64,
-    /// Photons landed per candidate.
+    /// Landing rate: photons per candidate.
     rate: f64,
 }
 
-/// What one batch yields.
+/// The photons of one batch.
 #[derive(Default)]
 struct Batch {
     photons: Photons,
     /// The cell each photon came from.
     cells: Vec<u32>,
-    ledger: Ledger,
+    balance: FluxBalance,
 }
 
 impl<'a> Tracer<'a> {
-    /// Learns where the lights must shine. Fails with the first reason if no caustic falls on the receiver.
+    /// A tracer with a newly learned emission guide. Fails with a diagnosis if no caustic falls on the receiver.
     pub fn new(scene: &'a Scene, seed: u64, progress: &Progress) -> Result<Self> {
-        Self::aimed(scene, Aim::Learned, seed, progress)
+        Self::with_guiding(scene, EmissionGuiding::Learned, seed, progress)
     }
 
-    /// As [`Self::new`], with emission narrowed less: to compare with, at many times the cost.
-    pub fn aimed(scene: &'a Scene, aim: Aim, seed: u64, progress: &Progress) -> Result<Self> {
-        let plan = Plan::new(scene, aim, seed, progress)?;
-        let mut learned = Learned { plan, seed, rate: 0.0 };
-        if learned.plan.cells.is_empty() {
-            return Err(why::no_caustic(scene, &learned.plan.ledgers));
+    /// As [`Self::new`] with any guiding, to compare with at many times the cost.
+    pub fn with_guiding(
+        scene: &'a Scene,
+        guiding: EmissionGuiding,
+        seed: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let plan = EmissionPlan::new(scene, guiding, seed, progress)?;
+        let mut emission = GuidedEmission { plan, seed, rate: 0.0 };
+        if emission.plan.cells.is_empty() {
+            return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
         for pilot in 0..PILOTS {
-            let batches = learned.set(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
+            let batches = emission.trace_candidates(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
             let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
-            learned.rate = cells.len() as f64 / PILOT as f64;
-            if !learned.plan.activate(&cells) {
+            emission.rate = cells.len() as f64 / PILOT as f64;
+            if !emission.plan.activate(&cells) {
                 break;
             }
         }
-        if learned.rate == 0.0 {
-            return Err(why::no_caustic(scene, &learned.plan.ledgers));
+        if emission.rate == 0.0 {
+            return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
-        Ok(Self { scene, lesson: Lesson(Arc::new(learned)) })
+        Ok(Self { scene, guide: EmissionGuide(Arc::new(emission)) })
     }
 
-    /// Traces on where another tracer has learned where to shine, in a scene of the same meshes, lights and receiver.
-    pub fn resume(scene: &'a Scene, lesson: Lesson) -> Self {
-        Self { scene, lesson }
+    /// A tracer with the guide of another one; the scene must have the same meshes, lights and receiver.
+    pub fn with_guide(scene: &'a Scene, guide: EmissionGuide) -> Self {
+        Self { scene, guide }
     }
 
-    /// What was learned, for [`Self::resume`].
-    pub fn lesson(&self) -> &Lesson {
-        &self.lesson
+    /// The emission guide, for [`Self::with_guide`].
+    pub fn guide(&self) -> &EmissionGuide {
+        &self.guide
     }
 
-    /// Photons landed per candidate sent.
+    /// Landing rate: photons per candidate.
     pub fn landing_rate(&self) -> f64 {
-        self.lesson.0.rate
+        self.guide.0.rate
     }
 
     /// Traces exactly `count` caustic photons of a pass. Equal for equal (seed, pass, count), on any number of threads.
@@ -122,40 +127,41 @@ impl<'a> Tracer<'a> {
         }
         let mut batches: Vec<Batch> = Vec::new();
         let (mut landed, mut candidates) = (0, 0);
-        let learned = &*self.lesson.0;
-        let expected = learned.candidates_for(count as u64);
+        let emission = &*self.guide.0;
+        let expected = emission.candidates_for(count as u64);
         while landed < count as u64 {
             if candidates > 100 * expected {
                 let what =
                     format!("only {landed} of {count} photons landed, far fewer than the pilot run promised");
                 return Err(Error::Numeric { stage: "trace", what });
             }
-            let wanted = learned.candidates_for(count as u64 - landed);
-            batches.extend(learned.set(self.scene, (pass, candidates, wanted), progress)?);
+            let wanted = emission.candidates_for(count as u64 - landed);
+            batches.extend(emission.trace_candidates(self.scene, (pass, candidates, wanted), progress)?);
             candidates += wanted;
             landed = batches.iter().map(|batch| batch.photons.len() as u64).sum();
         }
-        let mut ledger = Ledger::default();
-        batches.iter().for_each(|batch| ledger.add(batch.ledger));
-        let offset = (Stream::new(learned.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
+        let mut balance = FluxBalance::default();
+        batches.iter().for_each(|batch| balance.add(batch.balance));
+        let offset =
+            (Stream::new(emission.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
         let factor = landed as f64 / count as f64 / candidates as f64;
         let photons = thin(batches, count as u64, landed, offset, factor as f32);
         let report = TraceReport {
             candidates,
             landed,
-            ledger: ledger.scaled(1.0 / candidates as f64),
+            balance: balance.scaled(1.0 / candidates as f64),
             seconds: start.elapsed().as_secs_f64(),
         };
         Ok((photons, report))
     }
 }
 
-impl Learned {
-    /// Candidates that yield `count` photons unless luck is worse than five standard deviations; whole batches.
+impl GuidedEmission {
+    /// The candidates, in whole batches, that yield `count` photons within five standard deviations.
     fn candidates_for(&self, count: u64) -> u64 {
         let count = count as f64;
         let photons = count + 5.0 * (count * (1.0 - self.rate)).max(1.0).sqrt();
-        // The pilot's own uncertainty: one part in the root of what it landed.
+        // The relative uncertainty of the pilot is one over the root of its photons.
         let pilot = (self.rate * PILOT as f64).sqrt();
         let rate = self.rate * (1.0 - 3.0 / pilot).max(0.25);
         ((photons / rate / BATCH as f64).ceil() as u64).max(1) * BATCH
@@ -163,7 +169,7 @@ impl Learned {
 
     /// Traces `count` candidates of a pass, a multiple of `BATCH`, spread over all cells; `first` is the index of the
     /// first in its pass.
-    fn set(
+    fn trace_candidates(
         &self,
         scene: &Scene,
         (pass, first, count): (u64, u64, u64),
@@ -173,16 +179,16 @@ impl Learned {
             .into_par_iter()
             .map(|batch| {
                 progress.check()?;
-                let batch = self.batch(scene, (pass, first, count), batch * BATCH);
+                let batch = self.trace_batch(scene, (pass, first, count), batch * BATCH);
                 progress.advance(batch.photons.len() as u64);
                 Ok(batch)
             })
             .collect()
     }
 
-    /// Candidate i of a set takes the i-th of `count` equal shares of the cells: neighbours in a batch meet the same
-    /// triangles, and find them in the cache.
-    fn batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
+    /// Candidate i takes the i-th of `count` strata of the cells: neighbours in a batch meet the same triangles, which are
+    /// then in the cache.
+    fn trace_batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
         let mut result = Batch::default();
         let share = |candidate: u64, within: f64| (candidate as f64 + within) / count as f64;
         let last = self.plan.cells.len() - 1;
@@ -197,7 +203,7 @@ impl Learned {
             let domain = &self.plan.domains[cell.domain as usize];
             let u = cell.corner.map(|corner| corner + rng.f32() * cell.size);
             let Some((ray, media)) = domain.sample(scene, u, &mut rng) else { continue };
-            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.ledger);
+            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.balance);
             if let Some(landing) = landing {
                 result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
                 result.cells.push(at as u32);
@@ -207,8 +213,8 @@ impl Learned {
     }
 }
 
-/// Keeps `count` of all `landed` photons, at even distances from `offset` on, and multiplies their flux by `factor`. They come
-/// out in rounds, each a stride through all of them, so that the first n are an even sample too.
+/// Keeps `count` of all `landed` photons, evenly spaced from `offset` on, with their flux times `factor`. Their order is by
+/// strided rounds, so that the first n are an even sample too.
 fn thin(batches: Vec<Batch>, count: u64, landed: u64, offset: u64, factor: f32) -> Photons {
     let mut kept = Photons::with_capacity(count as usize);
     let mut sum = offset;

@@ -1,18 +1,17 @@
-//! Where a project's meshes and pictures may stand.
+//! The paths of a project's meshes and pictures.
 //!
-//! Paths in a project are relative to the project file, with forward slashes. They stay inside the project's
-//! folder; where that folder has a neighbour called `assets` (`projects/a.json` beside `assets/`), inside their
-//! common parent. Everything else is refused unless the user allows it: a project that came from a stranger reads
-//! no file of yours.
+//! Paths in a project are relative to the project file, with forward slashes. They must stay inside the project's folder or,
+//! where that folder has a neighbour called `assets` (`projects/a.json` beside `assets/`), inside their common parent.
+//! Everything else is refused unless the user allows it: an untrusted project cannot read private files.
 
 use std::path::{Component, Path, PathBuf};
 
 use crate::{Error, Result};
 
-/// Longer paths are refused by most systems.
-const LONGEST: usize = 4096;
+/// The limit of most systems, bytes.
+const MAX_PATH_BYTES: usize = 4096;
 
-/// Resolves the asset paths of one project.
+/// The resolver of asset paths of one project.
 #[derive(Clone, Debug)]
 pub struct AssetFolder {
     folder: PathBuf,
@@ -20,7 +19,7 @@ pub struct AssetFolder {
 }
 
 impl AssetFolder {
-    /// The folder of the project file at `project`. `allow_external` lifts the fence.
+    /// The resolver for the project file at `project`. `allow_external` allows paths outside.
     ///
     /// # Errors
     /// The project's folder cannot be found.
@@ -35,17 +34,17 @@ impl AssetFolder {
         Ok(Self { folder, root })
     }
 
-    /// The file that `written` means, for the project value at `place`.
+    /// The file of the path `written` in the project value at `place`.
     ///
     /// # Errors
-    /// A path that could only work on one machine, leads outside the fence, or to nothing.
+    /// A path that is not portable, leads outside, or does not exist.
     pub fn resolve(&self, written: &str, place: &str) -> Result<PathBuf> {
         let shown: String = written.chars().take(80).collect();
         let wrong = |what: &str| Error::value(place, format!("'{}' {what}", shown.escape_default()));
         if written.is_empty() {
             return Err(wrong("names no file; give a path relative to the project file"));
         }
-        if written.len() > LONGEST {
+        if written.len() > MAX_PATH_BYTES {
             return Err(wrong("… is longer than 4096 bytes; shorten the path"));
         }
         if written.contains('\0') {
@@ -89,7 +88,7 @@ fn outside(written: &str, place: &str, root: &Path) -> Error {
     Error::value(place, what)
 }
 
-/// The path without `.` and `..`, by its text alone: nothing outside is even looked at.
+/// The path without `.` and `..`, without access to the file system.
 fn normalise(path: &Path) -> PathBuf {
     let mut clean = PathBuf::new();
     for part in path.components() {

@@ -1,4 +1,4 @@
-//! Caustics by name: which light through which glass, and what each does at a key frame.
+//! Named caustics: which light through which glass, and their values at a key frame.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -13,7 +13,7 @@ use crate::setting::{Setting, settings};
 use crate::{Error, Result};
 
 /// Most caustics of a project.
-const MOST: usize = 1000;
+const MAX_CAUSTICS: usize = 1000;
 
 /// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -75,7 +75,7 @@ impl Default for CausticKey {
 }
 
 impl CausticKey {
-    /// The factor on each channel of its light.
+    /// The factor per channel of its light.
     pub fn gain(&self) -> [f32; 3] {
         self.colour.map(|channel| channel * self.brightness)
     }
@@ -88,14 +88,14 @@ impl CausticKey {
 }
 
 impl KeyFrame {
-    /// What a caustic shows here; those without a name, and those that the key does not mention, show what the key shows.
+    /// What a caustic shows at this key; without a name, or not mentioned by the key, what the key shows.
     pub fn shown_by(&self, caustic: Option<&str>) -> &Shows {
         let own = caustic.and_then(|name| self.caustics.get(name)?.shows.as_ref());
         own.unwrap_or(&self.shows)
     }
 }
 
-/// Reads what a key says of single caustics; a name that stands twice is an error, not the last one's word.
+/// Reads a key's values of single caustics; a duplicate name is an error.
 pub(super) fn by_name<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, CausticKey>, D::Error> {
@@ -121,11 +121,12 @@ pub(super) fn by_name<'de, D: Deserializer<'de>>(
     deserializer.deserialize_map(ByName)
 }
 
-/// The named caustics, and what the keys say of them.
+/// Checks the named caustics and the keys' values of them.
 pub(super) fn check(project: &Project) -> Result<()> {
     let caustics = &project.caustics;
-    if caustics.len() > MOST {
-        let what = format!("names {} caustics, at most {MOST} can be told apart; join some", caustics.len());
+    if caustics.len() > MAX_CAUSTICS {
+        let what =
+            format!("names {} caustics, at most {MAX_CAUSTICS} can be told apart; join some", caustics.len());
         return Err(Error::Limit { place: "caustics".into(), what });
     }
     if !caustics.is_empty() && project.scene.is_none() {
@@ -148,7 +149,7 @@ pub(super) fn check(project: &Project) -> Result<()> {
         for (name, caustic) in &key.caustics {
             let place = format!("keys[{i}].caustics.{name}");
             if !names.contains(name.as_str()) {
-                return Err(Error::value(place, unknown("caustic", name, names.iter().copied())));
+                return Err(Error::value(place, unknown_name("caustic", name, names.iter().copied())));
             }
             caustic.check(&place)?;
         }
@@ -156,8 +157,8 @@ pub(super) fn check(project: &Project) -> Result<()> {
     Ok(())
 }
 
-/// What to say of a name that nothing bears.
-pub(crate) fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+/// The message on an unknown name.
+pub(crate) fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<_> = known.map(|name| format!("'{name}'")).collect();
     if known.is_empty() {
         return format!("there is no {kind} '{name}', and no other");

@@ -2,21 +2,21 @@
 
 use crate::{Error, Result};
 
-/// At most this many frames in one run.
-pub const MOST_FRAMES: usize = 100_000;
+/// Most frames of one run.
+pub const MAX_FRAMES: usize = 100_000;
 
-/// The frames of a list such as `1-100x5, 120`, in its order, each once. `x` or `:` gives the step.
+/// The frames of a list such as `1-100x5, 120`, in its order, without duplicates. `x` or `:` precedes the step.
 ///
 /// # Errors
-/// Names `place` where the list is empty, reversed, malformed or longer than [`MOST_FRAMES`].
+/// Names `place` for a list that is empty, reversed, malformed or longer than [`MAX_FRAMES`].
 pub fn parse(text: &str, place: &str) -> Result<Vec<i32>> {
     let mut frames = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
     for part in text.split(',').map(str::trim) {
         let (first, last, step) = range(part, place)?;
         let count = (i64::from(last) - i64::from(first)) / step + 1;
-        if frames.len() as i64 + count > MOST_FRAMES as i64 {
-            let what = format!("'{text}' asks for more than {MOST_FRAMES} frames; render it in parts");
+        if frames.len() as i64 + count > MAX_FRAMES as i64 {
+            let what = format!("'{text}' asks for more than {MAX_FRAMES} frames; render it in parts");
             return Err(Error::value(place, what));
         }
         for i in 0..count {

@@ -1,4 +1,4 @@
-//! Key frames: what the light shows, and when.
+//! Key frames: what the light shows, at which frame.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ pub enum Ease {
 }
 
 impl Ease {
-    /// The flow's time for the share `x` of the way from one key to the next; both 0..=1.
+    /// The eased time in the segment for the linear share `x` of its frames; both 0..=1.
     pub fn apply(self, x: f64) -> f64 {
         let x = x.clamp(0.0, 1.0);
         match self {
@@ -93,30 +93,30 @@ impl Ease {
     }
 }
 
-/// Where the frame `frame` stands between the keys.
+/// The time of a frame, relative to its segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
-    /// Index of the segment, from key `segment` to key `segment + 1`; 0 where there is but one key.
+pub struct SegmentTime {
+    /// Index of the segment, from key `segment` to key `segment + 1`; 0 with a single key.
     pub segment: usize,
-    /// The flow's time in the segment, 0..=1.
+    /// The eased time in the segment, 0..=1.
     pub time: f64,
 }
 
-/// Where `frame` stands: before the first key at it, after the last key at that one.
-pub fn moment(keys: &[KeyFrame], frame: i32) -> Moment {
+/// The segment time of `frame`, clamped to the first and the last key.
+pub fn segment_time(keys: &[KeyFrame], frame: i32) -> SegmentTime {
     let after = keys.partition_point(|key| key.frame <= frame);
     if keys.len() < 2 || after == 0 {
-        return Moment { segment: 0, time: 0.0 };
+        return SegmentTime { segment: 0, time: 0.0 };
     }
     if after == keys.len() {
-        return Moment { segment: keys.len() - 2, time: 1.0 };
+        return SegmentTime { segment: keys.len() - 2, time: 1.0 };
     }
     let (from, to) = (&keys[after - 1], &keys[after]);
     let share = f64::from(frame - from.frame) / f64::from(to.frame - from.frame);
-    Moment { segment: after - 1, time: from.ease.apply(share) }
+    SegmentTime { segment: after - 1, time: from.ease.apply(share) }
 }
 
-/// At least one key, in rising order, none that needs a scene where there is none.
+/// Checks for at least one key, rising order, and a scene where a key needs one.
 pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
     if keys.is_empty() {
         return Err(Error::value(
@@ -177,17 +177,17 @@ mod tests {
     #[test]
     fn a_frame_between_two_keys_belongs_to_their_segment() {
         let keys = keys(&[1, 11, 31]);
-        assert_eq!(moment(&keys, 6), Moment { segment: 0, time: 0.5 });
-        assert_eq!(moment(&keys, 11), Moment { segment: 1, time: 0.0 });
-        assert_eq!(moment(&keys, 21), Moment { segment: 1, time: 0.5 });
+        assert_eq!(segment_time(&keys, 6), SegmentTime { segment: 0, time: 0.5 });
+        assert_eq!(segment_time(&keys, 11), SegmentTime { segment: 1, time: 0.0 });
+        assert_eq!(segment_time(&keys, 21), SegmentTime { segment: 1, time: 0.5 });
     }
 
     #[test]
     fn frames_outside_the_keys_rest_at_the_nearest_key() {
         let keys = keys(&[1, 11]);
-        assert_eq!(moment(&keys, -5), Moment { segment: 0, time: 0.0 });
-        assert_eq!(moment(&keys, 11), Moment { segment: 0, time: 1.0 });
-        assert_eq!(moment(&keys, 99), Moment { segment: 0, time: 1.0 });
+        assert_eq!(segment_time(&keys, -5), SegmentTime { segment: 0, time: 0.0 });
+        assert_eq!(segment_time(&keys, 11), SegmentTime { segment: 0, time: 1.0 });
+        assert_eq!(segment_time(&keys, 99), SegmentTime { segment: 0, time: 1.0 });
     }
 
     #[test]

@@ -1,16 +1,16 @@
-//! Reads a project file, and says of a wrong one what is wrong and where.
+//! Loading of a project file; errors name the place and the reason.
 
 use std::path::Path;
 
 use super::file::unknown;
-use super::{Project, VERSION, describe};
+use super::{Project, VERSION, schema_docs};
 use crate::{Error, Result};
 
-/// Larger files are no projects: photons and pictures stand in files of their own.
-pub(super) const MOST_BYTES: u64 = 64 << 20;
+/// Largest project file; photons and pictures are in separate files.
+pub(super) const MAX_BYTES: u64 = 64 << 20;
 
 pub(super) fn load(path: &Path) -> Result<Project> {
-    parse(&crate::files::read_regular_file(path, MOST_BYTES)?, path)
+    parse(&crate::files::read_regular_file(path, MAX_BYTES)?, path)
 }
 
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
@@ -36,7 +36,7 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     Ok(project)
 }
 
-/// Like [`parse`], but what the format does not know is skipped; its places come beside the project.
+/// As [`parse`], but unknown fields are skipped; their paths are returned with the project.
 pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Vec<String>)> {
     let strict = match parse(bytes, path) {
         Ok(project) => return Ok((project, Vec::new())),
@@ -89,18 +89,18 @@ fn place(error: &serde_json::Error, field: &str) -> String {
     if field == "." { position } else { format!("{position}, {field}") }
 }
 
-/// The parser's reason without its own position, and what the field takes.
+/// The parser's reason without its position, with the description of the field.
 fn what(error: &serde_json::Error, field: &str) -> String {
     let full = error.to_string();
     let reason = full.rsplit_once(" at line ").map_or(full.as_str(), |(reason, _)| reason);
-    match (error.is_eof(), describe::field(&Project::json_schema(), field)) {
+    match (error.is_eof(), schema_docs::description(&Project::json_schema(), field)) {
         (true, _) => format!("the file ends too early ({reason}); is it cut off?"),
         (false, Some(meaning)) => format!("{reason}. This is: {meaning}"),
         (false, None) => reason.to_owned(),
     }
 }
 
-/// A value error of a project that came from a file names that file too.
+/// Adds the file to a value error.
 fn in_file(error: Error, path: &Path) -> Error {
     match error {
         Error::Value { place, what } => Error::Format { path: path.to_owned(), place, what },

@@ -1,4 +1,4 @@
-//! The document: only what an artist decides. Everything else is derived from it and never saved.
+//! The project: the artist's settings. Everything else is derived from them and never saved.
 //!
 //! The smallest project that does something needs no scene at all:
 //!
@@ -10,12 +10,12 @@
 
 mod asset_path;
 mod caustic;
-mod describe;
 mod file;
 pub mod frames;
 mod keyframe;
 mod load;
 mod output;
+mod schema_docs;
 mod settings;
 
 use std::io::Write as _;
@@ -26,10 +26,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use asset_path::AssetFolder;
-pub(crate) use caustic::unknown;
+pub(crate) use caustic::unknown_name;
 pub use caustic::{CausticDesc, CausticKey};
 pub use file::ProjectFile;
-pub use keyframe::{Ease, KeyFrame, Moment, Shows, moment};
+pub use keyframe::{Ease, KeyFrame, SegmentTime, Shows, segment_time};
 pub use output::OutputSettings;
 pub use settings::settings;
 
@@ -101,7 +101,7 @@ pub struct Project {
 pub struct PlaneSettings {
     /// Width over height. A scene has its receiver instead.
     pub aspect: f32,
-    /// Power of all the light on it [W]; a plane unit counts as one metre.
+    /// Power of all the light on it (W); a plane unit counts as one metre.
     pub watts: f32,
 }
 
@@ -145,20 +145,20 @@ impl Project {
     /// Reads and checks a project file.
     ///
     /// # Errors
-    /// Unreadable, malformed or out of range: each names the file and the place in it.
+    /// A file that is unreadable, malformed or out of range; each names the file and the place in it.
     pub fn load(path: &Path) -> Result<Self> {
         load::load(path)
     }
 
-    /// Reads and checks a project from text; `path` is only named in errors.
+    /// Parses and checks a project from text; `path` appears only in errors.
     pub fn parse(text: &[u8], path: &Path) -> Result<Self> {
         load::parse(text, path)
     }
 
-    /// Checks every value against its range, and those that must agree with each other.
+    /// Checks all values, singly and against each other.
     ///
     /// # Errors
-    /// The first value that cannot be used, by its path in the project.
+    /// The first invalid value, by its path in the project.
     pub fn check(&self) -> Result<()> {
         if self.lightloom != VERSION {
             let what =
@@ -181,7 +181,7 @@ impl Project {
         self.output.check("output")
     }
 
-    /// Pairing row with row means something only where every key is a file of points.
+    /// Checks that pairing row by row has point files at every key.
     fn check_given(&self) -> Result<()> {
         let all_points = self.shown().all(|shows| matches!(shows, Shows::Points(_)));
         if self.matching == Method::Given && !all_points {
@@ -201,7 +201,7 @@ impl Project {
         Ok(())
     }
 
-    /// Everything that is shown: by the keys, and by single caustics.
+    /// Everything shown, by the keys and by single caustics.
     fn shown(&self) -> impl Iterator<Item = &Shows> {
         self.keys.iter().flat_map(|key| {
             std::iter::once(&key.shows).chain(key.caustics.values().filter_map(|c| c.shows.as_ref()))
@@ -213,17 +213,17 @@ impl Project {
         self.scene.as_ref().map_or_else(|| self.plane.extent(), |scene| scene.receiver.extent())
     }
 
-    /// Whether photons must be traced: a key shows the physical caustic, or caustics are told apart.
+    /// Whether photons are traced: a key shows the physical caustic, or caustics have names.
     pub fn traces(&self) -> bool {
         !self.caustics.is_empty() || self.shown().any(|shows| *shows == Shows::PhysicalCaustic)
     }
 
-    /// Whether fields are fitted: light moves from key to key, and by the method that does it along a flow.
+    /// Whether fields are fitted: several keys, and the method is the flow.
     pub fn fits(&self) -> bool {
         self.keys.len() > 1 && self.method == Movement::Flow
     }
 
-    /// The files that the project names, as written.
+    /// The paths of all files of the project, as written.
     pub fn files(&self) -> Vec<&str> {
         let meshes = self.scene.iter().flat_map(|scene| scene.meshes.iter().map(|mesh| mesh.file.as_str()));
         let shown = self.shown().filter_map(|shows| match shows {
@@ -234,7 +234,7 @@ impl Project {
         meshes.chain(shown).collect()
     }
 
-    /// Names the files anew: `rename` turns each path as written into another.
+    /// Replaces the paths of all files by `rename`.
     pub fn rename_files(&mut self, rename: impl Fn(&str) -> String) {
         let meshes = self.scene.iter_mut().flat_map(|scene| &mut scene.meshes).map(|mesh| &mut mesh.file);
         let keys = self.keys.iter_mut().flat_map(|key| {
@@ -249,10 +249,10 @@ impl Project {
         meshes.chain(shown).for_each(|file| *file = rename(file));
     }
 
-    /// The frames asked for: the list in `output.frames`, or all from the first key to the last.
+    /// The frames to render: the list in `output.frames`, or all from the first key to the last.
     ///
     /// # Errors
-    /// A malformed list, or more frames than one run may have.
+    /// A malformed list, or more than [`frames::MAX_FRAMES`] frames.
     pub fn frames(&self) -> Result<Vec<i32>> {
         if let Some(list) = &self.output.frames {
             return frames::parse(list, "output.frames");
@@ -263,10 +263,10 @@ impl Project {
         }
     }
 
-    /// The project as JSON text, keys in a fixed order, two spaces of indent.
+    /// The project as JSON text, fields in fixed order, indented by two spaces.
     ///
     /// # Errors
-    /// Refuses a project that would not load again (a value that is not finite, say).
+    /// A project that would not load again, such as one with a value that is not finite.
     pub fn to_json(&self) -> Result<String> {
         self.check()?;
         let text = serde_json::to_string_pretty(self)
@@ -274,10 +274,10 @@ impl Project {
         Ok(text + "\n")
     }
 
-    /// Saves the project in one step: the old file stays whole until the new one is.
+    /// Saves the project atomically.
     ///
     /// # Errors
-    /// Names the file and the system's reason; the old file is left as it was.
+    /// The file and the system's reason; the old file is then unchanged.
     pub fn save(&self, path: &Path) -> Result<()> {
         let text = self.to_json()?;
         crate::files::write_atomic(path, |file| file.write_all(text.as_bytes()))

@@ -60,7 +60,7 @@ impl OutputSettings {
         if self.png_bits == 16 { PngDepth::Sixteen } else { PngDepth::Eight }
     }
 
-    /// Whether a frame of these settings may have the file name `name`.
+    /// Whether `name` matches the file name of a frame.
     pub fn writes(&self, name: &str) -> bool {
         let frame_of = |format: &FrameFormat| {
             let (before, after) = self.name.split_once(['#', '%'])?;

@@ -8,7 +8,7 @@ use crate::render::RenderSettings;
 use crate::render::view::ViewSettings;
 use crate::scene::camera::CameraDesc;
 use crate::scene::environment::EnvironmentDesc;
-use crate::scene::light::{DirectionalLight, LightDesc, RectangleLight, SphereLight, SpotLight};
+use crate::scene::light::{self, DirectionalLight, LightDesc, RectangleLight, SphereLight, SpotLight};
 use crate::scene::material::{Diffuse, Glass, Material, Mirror};
 use crate::scene::mesh::{MeshDesc, Transform};
 use crate::scene::receiver::ReceiverDesc;
@@ -25,7 +25,7 @@ pub fn settings() -> impl Iterator<Item = &'static Setting> {
         CausticDesc::SETTINGS, CausticKey::SETTINGS,
         RenderSettings::SETTINGS, ViewSettings::SETTINGS, OutputSettings::SETTINGS, Project::SETTINGS,
         MeshDesc::SETTINGS, Transform::SETTINGS, Material::SETTINGS, Diffuse::SETTINGS, Mirror::SETTINGS, Glass::SETTINGS,
-        LightDesc::SETTINGS, SpotLight::SETTINGS, DirectionalLight::SETTINGS, RectangleLight::SETTINGS, SphereLight::SETTINGS,
+        LightDesc::SETTINGS, light::Common::SETTINGS, SpotLight::SETTINGS, DirectionalLight::SETTINGS, RectangleLight::SETTINGS, SphereLight::SETTINGS,
         CameraDesc::SETTINGS, ReceiverDesc::SETTINGS, EnvironmentDesc::SETTINGS, PlaneSettings::SETTINGS,
     ].into_iter().flatten()
 }

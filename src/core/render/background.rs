@@ -1,12 +1,12 @@
 //! The picture without caustics, path traced once.
 //!
-//! Direct light with a shadow ray to every light, glass and mirrors as the camera sees them, the sky, and a few
-//! diffuse interreflections. Shadows of glass stay dark: a shadow ray stops at glass, and a path that went from a matt
-//! surface over glass or a mirror to a light is left out, because the caustic photons bring that very light. The sky emits no
-//! photons, so its light does come through glass.
+//! Direct light by a shadow ray to every light, specular paths from the camera, the sky, and a few diffuse
+//! interreflections. Shadows of glass stay dark: a shadow ray stops at glass, and paths from a matt surface over glass or
+//! a mirror to a light are left out, because that light is the caustic photons'. The sky emits no photons, so its light
+//! does pass through glass.
 //!
-//! Pixels that are noisy after the first samples, and their neighbours, get more until they are good: a few samples can
-//! miss what is rare and bright, but hardly in a whole neighbourhood.
+//! Sampling is adaptive: noisy pixels and their neighbours get more samples. A few samples can miss what is rare and
+//! bright, but hardly in a whole neighbourhood.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
@@ -16,52 +16,52 @@ use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
 use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
-use crate::scene::material::fresnel::toward;
+use crate::scene::material::fresnel::facing_normals;
 use crate::scene::material::{Beam, Material};
 use crate::scene::{Hit, Media, Ray, Scene};
 use crate::{Progress, Result};
 
-/// Times that light goes from one matt surface to another.
+/// Most diffuse bounces.
 const BOUNCES: u32 = 3;
-/// Surfaces after which a path is given up.
+/// Most surfaces of a path.
 const MAX_SURFACES: usize = 32;
-/// Below this throughput a path goes on only by chance.
+/// Throughput below which Russian roulette applies.
 const FAINT: f32 = 0.1;
-/// Least and largest number of samples of a noisy pixel, in units of the setting.
+/// Bounds on the samples of a noisy pixel, in units of the setting.
 const NOISY: [u32; 2] = [8, 64];
-/// The standard error at which a pixel is good, as a share of its brightness and half that of the picture.
+/// The accepted standard error, relative to a pixel's brightness plus half that of the picture.
 const TOLERANCE: f32 = 0.016;
-/// How much brighter than the mean of the picture a light may appear in glass or a mirror. Lamps are thousands of times
-/// brighter, and a pixel that caught one reflection of a small lamp by chance would sparkle; this is white all the same.
-const GLINT: f32 = 50.0;
+/// Clamp on fireflies: largest luminance of a light seen in glass or a mirror, over the mean of the picture. Lamps are
+/// thousands of times brighter, and one chance reflection of a small lamp would sparkle; this is still white.
+const FIREFLY_LIMIT: f32 = 50.0;
 
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
 pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
-    sampled(scene, settings, seed, true, progress)
+    render(scene, settings, seed, true, progress)
 }
 
-/// As [`background`], but no pixel takes more than the first light paths: noisy, and ready in a known time.
+/// As [`background`] without adaptive sampling: noisy, in a predictable time.
 pub fn rough_background(
     scene: &Scene,
     settings: &RenderSettings,
     seed: u64,
     progress: &Progress,
 ) -> Result<Image> {
-    sampled(scene, settings, seed, false, progress)
+    render(scene, settings, seed, false, progress)
 }
 
-fn sampled(
+fn render(
     scene: &Scene,
     settings: &RenderSettings,
     seed: u64,
-    until_good: bool,
+    adaptive: bool,
     progress: &Progress,
 ) -> Result<Image> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
-    let mut paths = Paths { scene, media, width, height, glint: 0.0 };
-    let brightness = paths.brightness(seed);
-    paths.glint = GLINT * brightness;
+    let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
+    let brightness = tracer.brightness(seed);
+    tracer.firefly_limit = FIREFLY_LIMIT * brightness;
     let base = settings.background_samples;
     progress.begin("background", 2 * height as u64);
     let mut pixels: Vec<Pixel> = (0..width * height)
@@ -72,7 +72,7 @@ fn sampled(
             for (x, pixel) in row.iter_mut().enumerate() {
                 progress.check()?;
                 while wanted(y * width + x, pixel) {
-                    (0..base).for_each(|_| paths.sample(x, y, pixel));
+                    (0..base).for_each(|_| tracer.sample(x, y, pixel));
                 }
             }
             progress.advance(1);
@@ -81,20 +81,20 @@ fn sampled(
     };
     trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
     let mean = |pixels: &[Pixel]| Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
-    if !until_good {
+    if !adaptive {
         return Ok(mean(&pixels));
     }
     let floor = 0.5 * brightness;
     let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
-    let near_noise = near(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
+    let near_noise = dilated(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
     trace(&mut pixels, &|i, pixel| {
         near_noise[i] && (pixel.count < NOISY[0] * base || (pixel.count < NOISY[1] * base && noisy(pixel)))
     })?;
     Ok(mean(&pixels))
 }
 
-/// Which pixels are marked or have a marked pixel among their eight neighbours.
-fn near(marked: &[bool], width: usize) -> Vec<bool> {
+/// Morphological dilation: whether each pixel or one of its eight neighbours is marked.
+fn dilated(marked: &[bool], width: usize) -> Vec<bool> {
     let height = marked.len() / width;
     let around = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
     (0..marked.len())
@@ -103,7 +103,7 @@ fn near(marked: &[bool], width: usize) -> Vec<bool> {
         .collect()
 }
 
-/// Sums of the samples of a pixel.
+/// The accumulated samples of a pixel.
 struct Pixel {
     rng: Stream,
     sampler: Sampler,
@@ -133,7 +133,7 @@ impl Pixel {
         luminance(self.mean())
     }
 
-    /// Standard error of the luminance if the samples were independent; they are spread better than that.
+    /// Standard error of the luminance, as of independent samples; stratified ones are better.
     fn error(&self) -> f32 {
         let n = self.count.max(2) as f32;
         let variance = (self.square / n - self.luminance().powi(2)).max(0.0);
@@ -142,17 +142,17 @@ impl Pixel {
 }
 
 /// The path tracer.
-struct Paths<'a> {
+struct PathTracer<'a> {
     scene: &'a Scene,
     media: Media,
     width: usize,
     height: usize,
-    /// Largest luminance of a light seen in glass or a mirror.
-    glint: f32,
+    /// Largest luminance of a light seen in glass or a mirror ([`FIREFLY_LIMIT`]).
+    firefly_limit: f32,
 }
 
-impl Paths<'_> {
-    /// Mean luminance of the picture, without lights in glass and mirrors, from a few thousand paths.
+impl PathTracer<'_> {
+    /// Mean luminance of the picture, without lights in glass and mirrors, estimated by a few thousand paths.
     fn brightness(&self, seed: u64) -> f32 {
         const PATHS: usize = 4096;
         let pixels = self.width * self.height;
@@ -176,7 +176,7 @@ impl Paths<'_> {
         pixel.add(if radiance.is_finite() { radiance } else { Vec3::ZERO });
     }
 
-    /// The light that comes along the ray from its other end.
+    /// The radiance that arrives along the ray.
     fn radiance(&self, mut ray: Ray, index: u32, sampler: Sampler, rng: &mut Stream) -> Vec3 {
         let scene = self.scene;
         let mut beam = Beam::new(Vec3::ONE, self.media);
@@ -185,9 +185,9 @@ impl Paths<'_> {
         for surface in 0..MAX_SURFACES {
             let hit = scene.intersect(&ray);
             if bounces == 0 {
-                // Lights stand in nobody's way: what lies behind them is added, too.
+                // Rays pass through lights: the radiance behind is added.
                 let seen = beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
-                let most = if surface == 0 { f32::INFINITY } else { self.glint };
+                let most = if surface == 0 { f32::INFINITY } else { self.firefly_limit };
                 radiance += seen * (most / luminance(seen).max(f32::MIN_POSITIVE)).min(1.0);
             }
             let Some(hit) = hit else {
@@ -197,7 +197,7 @@ impl Paths<'_> {
             let material = scene.material(hit.surface);
             let next = if let Material::Diffuse(diffuse) = material {
                 beam.weight *= Vec3::from(diffuse.albedo);
-                let (geometric, normal) = toward(&hit, ray.direction);
+                let (geometric, normal) = facing_normals(&hit, ray.direction);
                 radiance += beam.weight * self.direct(&hit, geometric, normal, index, bounces, sampler);
                 let next = cosine_direction(normal, sampler.pair(index, 1 + bounces));
                 bounces += 1;
@@ -218,13 +218,13 @@ impl Paths<'_> {
         radiance
     }
 
-    /// Radiance of the lights with a size that the ray meets before `distance`.
+    /// Radiance of the area lights on the ray before `distance`.
     fn lights_along(&self, ray: &Ray, distance: f32) -> Vec3 {
         let met = self.scene.lights().iter().filter_map(|light| light.intersect(ray));
         met.filter(|(t, _)| *t < distance).map(|(_, radiance)| radiance).sum()
     }
 
-    /// What a white matt surface sends on of the light that comes straight from the lights.
+    /// Direct lighting: the radiance of a white matt surface lit by all lights.
     fn direct(
         &self,
         hit: &Hit,
@@ -250,7 +250,7 @@ impl Paths<'_> {
     }
 }
 
-/// A direction around `normal` in proportion to the cosine.
+/// A cosine-weighted direction around `normal`.
 fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
     let (x, y) = normal.any_orthonormal_pair();
     let (sin, cos) = (std::f32::consts::TAU * u[0]).sin_cos();

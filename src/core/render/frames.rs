@@ -1,5 +1,4 @@
-//! The light of all frames, gathered pass by pass, in a scratch file: memory grows with the pass, not with the number
-//! of frames.
+//! The light of all frames, summed pass by pass in a scratch file: memory does not grow with the number of frames.
 
 use std::fs::File;
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
@@ -11,7 +10,7 @@ use glam::Vec4;
 use super::texture::{ReceiverTexture, TextureLayout};
 use crate::{Error, Result};
 
-/// Sums of textures, one per frame. The file has no name and goes with the process, however it ends.
+/// Sums of textures, one per frame, in an unnamed file that disappears with the process.
 #[derive(Debug)]
 pub struct FrameStore {
     layout: TextureLayout,
@@ -24,19 +23,19 @@ struct Inner {
     file: File,
     /// Passes added to each frame.
     passes: Vec<u32>,
-    /// Room for the texels of one call of the operating system.
+    /// Buffer for one system call.
     packed: Vec<[f32; 3]>,
 }
 
 impl FrameStore {
-    /// A store for `frames` frames in an unnamed file of `folder`, which must have room for [`Self::bytes`].
+    /// A store for `frames` frames in an unnamed file in `folder`, which needs room for [`Self::bytes`].
     pub fn new(layout: TextureLayout, frames: usize, folder: &Path) -> Result<Self> {
         let file = tempfile::tempfile_in(folder).map_err(Error::io("create a scratch file in", folder))?;
         let inner = Mutex::new(Inner { file, passes: vec![0; frames], packed: Vec::new() });
         Ok(Self { layout, folder: folder.to_owned(), inner })
     }
 
-    /// The room it takes once every frame has light: 12 bytes per texel and frame.
+    /// Bytes on disk once every frame has light: 12 per texel and frame.
     pub fn bytes(texels: usize, frames: usize) -> u64 {
         frame_bytes(texels) * frames as u64
     }
@@ -75,7 +74,7 @@ impl FrameStore {
         Ok((texture, passes as usize))
     }
 
-    /// Piece by piece, so that a piece is still in the cache when it goes back.
+    /// Adds in pieces that are still in the cache when written back.
     fn sum(
         &self,
         file: &mut File,
@@ -118,7 +117,7 @@ impl FrameStore {
     }
 }
 
-/// Texels per call of the operating system.
+/// Texels per system call.
 const PACK: usize = 1 << 16;
 
 fn frame_bytes(texels: usize) -> u64 {

@@ -1,4 +1,4 @@
-//! A picture in linear light.
+//! Pictures in linear light.
 
 use glam::Vec3;
 
@@ -38,7 +38,7 @@ impl Image {
         Self { width: self.width, height: self.height, pixels }
     }
 
-    /// The picture at another size: each new pixel is the mean of the area it covers.
+    /// The picture at another size, by area averaging.
     pub fn resized(&self, width: usize, height: usize) -> Self {
         let columns = coverage(self.width, width);
         let rows = coverage(self.height, height);

@@ -1,72 +1,72 @@
-//! Where points of the plane are seen in the picture, for what is drawn over it.
+//! The projection of plane points to the picture, for overlays.
 
 use glam::{Vec2, vec2};
 
-use super::visible::flat_pixel;
+use super::gather_matrix::flat_pixel;
 use crate::Result;
 use crate::scene::camera::Camera;
 use crate::scene::{Receiver, Scene, SceneDesc};
 
-/// Looks at the plane through a scene's camera, or straight on where there is no scene.
+/// The projection of the plane through a camera, or straight on without a scene.
 #[derive(Clone, Debug)]
-pub struct PlaneView(Eye);
+pub struct PlaneView(Projection);
 
 #[derive(Clone, Debug)]
-enum Eye {
+enum Projection {
     Camera { camera: Camera, receiver: Receiver },
     Flat { extent: Vec2 },
 }
 
 impl PlaneView {
-    /// The view of the rendered pictures of a scene, or of a plane of this extent without one.
+    /// The view of the rendered pictures: through the scene's camera, or straight on at a plane of `extent`.
     pub fn new(scene: Option<&Scene>, extent: Vec2) -> Self {
         Self(match scene {
-            Some(scene) => Eye::Camera { camera: *scene.camera(), receiver: scene.receiver().clone() },
-            None => Eye::Flat { extent },
+            Some(scene) => Projection::Camera { camera: *scene.camera(), receiver: scene.receiver().clone() },
+            None => Projection::Flat { extent },
         })
     }
 
-    /// The same from a scene's description, before its files are loaded.
+    /// As [`Self::new`] from a scene's description, before its files are loaded.
     ///
     /// # Errors
-    /// A camera that looks nowhere, a receiver of no size.
+    /// A camera without a direction, a receiver without size.
     pub fn of_desc(scene: Option<&SceneDesc>, extent: Vec2) -> Result<Self> {
-        let Some(scene) = scene else { return Ok(Self(Eye::Flat { extent })) };
+        let Some(scene) = scene else { return Ok(Self(Projection::Flat { extent })) };
         let (camera, receiver) = scene.camera_and_receiver()?;
-        Ok(Self(Eye::Camera { camera, receiver }))
+        Ok(Self(Projection::Camera { camera, receiver }))
     }
 
     /// The view of a receiver through any camera.
     pub fn through(camera: Camera, receiver: Receiver) -> Self {
-        Self(Eye::Camera { camera, receiver })
+        Self(Projection::Camera { camera, receiver })
     }
 
-    /// The place of a plane point in a picture of `width` x `height` pixels, from its upper left corner; none behind the
-    /// camera. Glass and mirrors in between are not seen.
+    /// The pixel of a plane point, from the upper left corner of a picture of `width` x `height`; none behind the camera.
+    /// Ignores glass and mirrors in between.
     pub fn pixel_from_plane(&self, point: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
         let size = vec2(width as f32, height as f32);
         match &self.0 {
-            Eye::Camera { camera, receiver } => {
+            Projection::Camera { camera, receiver } => {
                 let place = camera.project(receiver.world_from_plane(point), size.x / size.y)?;
                 Some((vec2(place.x, -place.y) + 1.0) * 0.5 * size)
             }
-            Eye::Flat { extent } => {
+            Projection::Flat { extent } => {
                 let from_centre = (point - *extent * 0.5) / flat_pixel(*extent, size);
                 Some(size * 0.5 + vec2(from_centre.x, -from_centre.y))
             }
         }
     }
 
-    /// The plane point that is seen at `pixel` of a picture of `width` x `height` pixels, also beyond the receiver; none
-    /// where the picture shows no point of the plane.
+    /// The plane point at `pixel` of a picture of `width` x `height`, also beyond the receiver; none where the ray misses the
+    /// plane.
     pub fn plane_from_pixel(&self, pixel: Vec2, [width, height]: [usize; 2]) -> Option<Vec2> {
         let size = vec2(width as f32, height as f32);
         match &self.0 {
-            Eye::Camera { camera, receiver } => {
+            Projection::Camera { camera, receiver } => {
                 let place = pixel / size * 2.0 - 1.0;
                 receiver.plane_from_ray(&camera.ray(place.x, -place.y, size.x / size.y))
             }
-            Eye::Flat { extent } => {
+            Projection::Flat { extent } => {
                 let from_centre = (pixel - size * 0.5) * flat_pixel(*extent, size);
                 Some(*extent * 0.5 + vec2(from_centre.x, -from_centre.y))
             }

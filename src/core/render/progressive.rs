@@ -1,25 +1,24 @@
-//! Photon batches to the light of all frames: the whole sequence refines together.
+//! Progressive rendering: photon passes to the light of all frames; the whole sequence refines together.
 
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
-use super::density::{Smoother, default_radius, radius_of_pass};
+use super::density::{KernelFilter, default_radius, radius_of_pass};
 use super::frames::FrameStore;
 use super::settings::RenderSettings;
-use super::splat::{Outside, Splatter};
+use super::splat::{OutsidePhotons, Splatter};
 use super::texture::{ReceiverTexture, TextureLayout};
 use crate::Result;
 
-/// The kernel radius of the first pass, as set or by default, for a receiver of `extent`; plane units.
+/// The kernel radius of the first pass, as set or by default, for a plane of `extent`; plane units.
 pub fn first_radius(settings: &RenderSettings, extent: Vec2) -> f32 {
     let photons = usize::try_from(settings.photons).unwrap_or(usize::MAX);
     settings.radius.unwrap_or_else(|| default_radius(photons, extent.x * extent.y).min(0.5))
 }
 
-/// Every frame's light so far. A pass may be added to the frames in any order and from several threads at once, each
-/// with a [`Workspace`] of its own; the passes of a frame must come in order. Whatever frames are asked for, each is the
-/// same bytes.
+/// The light of every frame so far. A pass may be added to the frames in any order and from several threads, each with its
+/// own [`Workspace`]; the passes of one frame must come in order. A frame's bytes do not depend on the other frames.
 #[derive(Debug)]
 pub struct ProgressiveRender {
     layout: TextureLayout,
@@ -27,43 +26,43 @@ pub struct ProgressiveRender {
     store: FrameStore,
 }
 
-/// What one thread needs to add photons.
+/// The buffers of one thread.
 #[derive(Debug)]
 pub struct Workspace {
     texture: ReceiverTexture,
     splatter: Splatter,
-    smoother: Smoother,
+    filter: KernelFilter,
 }
 
 impl Workspace {
-    /// For textures of one layout.
+    /// Buffers for textures of one layout.
     pub fn new(layout: TextureLayout) -> Self {
         Self {
             texture: ReceiverTexture::new(layout),
             splatter: Splatter::default(),
-            smoother: Smoother::default(),
+            filter: KernelFilter::default(),
         }
     }
 
-    /// What was added last, filtered, in watts per texel.
+    /// The light exposed last, filtered, in watts per texel.
     pub fn texture(&self) -> &ReceiverTexture {
         &self.texture
     }
 }
 
 impl ProgressiveRender {
-    /// No light yet. The frames lie in a scratch file in `folder`, see [`FrameStore`].
+    /// A render without light; the frames are in a scratch file in `folder` ([`FrameStore`]).
     pub fn new(layout: TextureLayout, first_radius: f32, frames: usize, folder: &Path) -> Result<Self> {
         Ok(Self { layout, first_radius, store: FrameStore::new(layout, frames, folder)? })
     }
 
-    /// Where the texels lie.
+    /// The layout of the textures.
     pub fn layout(&self) -> &TextureLayout {
         &self.layout
     }
 
-    /// Adds the photons of `pass` (from 0) as they stand in a frame: plane `positions`, RGB `flux` in watts. Every pass
-    /// must carry the whole flux of the scene; the frame is the mean of its passes.
+    /// Adds the photons of `pass` (from 0) at a frame: plane `positions`, RGB `flux` in watts. Every pass carries the whole
+    /// flux of the scene; the frame is the mean of its passes.
     pub fn add(
         &self,
         frame: usize,
@@ -71,22 +70,28 @@ impl ProgressiveRender {
         positions: &[Vec2],
         flux: &[Vec3],
         work: &mut Workspace,
-    ) -> Result<Outside> {
+    ) -> Result<OutsidePhotons> {
         let outside = self.expose(pass, positions, flux, work);
-        self.keep(frame, work)?;
+        self.accumulate(frame, work)?;
         Ok(outside)
     }
 
-    /// The first half of [`Self::add`]: the photons' light is in the workspace.
-    pub fn expose(&self, pass: usize, positions: &[Vec2], flux: &[Vec3], work: &mut Workspace) -> Outside {
+    /// The first half of [`Self::add`]: splats and filters the photons in the workspace.
+    pub fn expose(
+        &self,
+        pass: usize,
+        positions: &[Vec2],
+        flux: &[Vec3],
+        work: &mut Workspace,
+    ) -> OutsidePhotons {
         let outside = work.splatter.splat(positions, flux, &mut work.texture);
-        work.smoother.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
+        work.filter.filter(&mut work.texture, radius_of_pass(self.first_radius, pass));
         outside
     }
 
-    /// The second half: adds the light in the workspace to a frame. It waits for the system on one thread, so let it run
-    /// beside the next exposure.
-    pub fn keep(&self, frame: usize, work: &Workspace) -> Result<()> {
+    /// The second half of [`Self::add`]: adds the workspace to a frame. Blocks on the disk, so run it beside the next
+    /// exposure.
+    pub fn accumulate(&self, frame: usize, work: &Workspace) -> Result<()> {
         self.store.add(frame, &work.texture)
     }
 

@@ -1,4 +1,4 @@
-//! Well-spread sample points: the Sobol sequence in pairs of dimensions, shuffled and scrambled by hashing (Burley 2020,
+//! Low-discrepancy sample points: the Sobol sequence in pairs of dimensions, shuffled and scrambled by hashing (Burley 2020,
 //! *Practical hash-based Owen scrambling*, JCGT 9(4)). Any first 2^k points of a pair are stratified in every
 //! elementary way, so noise falls faster than with independent numbers.
 
@@ -11,7 +11,7 @@ pub(super) struct Sampler {
 }
 
 impl Sampler {
-    /// The points that belong to a random `seed`, such as one drawn per pixel.
+    /// The points of a random `seed`, such as one per pixel.
     pub(super) fn new(seed: u32) -> Self {
         Self { seed }
     }
@@ -62,9 +62,8 @@ fn unit(x: u32) -> f32 {
     (x >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// A place in the pixel's reconstruction filter, a tent that reaches one pixel to either side of the middle, drawn in
-/// proportion to the filter (Ernst, Stamminger and Greiner 2006, *Filter importance sampling*); pixel units from the
-/// middle.
+/// An offset from the pixel centre, in pixels, sampled in proportion to the reconstruction filter: a tent of radius one
+/// pixel (Ernst, Stamminger and Greiner 2006, *Filter importance sampling*).
 pub(super) fn tent(u: [f32; 2]) -> Vec2 {
     let warp = |u: f32| if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() };
     Vec2::new(warp(u[0]), warp(u[1]))

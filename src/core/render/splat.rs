@@ -1,7 +1,7 @@
-//! Counting photons into the texture: a bilinear histogram.
+//! Splatting of photons into the texture: a bilinear histogram.
 //!
-//! The photons are first sorted by bands of rows, in their order, and each band is then summed by one thread: every
-//! texel sees its photons in the same order whatever the number of threads, and a band stays in the cache.
+//! The photons are stably sorted by bands of rows, and each band is then summed by one thread: every texel gets its photons
+//! in the same order for any number of threads, and a band stays in the cache.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use rayon::prelude::*;
@@ -13,12 +13,12 @@ const BAND: usize = 16;
 /// Photons sorted by one thread.
 const CHUNK: usize = 1 << 16;
 
-/// What did not land on the texture.
+/// The photons outside the texture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outside {
-    /// Photons beyond the margin, or without a finite place or flux.
+pub struct OutsidePhotons {
+    /// Photons beyond the margin, or without a finite position or flux.
     pub photons: usize,
-    /// Their flux in watts, as far as it is finite.
+    /// Their finite flux in watts.
     pub flux: DVec3,
 }
 
@@ -32,25 +32,30 @@ pub struct Splatter {
 /// The photons of one chunk by band, in their order within each.
 #[derive(Debug, Default)]
 struct Chunk {
-    bands: Vec<Vec<Landed>>,
-    outside: Outside,
+    bands: Vec<Vec<TexelPhoton>>,
+    outside: OutsidePhotons,
 }
 
 /// A photon in texel coordinates; rows counted within its band.
 #[derive(Clone, Copy, Debug)]
-struct Landed {
+struct TexelPhoton {
     x: f32,
     y: f32,
     flux: Vec3,
 }
 
 impl Splatter {
-    /// Fills the texture anew with photons at plane `positions` with RGB `flux` (watts), each spread over the four texels
-    /// around it. The same photons give the same bytes for any number of threads.
+    /// Replaces the texture by photons at plane `positions` with RGB `flux` (watts), each spread over the four texels around
+    /// it. The same photons give the same bytes for any number of threads.
     ///
     /// # Panics
     /// If the columns differ in length.
-    pub fn splat(&mut self, positions: &[Vec2], flux: &[Vec3], texture: &mut ReceiverTexture) -> Outside {
+    pub fn splat(
+        &mut self,
+        positions: &[Vec2],
+        flux: &[Vec3],
+        texture: &mut ReceiverTexture,
+    ) -> OutsidePhotons {
         assert_eq!(positions.len(), flux.len(), "one flux per photon");
         let layout = *texture.layout();
         let chunks = positions.len().div_ceil(CHUNK);
@@ -62,7 +67,7 @@ impl Splatter {
             .zip(positions.par_chunks(CHUNK).zip(flux.par_chunks(CHUNK)))
             .for_each(|(chunk, (positions, flux))| chunk.sort(&layout, positions, flux));
         let sorted = &self.chunks[..chunks];
-        // The upper texels of a band's last row belong to the next band: they go to a seam of their own first.
+        // The upper texels of a band's last row belong to the next band: they go to a separate seam first.
         let columns = layout.columns;
         self.seams.clear();
         self.seams.resize(layout.rows.div_ceil(BAND) * columns, Vec4::ZERO);
@@ -72,7 +77,7 @@ impl Splatter {
             .zip(self.seams.par_chunks_mut(columns))
             .enumerate()
             .for_each(|(band, (rows, seam))| {
-                // Fetches the whole band into the cache at once; the photons touch it in no order.
+                // Brings the whole band into the cache; the photons access it in no order.
                 rows.fill(Vec4::ZERO);
                 for chunk in sorted {
                     chunk.bands[band].iter().for_each(|photon| photon.add(columns, rows, seam));
@@ -83,7 +88,7 @@ impl Splatter {
             let above = texture.texels_mut().iter_mut().skip(first).take(columns);
             above.zip(seam).for_each(|(texel, &flux)| *texel += flux);
         }
-        sorted.iter().fold(Outside::default(), |sum, chunk| Outside {
+        sorted.iter().fold(OutsidePhotons::default(), |sum, chunk| OutsidePhotons {
             photons: sum.photons + chunk.outside.photons,
             flux: sum.flux + chunk.outside.flux,
         })
@@ -93,7 +98,7 @@ impl Splatter {
 impl Chunk {
     fn sort(&mut self, layout: &TextureLayout, positions: &[Vec2], flux: &[Vec3]) {
         let limit = Vec2::new((layout.columns - 1) as f32, (layout.rows - 1) as f32);
-        self.outside = Outside::default();
+        self.outside = OutsidePhotons::default();
         self.bands.resize_with(layout.rows.div_ceil(BAND), Vec::new);
         self.bands.iter_mut().for_each(Vec::clear);
         for (&position, &flux) in positions.iter().zip(flux) {
@@ -103,7 +108,7 @@ impl Chunk {
             if inside && flux.is_finite() {
                 let row = p.y as usize;
                 let (band, row) = (row / BAND, (row % BAND) as f32);
-                self.bands[band].push(Landed { x: p.x, y: row + p.y.fract(), flux });
+                self.bands[band].push(TexelPhoton { x: p.x, y: row + p.y.fract(), flux });
             } else {
                 self.outside.photons += 1;
                 self.outside.flux += if flux.is_finite() { flux.as_dvec3() } else { DVec3::ZERO };
@@ -112,7 +117,7 @@ impl Chunk {
     }
 }
 
-impl Landed {
+impl TexelPhoton {
     /// Adds the photon to the rows of its band and to the seam above them.
     fn add(&self, columns: usize, rows: &mut [Vec4], seam: &mut [Vec4]) {
         let (column, row) = (self.x as usize, self.y as usize);

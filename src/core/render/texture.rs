@@ -1,15 +1,14 @@
-//! The texture on the receiving plane into which photons are counted.
+//! The texture of flux on the receiver.
 //!
-//! Texels are square. The texture covers the receiver rectangle and a margin around it, so that light which
-//! flows a little over the edge still lights what lies inside. A photon beyond the margin is counted, never moved
-//! onto the border.
+//! Texels are square. The texture covers the receiver and a margin, so that light a little beyond the edge is still
+//! filtered into it. Photons beyond the margin are counted, never clamped to the border.
 
 use glam::{DVec3, Vec2, Vec4, Vec4Swizzles};
 use rayon::prelude::*;
 
 use crate::math::sum::ordered_sum;
 
-/// Where the texels lie on the plane; row 0 is at the bottom (smallest plane y).
+/// The placement of the texels on the plane; row 0 is at the bottom (smallest plane y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureLayout {
     /// Texels per row.
@@ -42,7 +41,7 @@ impl TextureLayout {
         self.len() == 0
     }
 
-    /// The plane point in texel coordinates: whole numbers are texel centres.
+    /// Texel coordinates of a plane point: whole numbers are texel centres.
     pub fn texel_from_plane(&self, point: Vec2) -> Vec2 {
         (point - self.origin) / self.texel - 0.5
     }
@@ -86,7 +85,7 @@ impl ReceiverTexture {
         Self { layout, texels: vec![Vec4::ZERO; layout.len()] }
     }
 
-    /// Where the texels lie.
+    /// The layout.
     pub fn layout(&self) -> &TextureLayout {
         &self.layout
     }
@@ -96,21 +95,21 @@ impl ReceiverTexture {
         &self.texels
     }
 
-    /// As [`Self::texels`], to be written.
+    /// As [`Self::texels`], mutable.
     pub fn texels_mut(&mut self) -> &mut [Vec4] {
         &mut self.texels
     }
 
-    /// Changes all texels for as many others.
+    /// Swaps all texels with others of the same number.
     ///
     /// # Panics
-    /// When there are not as many.
+    /// If the numbers differ.
     pub(super) fn swap_texels(&mut self, other: &mut Vec<Vec4>) {
         assert_eq!(other.len(), self.texels.len(), "one texture for another");
         std::mem::swap(&mut self.texels, other);
     }
 
-    /// The flux of all texels, watts, summed in f64; the same for any number of threads.
+    /// Total flux in watts, summed in f64; the same for any number of threads.
     pub fn total(&self) -> DVec3 {
         ordered_sum(&self.texels, |t| t.xyz().as_dvec3())
     }

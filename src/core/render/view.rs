@@ -55,7 +55,7 @@ impl ViewSettings {
         Self::EXPOSURE.check(self.exposure, place)
     }
 
-    /// The transform, ready for many colours.
+    /// The resolved transform.
     pub fn view(&self) -> View {
         View { gain: self.exposure.exp2(), transform: self.transform, agx: Agx::new() }
     }
@@ -70,7 +70,7 @@ pub struct View {
 }
 
 impl View {
-    /// Screen values in 0..=1 (encoded, not linear) of a linear colour; what is negative or not a number is black.
+    /// Screen values 0..=1 (encoded, not linear) of a linear colour; negative values and NaN are black.
     pub fn encode(&self, linear: Vec3) -> Vec3 {
         let exposed = linear * self.gain;
         // Written so that NaN is black, too.

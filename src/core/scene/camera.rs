@@ -9,14 +9,14 @@ use crate::setting::schema::Describe;
 use crate::setting::{ANY, Setting, settings};
 use crate::{Error, Result};
 
-/// From where the picture is taken, world [m]. The image size belongs to the export.
+/// From where the picture is taken, world (m). The image size belongs to the export.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CameraDesc {
-    /// Its position [m].
+    /// Its position (m).
     pub position: [f32; 3],
-    /// The point in the middle of the picture [m].
+    /// The point in the middle of the picture (m).
     pub look_at: [f32; 3],
     /// Upwards in the picture; any length but 0, not along the view.
     pub up: [f32; 3],
@@ -47,12 +47,12 @@ impl Default for CameraDesc {
 }
 
 impl CameraDesc {
-    /// Refuses a camera that looks nowhere or has no upright.
+    /// Refuses a camera without a direction or upright.
     pub fn check(&self, place: &str) -> Result<()> {
         self.resolve(place).map(|_| ())
     }
 
-    /// The camera, ready for rays.
+    /// The resolved camera.
     ///
     /// # Errors
     /// `Value` names the first value under `place` that cannot be used.
@@ -82,7 +82,7 @@ impl CameraDesc {
 /// A resolved camera: position and an orthonormal frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// World [m].
+    /// World (m).
     pub position: Vec3,
     /// Unit vector along the view.
     pub forward: Vec3,
@@ -95,14 +95,14 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The ray through a place of the picture: `x` from -1 (left) to 1, `y` from -1 (bottom) to 1, `aspect` is
-    /// width over height.
+    /// The ray through a point of the picture: `x` from -1 (left) to 1, `y` from -1 (bottom) to 1; `aspect` is width over
+    /// height.
     pub fn ray(&self, x: f32, y: f32, aspect: f32) -> Ray {
         let across = self.right * (x * aspect * self.half_height) + self.up * (y * self.half_height);
         Ray::new(self.position, (self.forward + across).normalize())
     }
 
-    /// The place of the picture where a world point is seen, in the units of [`Self::ray`]; none behind the camera.
+    /// The projection of a world point to the picture, in the units of [`Self::ray`]; none behind the camera.
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<glam::Vec2> {
         let offset = point - self.position;
         let depth = offset.dot(self.forward);

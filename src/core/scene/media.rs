@@ -1,12 +1,12 @@
-//! The glass solids a point lies in, and which of them fills it.
+//! The glass solids that contain a point, and the one that fills it.
 
 use super::Mesh;
 use super::material::{Glass, Material};
 
-/// How many solids may lie over each other; further ones are not noticed.
+/// Most overlapping solids; further ones are ignored.
 const DEPTH: usize = 7;
 
-/// A small bag of mesh indices. A mesh stands in it once for each of its shells around the point.
+/// The glass solids that contain a point: a multiset of mesh indices, one entry per enclosing shell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Media {
     inside: [u16; DEPTH],
@@ -14,7 +14,7 @@ pub struct Media {
 }
 
 impl Media {
-    /// Goes into a shell of a mesh.
+    /// Enters a shell of a mesh.
     #[inline]
     pub fn enter(&mut self, mesh: u16) {
         if (self.count as usize) < DEPTH {
@@ -35,7 +35,7 @@ impl Media {
         true
     }
 
-    /// The mesh whose material fills the place: the highest priority, among equals the later in the list. None: air.
+    /// The mesh whose material fills the space: the highest priority, among equals the later in the list; none: air.
     #[inline]
     pub fn filling(&self, meshes: &[Mesh]) -> Option<u16> {
         match self.inside[..self.count as usize] {
@@ -47,7 +47,7 @@ impl Media {
         }
     }
 
-    /// The glass that fills the place; none: air.
+    /// The glass that fills the space; none: air.
     #[inline]
     pub fn glass<'a>(&self, meshes: &'a [Mesh]) -> Option<&'a Glass> {
         match &meshes[self.filling(meshes)? as usize].material {

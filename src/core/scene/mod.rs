@@ -1,7 +1,7 @@
-//! What is lit (Sec. 2): meshes, materials, lights, camera, receiver.
+//! The scene (Sec. 2): meshes, materials, lights, camera, receiver.
 //!
-//! [`SceneDesc`] is what an artist saves; [`Scene::load`] resolves it once into checked, world-space geometry that the
-//! photon tracer and the picture both ask. World space is in metres, right-handed, Y up.
+//! [`SceneDesc`] is the saved description; [`Scene::load`] resolves it once into checked world-space geometry for the photon
+//! tracer and the renderer. World space is in metres, right-handed, Y up.
 
 pub mod camera;
 pub mod environment;
@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 
 pub use camera::CameraDesc;
 pub use environment::EnvironmentDesc;
-pub use light::{Ball, LightDesc};
+pub use light::{LightDesc, Sphere};
 pub use material::Material;
 pub use media::Media;
 pub use mesh::MeshDesc;
@@ -55,7 +55,7 @@ impl SceneDesc {
     /// The camera and the receiver, which need no file.
     ///
     /// # Errors
-    /// A camera that looks nowhere, a receiver of no size.
+    /// A camera without a direction, a receiver without size.
     pub fn camera_and_receiver(&self) -> Result<(camera::Camera, Receiver)> {
         Ok((self.camera.resolve("scene.camera")?, self.receiver.resolve("scene.receiver")?))
     }
@@ -68,26 +68,26 @@ pub struct Mesh {
     pub name: String,
     /// Its resolved material.
     pub material: Material,
-    /// Lower corner of its bounds, world [m].
+    /// Lower corner of its bounds, world (m).
     pub lower: Vec3,
-    /// Upper corner of its bounds, world [m].
+    /// Upper corner of its bounds, world (m).
     pub upper: Vec3,
-    /// Distance of its farthest vertex from the middle of its bounds [m].
+    /// Radius of the bounding sphere around the middle of its bounds (m).
     pub radius: f32,
-    /// Where solids of glass overlap, the higher priority fills the place; equal priorities: the later mesh.
+    /// Where solids of glass overlap, the mesh of the higher priority fills the space; equal priorities: the later mesh.
     pub priority: i32,
     /// Triangles after clean-up.
     pub triangles: usize,
 }
 
 impl Mesh {
-    /// A ball that encloses it, slightly larger than needed, so that rounding leaves no vertex outside.
-    pub fn ball(&self) -> Ball {
-        Ball { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
+    /// Its bounding sphere, slightly enlarged, so that rounding leaves no vertex outside.
+    pub fn bounding_sphere(&self) -> Sphere {
+        Sphere { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
     }
 }
 
-/// A scene resolved from its description: checked, in world space, ready to be asked by rays.
+/// A scene resolved from its description: checked, in world space, ready for ray queries.
 pub struct Scene {
     geometry: Arc<Geometry>,
     lights: Vec<LightDesc>,
@@ -96,14 +96,14 @@ pub struct Scene {
     environment: EnvironmentDesc,
 }
 
-/// All meshes of a scene, read and indexed: what stays when a light, the camera or the receiver is moved.
+/// All meshes of a scene with their acceleration structure; independent of lights, camera and receiver.
 pub struct Geometry {
     meshes: Vec<Mesh>,
     accel: Accel,
 }
 
 impl Geometry {
-    /// Reads, checks and indexes meshes, with notes for the artist; `assets` as in [`Scene::load`].
+    /// Reads, checks and indexes meshes; with notes for the artist. `assets` as in [`Scene::load`].
     ///
     /// # Errors
     /// The place of the first value or file that cannot be used; `Cancelled`.
@@ -117,16 +117,19 @@ impl Geometry {
 }
 
 impl Scene {
-    /// Loads, checks and indexes a scene. `assets` turns a path as written into a file that may be read, or refuses;
-    /// its second argument is the place to name in the error. Beside the scene come notes for the artist: what was
-    /// cleaned up, guessed or looks wrong. Fails with the place of the first value or file that cannot be used.
+    /// Loads, checks and indexes a scene; with notes for the artist on what was cleaned up, guessed or looks wrong.
+    /// `assets` resolves a path as written to a readable file, or refuses; its second argument is the place to name in the
+    /// error.
+    ///
+    /// # Errors
+    /// The place of the first value or file that cannot be used.
     pub fn load(
         desc: &SceneDesc,
         assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
     ) -> Result<(Self, Vec<String>)> {
         desc.check("scene")?;
         let (geometry, mut notes) = Geometry::load(&desc.meshes, assets, &Progress::new())?;
-        let (scene, more) = Self::with(desc, Arc::new(geometry))?;
+        let (scene, more) = Self::with_geometry(desc, Arc::new(geometry))?;
         notes.extend(more);
         Ok((scene, notes))
     }
@@ -135,11 +138,11 @@ impl Scene {
     ///
     /// # Errors
     /// `Value` names the first value that cannot be used.
-    pub fn with(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
+    pub fn with_geometry(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
         resolve::scene(desc, geometry)
     }
 
-    /// Its meshes.
+    /// The geometry of its meshes.
     pub fn geometry(&self) -> &Arc<Geometry> {
         &self.geometry
     }
@@ -151,12 +154,12 @@ impl Scene {
         self.geometry.accel.intersect(ray, limit).or(floor)
     }
 
-    /// Whether anything, glass included, stands on the ray before `distance` [m]. The floor is no obstacle.
+    /// Whether any mesh, glass included, blocks the ray before `distance` (m). The floor never does.
     pub fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         self.geometry.accel.occluded(ray, distance)
     }
 
-    /// The glass solids that `point` lies in.
+    /// The glass solids that contain `point`.
     pub fn media_at(&self, point: Vec3) -> Media {
         let mut media = Media::default();
         let ray = Ray::new(point, Vec3::new(0.37139, 0.80178, 0.46812).normalize());
@@ -190,12 +193,12 @@ impl Scene {
         &self.lights
     }
 
-    /// From where the picture is taken.
+    /// The camera.
     pub fn camera(&self) -> &camera::Camera {
         &self.camera
     }
 
-    /// The plane of the caustics and its coordinates.
+    /// The receiver: the plane of the caustics and its coordinates.
     pub fn receiver(&self) -> &Receiver {
         &self.receiver
     }
@@ -205,7 +208,7 @@ impl Scene {
         &self.environment
     }
 
-    /// Lower and upper corner of everything: meshes, receiver, floor [m].
+    /// Lower and upper corner of everything: meshes, receiver, floor (m).
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let (mut lower, mut upper) = self.receiver.bounds();
         for mesh in self.meshes() {

@@ -18,15 +18,15 @@ use crate::setting::{Setting, settings};
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct ReceiverDesc {
-    /// Its centre, world [m].
+    /// Its centre, world (m).
     pub centre: [f32; 3],
-    /// Width and height [m].
+    /// Width and height (m).
     pub size: [f32; 2],
     /// Turn about the X, then Y, then Z axis, degrees.
     pub rotate: [f32; 3],
     /// Share of light it gives back, linear Rec.709.
     pub albedo: [f32; 3],
-    /// Width of the floor around it in the picture [m].
+    /// Width of the floor around it in the picture (m).
     pub surround: f32,
 }
 
@@ -121,23 +121,23 @@ impl Receiver {
         self.normal
     }
 
-    /// Its diffuse material; the floor around has the same.
+    /// Its diffuse material, also that of the floor.
     pub fn material(&self) -> &Material {
         &self.material
     }
 
-    /// The world point [m] of a plane point.
+    /// The world point (m) of a plane point.
     pub fn world_from_plane(&self, point: Vec2) -> Vec3 {
         self.corner + self.x_axis * (point.x * self.unit) + self.y_axis * (point.y * self.unit)
     }
 
-    /// The plane point below or above a world point [m].
+    /// The orthogonal projection of a world point (m) to the plane.
     pub fn plane_from_world(&self, point: Vec3) -> Vec2 {
         let offset = point - self.corner;
         vec2(offset.dot(self.x_axis), offset.dot(self.y_axis)) / self.unit
     }
 
-    /// The plane point that a ray meets, also beyond the rectangle; none where it looks away from the plane.
+    /// The intersection of a ray with the plane, also beyond the rectangle; none for a ray away from it.
     pub fn plane_from_ray(&self, ray: &Ray) -> Option<Vec2> {
         let t = (self.corner - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
         (t > 0.0 && t < f32::INFINITY).then(|| self.plane_from_world(ray.origin + ray.direction * t))
@@ -148,7 +148,7 @@ impl Receiver {
         point.cmpge(Vec2::ZERO).all() && point.cmple(self.extent).all()
     }
 
-    /// Lower and upper world corner of the rectangle and the floor around it [m].
+    /// Lower and upper world corner of the rectangle and the floor around it (m).
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let s = Vec2::splat(self.surround);
         let far = self.extent + s;

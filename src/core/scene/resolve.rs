@@ -1,4 +1,4 @@
-//! From a saved description to a scene: every value checked, every mesh read, what looks odd told.
+//! The resolution of a saved description to a scene: values checked, meshes read, notes on what looks wrong.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::accel::Accel;
 use super::{Geometry, Mesh, MeshDesc, Scene, SceneDesc, mesh};
 use crate::{Error, Progress, Result};
 
-/// Most meshes and most lights: photons name them by 16 bits.
+/// Most meshes, and most lights: photons index them by 16 bits.
 const MAX_OBJECTS: usize = u16::MAX as usize;
 
 /// See [`Geometry::load`].
@@ -45,7 +45,7 @@ pub(super) fn geometry(
     Ok((Geometry { accel: Accel::new(&triangles, progress)?, meshes }, notes))
 }
 
-/// See [`Scene::with`].
+/// See [`Scene::with_geometry`].
 pub(super) fn scene(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Scene, Vec<String>)> {
     desc.check("scene")?;
     let receiver = desc.receiver.resolve("scene.receiver")?;
@@ -86,7 +86,7 @@ fn check_count(place: &str, count: usize) -> Result<()> {
     Err(Error::Limit { place: place.into(), what })
 }
 
-/// A mesh far smaller or larger than the receiver is most likely in other units.
+/// The note on a mesh far smaller or larger than the receiver: most likely in other units.
 fn size_hint(mesh: &Mesh, receiver: f32) -> Option<String> {
     let size = (mesh.upper - mesh.lower).max_element();
     let factor = size / receiver;

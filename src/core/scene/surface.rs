@@ -1,9 +1,9 @@
-//! Rays and what they meet.
+//! Rays and surface hits.
 
 use glam::Vec3;
 
-/// What was hit, exactly: the triangle or the floor. A ray that starts on a surface names it, and the surface is
-/// skipped; shifting the origin instead would bias the flux (3e-4 of a sphere's transmitted light).
+/// The identity of a triangle or the floor. A ray that starts on a surface skips it by this; an offset origin instead would
+/// bias the flux (3e-4 of a sphere's transmitted light).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Primitive(pub(super) u32);
 
@@ -14,10 +14,10 @@ impl Primitive {
     pub(super) const FLOOR: Self = Self(u32::MAX - 1);
 }
 
-/// A half-line, world space [m].
+/// A half-line, world space (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Its origin.
     pub origin: Vec3,
     /// Unit vector.
     pub direction: Vec3,
@@ -31,36 +31,36 @@ impl Ray {
         Self { origin, direction, from: Primitive::NONE }
     }
 
-    /// A ray that goes on from a surface that was hit.
+    /// A ray that leaves the surface of a hit.
     pub fn leaving(hit: &Hit, direction: Vec3) -> Self {
         Self { origin: hit.point, direction, from: hit.primitive }
     }
 }
 
-/// Which object a ray met.
+/// The object of a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SurfaceId {
     /// An index into [`super::Scene::meshes`].
     Mesh(u16),
     /// The receiver's rectangle.
     Receiver,
-    /// The floor drawn around the receiver; same material.
+    /// The floor around the receiver; of the same material.
     Floor,
 }
 
-/// Where a ray meets a surface.
+/// The hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance from the ray's origin [m].
+    /// Distance from the ray's origin (m).
     pub t: f32,
-    /// World [m]; computed on the surface, not along the ray.
+    /// World (m); computed on the surface, not along the ray.
     pub point: Vec3,
-    /// Unit normal of the true surface, as wound in the file (outward); not turned towards the ray.
+    /// Unit normal of the triangle, by its winding (outward); not turned towards the ray.
     pub geometric_normal: Vec3,
     /// Unit normal interpolated between the vertices, on the same side as the geometric one.
     pub shading_normal: Vec3,
     /// The object.
     pub surface: SurfaceId,
-    /// For [`Ray::leaving`].
+    /// Its identity, for [`Ray::leaving`].
     pub primitive: Primitive,
 }

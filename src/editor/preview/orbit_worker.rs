@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::ColorImage;
 use lightloom_core::Result;
 use lightloom_core::engine::{OrbitView, PreviewExposure};
-use lightloom_core::render::{Mark, PlaneView, ViewSettings};
+use lightloom_core::render::{PlaneView, SceneMarker, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 
 use super::picture_worker::{Moment, shown};
@@ -36,7 +36,7 @@ pub struct Seen {
     /// As the screen shows it.
     pub picture: Option<Arc<ColorImage>>,
     /// Lights and camera in it.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<SceneMarker>,
     /// Where plane points are in it.
     pub plane: Option<PlaneView>,
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::{Color32, ColorImage};
 use glam::Vec3;
 use lightloom_core::engine::{Preview, PreviewExposure, Quality, Shot};
-use lightloom_core::render::{Image, Paper, ReceiverTexture, View, ViewSettings, plane_picture};
+use lightloom_core::render::{Image, PlaneMaterial, ReceiverTexture, View, ViewSettings, plane_image};
 use rayon::prelude::*;
 
 use super::gpu::PhotonColumns;
@@ -27,7 +27,7 @@ pub(super) struct PictureRequest {
     /// The other side of the wipe.
     pub(super) other: Option<Moment>,
     pub(super) view: ViewSettings,
-    pub(super) paper: Paper,
+    pub(super) paper: PlaneMaterial,
     /// How the plane is wanted.
     pub(super) plane: Plane,
     /// The camera's view of the plane, where the shot is wanted.
@@ -141,7 +141,7 @@ impl Easel {
         self.exposure.expose(&moment.preview, moment.frame, resolution, &moment.shown)
     }
 
-    fn plane(&mut self, moment: &Moment, pixels: usize, paper: Paper) -> Option<Image> {
+    fn plane(&mut self, moment: &Moment, pixels: usize, paper: PlaneMaterial) -> Option<Image> {
         // Few photons are spread so wide that more pixels would show nothing more.
         let most = match moment.preview.quality() {
             Quality::Draft => 384,
@@ -149,7 +149,7 @@ impl Easel {
             Quality::Fine | Quality::Final => 1024,
         };
         let light = self.expose(moment, pixels.min(most))?;
-        Some(plane_picture(light, moment.preview.extent(), paper))
+        Some(plane_image(light, moment.preview.extent(), paper))
     }
 }
 

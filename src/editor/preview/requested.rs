@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lightloom_core::engine::{Preview, Shot};
 use lightloom_core::project::Project;
-use lightloom_core::render::{Paper, ViewSettings};
+use lightloom_core::render::{PlaneMaterial, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
 use super::picture_worker::Plane;
@@ -56,7 +56,7 @@ pub(super) struct Painting {
     pub(super) frame: i32,
     pub(super) shown: Vec<bool>,
     pub(super) view: ViewSettings,
-    pub(super) paper: Paper,
+    pub(super) paper: PlaneMaterial,
     pub(super) plane: Plane,
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lightloom_core::engine::Preview;
 use lightloom_core::project::Project;
-use lightloom_core::render::Paper;
+use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
 use super::picture_worker::{Moment, PictureRequest};
@@ -75,14 +75,14 @@ impl LivePreview {
 }
 
 /// How light on the plane becomes visible.
-pub(super) fn paper(project: &Project) -> Paper {
+pub(super) fn paper(project: &Project) -> PlaneMaterial {
     let receiver = project.scene.as_ref().and_then(|scene| scene.camera_and_receiver().ok());
-    receiver.map_or(Paper::WHITE, |(_, receiver)| Paper::of(&receiver))
+    receiver.map_or(PlaneMaterial::WHITE, |(_, receiver)| PlaneMaterial::of(&receiver))
 }
 
 impl LivePreview {
     /// How light on the plane becomes visible.
-    pub fn paper(&self) -> Paper {
-        self.subject.as_ref().map_or(Paper::WHITE, |subject| paper(&subject.project))
+    pub fn paper(&self) -> PlaneMaterial {
+        self.subject.as_ref().map_or(PlaneMaterial::WHITE, |subject| paper(&subject.project))
     }
 }

@@ -2,7 +2,7 @@
 
 use egui::{Color32, PointerButton, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use glam::Vec2;
-use lightloom_core::render::{Mark, MarkKind};
+use lightloom_core::render::{MarkerKind, SceneMarker};
 use lightloom_core::scene::CameraDesc;
 
 use super::Views;
@@ -46,11 +46,11 @@ impl Views {
         if let Some(texture) = self.pictures.look.texture() {
             painter.image(texture.id(), view, WHOLE, Color32::WHITE);
             let scale = view.width() / texture.size()[0].max(1) as f32;
-            for Mark { kind, at } in editor.preview.look().marks {
+            for SceneMarker { kind, at } in editor.preview.look().marks {
                 let at = view.min + vec2(at.x, at.y) * scale;
                 let colour = match kind {
-                    MarkKind::Light(_) => theme::WARN,
-                    MarkKind::Camera => theme::ACCENT,
+                    MarkerKind::Light(_) => theme::WARN,
+                    MarkerKind::Camera => theme::ACCENT,
                 };
                 painter.circle(at, 5.0, colour.gamma_multiply(0.5), Stroke::new(1.5, colour));
             }

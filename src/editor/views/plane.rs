@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, Painter, Rect, Ui};
 use glam::{Vec2, vec2};
-use lightloom_core::render::{Paper, ViewSettings};
+use lightloom_core::render::{PlaneMaterial, ViewSettings};
 
 use super::fit::WHOLE;
 use super::{Views, wipe};
@@ -54,7 +54,7 @@ fn drawing(
     painter: &Painter,
     clip: Rect,
     transform: &PlaneTransform,
-    (extent, paper): (Vec2, Paper),
+    (extent, paper): (Vec2, PlaneMaterial),
     view: &ViewSettings,
     photons: &Arc<PhotonColumns>,
 ) -> Drawing {

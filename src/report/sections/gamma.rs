@@ -60,7 +60,7 @@ pub struct GammaResponse {
 /// Anything wrong with the project or its files; nothing that moves; a fit that fails; cancelled.
 pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -> Result<GammaResponse> {
     let project = preview(project);
-    progress.set_road(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
+    progress.set_stages(vec![("trace", 1.0), ("match", 1.0), ("gamma", 15.0)]);
     let photons = engine.moving_segment(&project, None, progress)?;
     responses(&project, &photons, progress)
 }

@@ -8,9 +8,9 @@ use lightloom_core::engine::{Halfway, MovingSegment, covered_area};
 use lightloom_core::export::png::encode;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::project::Project;
-use lightloom_core::render::density::{Smoother, default_radius};
+use lightloom_core::render::density::{KernelFilter, default_radius};
 use lightloom_core::render::splat::Splatter;
-use lightloom_core::render::{Image, ReceiverTexture, TextureLayout, plane_picture};
+use lightloom_core::render::{Image, ReceiverTexture, TextureLayout, plane_image};
 use lightloom_core::{Progress, Result};
 
 pub(super) const SECTION: SectionDef =
@@ -93,8 +93,8 @@ impl Sheet {
         let light = |place: &Place| {
             let mut texture = ReceiverTexture::new(layout);
             Splatter::default().splat(&place.halfway.positions, &flux, &mut texture);
-            Smoother::default().filter(&mut texture, radius);
-            plane_picture(&texture, extent, segment.paper)
+            KernelFilter::default().filter(&mut texture, radius);
+            plane_image(&texture, extent, segment.plane_material)
         };
         let lights: Vec<Image> = places.iter().map(light).collect();
         let all = lights.iter().cloned().reduce(|a, b| a.plus(&b));

@@ -35,7 +35,7 @@ pub fn stability(effort: Effort, progress: &Progress) -> Result<Stability> {
         .iter()
         .flat_map(|group| (group.rows)(effort).into_iter().map(|row| (group.name, row)))
         .collect();
-    progress.set_road(vec![("stability", effort.pick(40.0, 600.0))]);
+    progress.set_stages(vec![("stability", effort.pick(40.0, 600.0))]);
     progress.begin("stability", all.len() as u64);
     let mut rows = Vec::new();
     for (group, row) in all {

@@ -173,19 +173,19 @@ fn measure(summary: &Summary) -> Measured {
 
 /// Relative difference of the emitted flux and the sum over all its ends.
 fn imbalance(report: &TraceReport) -> f64 {
-    let ledger = &report.ledger;
+    let balance = &report.balance;
     let ends: DVec3 = [
-        ledger.landed,
-        ledger.surround,
-        ledger.escaped,
-        ledger.blocked,
-        ledger.absorbed,
-        ledger.capped,
-        ledger.direct,
+        balance.landed,
+        balance.surround,
+        balance.escaped,
+        balance.blocked,
+        balance.absorbed,
+        balance.capped,
+        balance.direct,
     ]
     .into_iter()
     .sum();
-    ((ends - ledger.emitted) / ledger.emitted).abs().max_element()
+    ((ends - balance.emitted) / balance.emitted).abs().max_element()
 }
 
 /// A point light of one watt.

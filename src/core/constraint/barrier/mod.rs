@@ -110,6 +110,23 @@ mod tests {
     }
 
     #[test]
+    fn moves_of_any_length_are_tested_in_finite_time() {
+        let wall = wall(&[[0.5, 0.25], [0.5, 0.75]], 0.01);
+        let barriers = Barriers::new(&[&wall], Vec2::ONE);
+        for far in [1e6, 1e12, 1e37] {
+            for (y, blocked) in [(0.5, true), (0.9, false)] {
+                assert_eq!(barriers.blocks(Vec2::new(-far, y), Vec2::new(far, y)), blocked, "{far}");
+            }
+        }
+        for wrong in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            for point in [Vec2::new(wrong, 0.5), Vec2::new(0.5, wrong), Vec2::splat(wrong)] {
+                assert!(!barriers.blocks(Vec2::new(0.4, 0.5), point) && !barriers.blocks(point, point));
+                assert!(barriers.first_contact(point, Vec2::new(0.6, 0.5)).is_none());
+            }
+        }
+    }
+
+    #[test]
     fn the_lookup_finds_what_a_search_through_all_finds() {
         let mut random = Stream::new(3, Purpose::Trace, 0, 0);
         let mut point =

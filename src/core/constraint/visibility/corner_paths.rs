@@ -1,4 +1,4 @@
-//! Shortest paths between all corners: which corner sees which, and Dijkstra's algorithm from each.
+//! Shortest paths between all corners, by Dijkstra's algorithm over mutually visible corners.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -9,7 +9,7 @@ use super::corners::Corner;
 use crate::constraint::barrier::Barriers;
 use crate::{Progress, Result};
 
-/// No corner.
+/// The index of no corner.
 pub(super) const NONE: u16 = u16::MAX;
 
 /// All shortest paths between corners.
@@ -19,11 +19,11 @@ pub(super) struct CornerPaths {
     lengths: Vec<f32>,
     /// The corner after `a` on the path to `b`, at the same place.
     next: Vec<u16>,
-    /// Most corners on one path.
+    /// The largest number of corners on a path.
     pub(super) most_corners: usize,
 }
 
-/// A corner reached at a length, nearest first.
+/// A corner in the queue with its path length, shortest first.
 #[derive(PartialEq)]
 struct Reached(f32, u16);
 
@@ -87,7 +87,7 @@ impl CornerPaths {
     }
 }
 
-/// Dijkstra's algorithm towards corner `to`; buffers is mutual. Returns the most corners on one path.
+/// Dijkstra's algorithm towards corner `to`; visibility is mutual. Returns the largest number of corners on a path.
 fn search(to: u16, edges: &[Vec<(u16, f32)>], lengths: &mut [f32], next: &mut [u16]) -> usize {
     let mut corners = vec![1; lengths.len()];
     let mut most_corners = 1;

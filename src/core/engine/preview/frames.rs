@@ -7,15 +7,15 @@ use glam::{Vec2, Vec3};
 
 use super::field::FieldAt;
 use crate::engine::Quality;
-use crate::engine::exposure::{between, total};
-use crate::engine::flow::FittedSegment;
+use crate::engine::energy_balance::{between, total};
+use crate::engine::fitted_segment::FittedSegment;
+use crate::engine::flow_numbers::FlowNumbers;
 use crate::engine::grouping::CausticFlux;
 use crate::engine::key_photons::{KeyPhotons, all_flux, all_positions};
 use crate::engine::meter::StageCost;
 use crate::engine::plan::LeftOut;
-use crate::engine::summary::FlowNumbers;
 use crate::flow::{Fields, flux};
-use crate::project::Moment;
+use crate::project::SegmentTime;
 use crate::{Progress, Result};
 
 /// Photons at the frames of a project, from the first key to the last, and the fields that moved them. It never changes: while work
@@ -42,7 +42,7 @@ pub(super) struct Keys {
     /// Number of the first frame.
     pub(super) first: i32,
     /// By frame.
-    pub(super) moments: Vec<Moment>,
+    pub(super) moments: Vec<SegmentTime>,
     pub(super) lights: Vec<KeyLight>,
     pub(super) groups: Vec<(Option<String>, Range<usize>)>,
     pub(super) caustics: Vec<CausticFlux>,
@@ -145,7 +145,7 @@ impl Preview {
     /// # Errors
     /// `Cancelled`; around walls ways must be found anew.
     pub fn residuals(&self, frame: i32, progress: &Progress) -> Result<Option<Vec<Vec2>>> {
-        let Moment { segment, time } = self.moment(frame);
+        let SegmentTime { segment, time } = self.moment(frame);
         let Some(positions) = self.positions(frame) else { return Ok(None) };
         let mut residuals = vec![Vec2::ZERO; positions.len()];
         let targets = self.targets(frame);
@@ -249,13 +249,13 @@ impl Preview {
         (i64::from(frame) - i64::from(self.keys.first)).clamp(0, last) as usize
     }
 
-    pub(super) fn moment(&self, frame: i32) -> Moment {
+    pub(super) fn moment(&self, frame: i32) -> SegmentTime {
         self.keys.moments[self.slot(frame)]
     }
 
     /// The keys around a frame, and the time between them. With one key, that one twice.
     fn lights(&self, frame: i32) -> ([&KeyLight; 2], f64) {
-        let Moment { segment, time } = self.moment(frame);
+        let SegmentTime { segment, time } = self.moment(frame);
         let lights = &self.keys.lights;
         ([&lights[segment], &lights[(segment + 1).min(lights.len() - 1)]], time)
     }
@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sketches_go_from_thread_to_thread() {
+    fn previews_go_from_thread_to_thread() {
         fn shared<T: Send + Sync>() {}
         shared::<Preview>();
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::frames::{Keys, Preview};
-use crate::engine::flow::FittedSegment;
+use crate::engine::fitted_segment::FittedSegment;
 use crate::engine::key_photons::{KeyPhotons, all_positions};
 
 /// Snapshots of one preview at most, about: each holds one pointer per frame.
@@ -26,7 +26,7 @@ impl<'a> Growing<'a> {
     /// A preview of the key frames alone, which is shown. `first` is the frame on screen.
     pub(super) fn new(keys: Keys, first: i32, ready: &'a mut dyn FnMut(&Arc<Preview>)) -> Self {
         let (frames, segments) = (keys.moments.len(), keys.lights.len() - 1);
-        let at_key = |moment: &crate::project::Moment| {
+        let at_key = |moment: &crate::project::SegmentTime| {
             let key = moment.segment + usize::from(moment.time >= 1.0);
             (moment.time <= 0.0 || moment.time >= 1.0).then(|| keys.lights[key].positions.clone())
         };
@@ -46,8 +46,9 @@ impl<'a> Growing<'a> {
 
     /// The flow's times of the frames between the keys of a segment, in order, and their slots.
     pub(super) fn between_keys(&self, segment: usize) -> (Vec<usize>, Vec<f64>) {
-        let inside =
-            |(_, m): &(usize, &crate::project::Moment)| m.segment == segment && m.time > 0.0 && m.time < 1.0;
+        let inside = |(_, m): &(usize, &crate::project::SegmentTime)| {
+            m.segment == segment && m.time > 0.0 && m.time < 1.0
+        };
         let moments = self.preview.keys.moments.iter().enumerate();
         moments.filter(inside).map(|(slot, moment)| (slot, moment.time)).unzip()
     }

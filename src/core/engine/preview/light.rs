@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use super::Preview;
 use crate::engine::Quality;
-use crate::render::density::{Smoother, default_radius};
+use crate::render::density::{KernelFilter, default_radius};
 use crate::render::splat::Splatter;
 use crate::render::{ReceiverTexture, TextureLayout};
 
@@ -15,7 +15,7 @@ const WIDEST: f32 = 0.5;
 #[derive(Default)]
 pub struct PreviewExposure {
     splatter: Splatter,
-    smoother: Smoother,
+    smoother: KernelFilter,
     texture: Option<ReceiverTexture>,
     positions: Vec<Vec2>,
     flux: Vec<Vec3>,

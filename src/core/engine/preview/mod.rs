@@ -11,15 +11,17 @@ mod shot;
 use std::sync::Arc;
 
 use super::Engine;
+use super::fitted_segment::FittedSegment;
+use super::flow_numbers::{FlowNumbers, note_on_walls};
+use super::grouping::CausticFlux;
 use super::grouping::notes_on_dark;
 use super::job::Job;
 use super::key_photons::KeyPhotons;
+use super::matched::SegmentPhotons;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::quality::Quality;
-use super::summary::{FlowNumbers, note_on_walls};
-use super::walk::{MapsFrom, SegmentPhotons, Walk};
-use super::{flow::FittedSegment, grouping::CausticFlux};
+use super::walk::{MapsFrom, Walk};
 use crate::project::{OutputSettings, Project};
 use crate::{Progress, Result};
 use frames::{KeyLight, Keys};
@@ -29,7 +31,6 @@ pub use field::FieldAt;
 pub use frames::Preview;
 pub use light::{PreviewExposure, covered_area};
 pub use orbit::OrbitView;
-pub(super) use positions::PositionsInput;
 pub use shot::Shot;
 
 /// Most positions that a preview keeps, photons times frames: 160 MB.
@@ -126,7 +127,8 @@ impl Run<'_> {
         let groups = walk.at().clone();
         let mut lights = vec![KeyLight::new(walk.at(), walk.requested())];
         let mut segments: Vec<SegmentPhotons> = Vec::new();
-        while let Some(photons) = walk.next(maps(segments.len()))? {
+        for number in 0..self.whole.project.keys.len() - 1 {
+            let Some(photons) = walk.next(maps(number))? else { break };
             lights.push(KeyLight::new(walk.at(), walk.requested()));
             segments.push(photons);
         }

@@ -2,7 +2,7 @@
 
 use crate::engine::Engine;
 use crate::project::Project;
-use crate::render::{Image, LookLight, Mark, PlaneView, ReceiverTexture, look, marks};
+use crate::render::{Image, OrbitLight, PlaneView, ReceiverTexture, SceneMarker, orbit_image, scene_markers};
 use crate::scene::{CameraDesc, ReceiverDesc, SceneDesc};
 use crate::{Progress, Result};
 
@@ -12,7 +12,7 @@ pub struct OrbitView {
     /// Linear light, to be shown at the project's exposure.
     pub image: Image,
     /// The lights and the project's camera.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<SceneMarker>,
     /// Projection of plane points to pixels.
     pub plane: PlaneView,
 }
@@ -44,9 +44,9 @@ impl Engine {
         };
         let (scene, _) = self.stages.scene(self.client, desc, progress)?;
         let lamp = (-project.render.view.exposure).exp2();
-        let image = look(&scene, &camera, size, LookLight { caustic: light, lamp }, progress)?;
+        let image = orbit_image(&scene, &camera, size, OrbitLight { caustic: light, lamp }, progress)?;
         let marks = match &project.scene {
-            Some(_) => marks(&scene, &camera, size),
+            Some(_) => scene_markers(&scene, &camera, size),
             None => Vec::new(),
         };
         Ok(OrbitView { image, marks, plane: PlaneView::through(camera, scene.receiver().clone()) })

@@ -5,20 +5,14 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::growing::{Composition, Growing};
-use crate::engine::flow::{FittedSegment, LayerSamples, fit_segment};
+use crate::engine::fitted_segment::FittedSegment;
+use crate::engine::flow::{LayerSamples, fit_segment};
+use crate::engine::inputs::PositionsInput;
 use crate::engine::job::Job;
+use crate::engine::matched::SegmentPhotons;
 use crate::engine::memo::Same;
 use crate::engine::trajectories::SegmentTrajectories;
-use crate::engine::walk::{Matched, SegmentPhotons};
 use crate::{Error, Result};
-
-/// Everything that the frames of a segment depend on.
-#[derive(PartialEq)]
-pub(in crate::engine) struct PositionsInput {
-    fitted: Same<FittedSegment>,
-    matched: Same<Matched>,
-    times: Vec<f64>,
-}
 
 /// All photons at the frames of a segment.
 pub(super) type Frames = Vec<Arc<[Vec2]>>;

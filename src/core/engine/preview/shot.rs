@@ -8,7 +8,9 @@ use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
 use crate::project::Project;
-use crate::render::{Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, Visible, layout_for};
+use crate::render::{
+    GatherMatrix, Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, layout_for,
+};
 use crate::{Progress, Result};
 
 /// The picture of the project's camera without caustics, and the points of the receiver that its pixels see.
@@ -18,7 +20,7 @@ pub struct Shot {
     pub background: Arc<Image>,
     /// Projection of plane points to pixels.
     pub plane: PlaneView,
-    visible: Arc<Visible>,
+    visible: Arc<GatherMatrix>,
 }
 
 impl Shot {

@@ -22,7 +22,7 @@ pub struct FitReport {
     pub residual: f64,
     /// Unknowns solved for.
     pub unknowns: usize,
-    /// Condition number of the preconditioned matrix as far as the iterations saw it, from below; 0 where there was none.
+    /// A lower bound of the preconditioned matrix's condition number; 0 without iterations.
     pub condition: f64,
 }
 

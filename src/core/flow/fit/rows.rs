@@ -5,7 +5,7 @@ use glam::Vec2;
 /// Rows of A or D: velocities wanted at points, the term weight/2 sum |u(p) - v|^2.
 #[derive(Clone, Copy)]
 pub struct Rows<'a> {
-    /// Points on the plane; one beyond the rectangle counts at the nearest border point, as the field does.
+    /// Points on the plane; one beyond the rectangle acts at the nearest border point, as in the field.
     pub positions: &'a [Vec2],
     /// Velocity wanted at each, plane units per unit of t.
     pub velocities: &'a [Vec2],

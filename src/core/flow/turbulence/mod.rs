@@ -11,11 +11,11 @@
 //! The noise is part of u: it carries guide photons and those of all passes alike, and fades with 1 - s. The fit does not
 //! contain it, but sees where it has carried the photons. Time goes on from segment to segment.
 //!
-//! # The unit, and what it looks like
+//! # The unit and its look
 //!
 //! Strength 20 is a root mean square speed of 0.2 of the plane's longer side from key to key: of the plane and not of the
-//! photons' own ways, so that one strength gives one size of swirls whether the target is near or far. Letter C to letter
-//! S (mean way 0.08, 64 x 64 cells, rate 1 and 4): at 20 on 30 x 30 cells the stroke winds into hooks and curls of its own
+//! photons' paths, so that one strength gives one size of swirls whether the target is near or far. Letter C to letter
+//! S (mean distance 0.08, 64 x 64 cells, rate 1 and 4): at 20 on 30 x 30 cells the stroke winds into hooks and curls of its own
 //! width and is wholly stirred at half the time; on 100 x 100 its edge frays into fine hair and its body to grain. 5 ruffles
 //! the edge, 50 leaves nothing of the letter until the fade. At rate 1 photons stay with their swirl, which draws
 //! threads like ink; at 4 they change from one to the next, which scatters them.

@@ -136,14 +136,14 @@ pub(super) fn fields(grids: &[Grid], noise: &Noise, scale: f64) -> Vec<Field> {
     grids.iter().zip(noise).map(field).collect()
 }
 
-/// Square cells over the plane, so many along its longer side; along the other the last may reach beyond.
+/// A grid of square cells, `cells` along the longer side of the plane; along the other the last may reach beyond.
 fn square_cells(cells: u32, extent: Vec2) -> Grid {
     // Rounding must not add a row.
     let count = [extent.x, extent.y].map(|length| ((length * cells as f32 - 1e-3).ceil() as usize).max(1));
     Grid { cells: count, extent: Vec2::new(count[0] as f32, count[1] as f32) / cells as f32 }
 }
 
-/// A number of the normal distribution, by Box and Muller.
+/// A normally distributed number (Box and Muller).
 fn gaussian(random: &mut Stream) -> f64 {
     let (radius, angle) = (1.0 - random.f64(), random.f64());
     (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()

@@ -1,7 +1,7 @@
 //! How photons move where walls stand.
 //!
-//! What decides whether a wall is crossed is exact, see [`crate::constraint::barrier`]; [`crate::constraint::visibility`]
-//! finds the paths around walls.
+//! The test whether a wall is crossed is exact, see [`crate::constraint::barrier`]; [`crate::constraint::visibility`] finds
+//! the paths around walls.
 
 mod columns;
 mod obstacles;

@@ -39,7 +39,7 @@ pub(super) fn farthest_first(warped: &[Vec2], target: &[Vec2], progress: &Progre
     Ok(target_of)
 }
 
-/// Points of which the nearest can be found and taken away: a balanced tree of boxes that shrink with what they hold.
+/// Free points, searchable for the nearest and removable: a balanced tree of bounding boxes.
 struct FreePoints {
     /// In the order of the leaves; at infinity once taken.
     points: Vec<Vec2>,

@@ -11,9 +11,9 @@
 //! at first; the swaps take the first that helps; and the midpoint of the warp's path is that of a and f(a), which is
 //! also the thin-plate warp through the midpoints of the landmarks' paths.
 //!
-//! Measured on the goblet's caustic and the flower, 100 000 photons, and over three seeds the range of what counts: the
-//! cost over the optimum, and the crossing index at t = 1/4, 1/2, 3/4. Better landmarks are no part of the publication; the third
-//! row tells what they would bring.
+//! Measured on the goblet's caustic and the flower, 100 000 photons, ranges over three seeds: the
+//! cost over the optimum, and the crossing index at t = 1/4, 1/2, 3/4. The third row has better landmarks, which are not
+//! part of the publication.
 //!
 //! | | cost | crossing index |
 //! |---|---|---|
@@ -65,8 +65,8 @@ impl StylizedMap {
         points.par_iter().with_min_len(256).map(apply).collect()
     }
 
-    /// Pairs `source` with `target`, as many points, and tells how far each photon's way midpoint_offsets: q minus the middle of its
-    /// straight way. One offset for each source row.
+    /// Pairs `source` with `target`, as many points. Also returns each source row's midpoint offset: q minus the midpoint
+    /// of its straight path, plane units.
     ///
     /// # Errors
     /// `Value` when the counts differ, a set is empty or a point is not finite; `Cancelled`.
@@ -89,7 +89,7 @@ impl StylizedMap {
     }
 }
 
-/// `count` of the points, at even distances of their rows.
+/// `count` of the points, evenly spaced rows.
 fn landmarks(points: &[Vec2], count: usize) -> Vec<DVec2> {
     (0..count).map(|i| points[i * points.len() / count].as_dvec2()).collect()
 }

@@ -33,7 +33,7 @@ pub(super) struct QuadraticAssignment {
     sums: Sums,
 }
 
-/// What the energy is made of.
+/// The sums of which the energy is made.
 #[derive(Clone, Copy, Debug)]
 struct Sums {
     /// The squared Frobenius norm.

@@ -1,9 +1,9 @@
-//! Points cut into cells of equal numbers, each with a point of its own to stand for it.
+//! Representatives of cells that hold equal numbers of points.
 
 use glam::Vec2;
 
-/// `count` representatives of as many equally large parts of `points`, cut at the median of their longer side again and
-/// again; each is the point of its part that is nearest to the part's mean. `count` is a power of two, at most the
+/// `count` representatives of as many equally large parts of `points`, from recursive median cuts of the longer side; each
+/// is the point of its part nearest to the part's mean. `count` is a power of two, at most the
 /// number of points.
 pub(super) fn representatives(points: &[Vec2], count: usize) -> Vec<Vec2> {
     let mut points = points.to_vec();

@@ -34,7 +34,7 @@ impl ProjectFile {
     /// # Errors
     /// Unreadable, malformed or out of range: each names the file and the place in it.
     pub fn open(path: &Path) -> Result<(Self, Vec<String>)> {
-        Self::parse(&crate::files::read_regular_file(path, load::MOST_BYTES)?, path)
+        Self::parse(&crate::files::read_regular_file(path, load::MAX_BYTES)?, path)
     }
 
     /// The same from the file's bytes; `path` is only named in errors.

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 
 use super::tree::{Kind, Node};
-use crate::project::describe::resolve;
+use crate::project::schema_docs::resolve;
 
 /// Longest place in a message, characters.
 const SHOWN: usize = 120;

@@ -1,6 +1,7 @@
 //! Checks, defaults, schema and README say of every setting what its constant says.
 #![allow(clippy::unwrap_used)]
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -173,7 +174,8 @@ fn every_default_is_that_of_a_project_that_says_nothing() {
             Kind::Switch => *value == json!(setting.is_on()),
             Kind::Choice => {
                 let first = setting.choices[0].value;
-                first.is_empty() || *value == json!(first) || value.to_string() == first
+                let written = value.to_string();
+                first.is_empty() || value.as_str() == Some(first) || written == first
             }
             _ => {
                 let numbers: Vec<f32> = match value {
@@ -272,6 +274,42 @@ fn the_schema_says_range_default_and_help_of_every_setting() {
         let says = |part: &&Value| says_range(part) && (is_element || says_default(part));
         assert!(parts.iter().any(says), "{}: {parts:?}", setting.place);
     }
+}
+
+/// The places of all values of a part of the schema.
+fn places(schema: &Value, part: &Value, place: &str, found: &mut BTreeSet<String>) {
+    let part = match part.get("$ref").and_then(Value::as_str) {
+        Some(name) => schema.pointer(name.trim_start_matches('#')).unwrap(),
+        None => part,
+    };
+    for (name, inner) in
+        part["properties"].as_object().into_iter().flatten().filter(|(name, _)| *name != "type")
+    {
+        let place = format!("{place}.{name}");
+        places(schema, inner, &place, found);
+        found.insert(place);
+    }
+    for several in ["oneOf", "anyOf"] {
+        part[several].as_array().into_iter().flatten().for_each(|inner| places(schema, inner, place, found));
+    }
+}
+
+#[test]
+fn every_value_of_flow_picture_files_and_surroundings_is_a_setting() {
+    let schema = Project::json_schema();
+    let mut wanted = BTreeSet::new();
+    for part in ["flow", "render", "output", "plane"] {
+        places(&schema, &schema["properties"][part], part, &mut wanted);
+    }
+    for part in ["camera", "receiver", "environment"] {
+        let scene = &schema["$defs"]["SceneDesc"]["properties"];
+        places(&schema, &scene[part], &format!("scene.{part}"), &mut wanted);
+    }
+    let all: BTreeSet<&str> = settings().map(|setting| setting.place).collect();
+    // The part has no value of its own, only what is in it.
+    let missing: Vec<_> =
+        wanted.iter().filter(|place| !all.contains(place.as_str()) && *place != "render.view").collect();
+    assert!(wanted.len() > 40 && missing.is_empty(), "{missing:?} of {wanted:?}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Density estimation: the kernel that makes light out of counted photons, and its radius per pass.
+//! Density estimation: the smoothing kernel and its radius per pass.
 //!
 //! On a plane, progressive photon mapping with one radius per pass (Knaus and Zwicker 2011, *Progressive photon
 //! mapping: a probabilistic approach*) is a histogram of each pass, filtered with the radius of that pass, and the mean
@@ -6,26 +6,26 @@
 //!
 //! The kernel is a box applied three times along rows and columns: the quadratic B-spline, smooth and round within
 //! 3 %. Boxes of fractional length follow Gwosdek et al. 2011, *Theoretical foundations of Gaussian convolution by
-//! extended box filtering*: a whole box plus a fraction of one texel on either side, with exactly the variance asked
-//! for. Long boxes are summed on the run, which makes the cost independent of the radius (`boxes`); the three short boxes of
-//! many photons are one short sum per axis, and where no light is nothing is done (`taps`).
+//! extended box filtering*: a whole box plus a fraction of one texel on either side, of exactly the given
+//! variance. Long boxes are running sums, whose cost does not depend on the radius (`running_sum`); three short ones are one
+//! short convolution per axis, which skips dark blocks (`short_kernel`).
 
-mod boxes;
-mod taps;
+mod running_sum;
+mod short_kernel;
 
 use super::texture::ReceiverTexture;
-use boxes::{Box1, Running};
-use taps::Taps;
+use running_sum::{ExtendedBox, RunningSum};
+use short_kernel::ShortKernel;
 
-/// The share of the variance kept by a radius from pass to pass, Knaus and Zwicker's alpha.
+/// Knaus and Zwicker's alpha: the reduction of the squared radius from pass to pass.
 const ALPHA: f64 = 2.0 / 3.0;
-/// Boxes in a row.
+/// Number of boxes.
 const BOXES: usize = 3;
 /// Numbers per texel.
 const LANES: usize = 4;
-/// Texels to either side up to which one short sum is faster than three running ones: measured, on 2.4 M texels all lit, 1024
-/// to a row.
-const LONGEST_TAPS: usize = 24;
+/// Reach in texels up to which one short convolution is faster than three running sums: measured on 2.4 M texels, all lit,
+/// 1024 to a row.
+const MAX_SHORT_REACH: usize = 24;
 
 /// The kernel radius of pass `pass` (from 0), from that of the first, both in plane units:
 /// r_(i+1)^2 = r_i^2 (i + 2/3) / (i + 1), i = 1, 2, ...
@@ -34,34 +34,33 @@ pub fn radius_of_pass(first: f32, pass: usize) -> f32 {
     (f64::from(first) * shrink.sqrt()) as f32
 }
 
-/// A first radius, in plane units, for `photons` per pass spread over `area` (plane units squared): about fifty photons
-/// under the kernel where the light is at its mean, so 14 % of noise there in the first pass, less in bright places and
-/// with every pass.
+/// The default first radius, in plane units, for `photons` per pass over `area` (plane units squared): about fifty photons
+/// under the kernel at mean density, so 14 % noise there in the first pass, less in bright places and with every pass.
 pub fn default_radius(photons: usize, area: f32) -> f32 {
-    // The kernel of radius r has the variance r^2/9 per axis, and averages as many photons as lie on 4 pi r^2/9.
+    // The kernel of radius r has the variance r^2/9 per axis and averages the photons of an area of 4 pi r^2/9.
     const UNDER_KERNEL: f32 = 50.0;
     let per_photon = area / photons.max(1) as f32;
     (9.0 * UNDER_KERNEL * per_photon / (4.0 * std::f32::consts::PI)).sqrt()
 }
 
-/// The filter with its buffers, kept from call to call.
+/// The kernel filter, with buffers kept from call to call.
 #[derive(Debug, Default)]
-pub struct Smoother {
-    running: Running,
-    taps: Taps,
+pub struct KernelFilter {
+    running: RunningSum,
+    short: ShortKernel,
 }
 
-impl Smoother {
-    /// Spreads the light with the kernel of `radius` (plane units), which reaches as far as the radius along each axis
-    /// and has the variance radius^2/9. Flux is conserved: at the border the kernel is reflected.
+impl KernelFilter {
+    /// Filters with the kernel of `radius` (plane units): support `radius` and variance radius^2/9 along each axis. Reflection
+    /// at the border conserves flux.
     pub fn filter(&mut self, texture: &mut ReceiverTexture, radius: f32) {
         let variance = f64::from(radius / texture.layout().texel).powi(2) / 9.0 / BOXES as f64;
-        let kernel = Box1::with_variance(variance);
+        let kernel = ExtendedBox::with_variance(variance);
         if kernel.is_identity() {
             return;
         }
-        if BOXES * kernel.reach() <= LONGEST_TAPS {
-            self.taps.filter(texture, &kernel.taps());
+        if BOXES * kernel.reach() <= MAX_SHORT_REACH {
+            self.short.filter(texture, &kernel.weights());
         } else {
             self.running.filter(texture, &kernel);
         }

@@ -1,5 +1,5 @@
-//! Builds the hierarchy: top down by the surface area heuristic over bins (Wald 2007), in parallel, eight children to a
-//! node. Its depth is bounded for any input, however the triangles lie upon each other.
+//! The construction of the hierarchy: top down by the binned surface area heuristic (Wald 2007), in parallel, eight children
+//! per node. Its depth is bounded for any input.
 
 use glam::Vec3;
 
@@ -9,16 +9,16 @@ use crate::{Progress, Result};
 
 /// Bins per axis.
 const BINS: usize = 16;
-/// Below this depth nodes are halved by count, which takes at most 9 levels more.
+/// Depth below which nodes are halved by count, which takes at most 9 levels more.
 const MAX_SAH_DEPTH: usize = 16;
-/// Depth that no tree exceeds.
+/// Bound on the depth.
 pub(super) const MAX_DEPTH: usize = MAX_SAH_DEPTH + 10;
-/// Triangles of a leaf.
+/// Triangles per leaf.
 const LEAF: usize = 8;
-/// Children of more triangles than this are built as separate tasks.
+/// Triangles above which children are built as parallel tasks.
 const TASK: usize = 4096;
 
-/// A triangle while sorting.
+/// The bounds of a triangle, while sorting.
 #[derive(Clone, Copy)]
 struct Item {
     bounds: Bounds,
@@ -39,7 +39,7 @@ impl Bounds {
     }
 
     /// Twice the centre.
-    fn place(&self) -> Vec3 {
+    fn doubled_centre(&self) -> Vec3 {
         self.lower + self.upper
     }
 
@@ -115,7 +115,7 @@ fn subtree(
     Ok(join(boxes, children))
 }
 
-/// A node over finished subtrees, whose indices move by what stands before them.
+/// A node over finished subtrees, with their indices offset.
 fn join(boxes: Boxes, children: Vec<Tree>) -> Tree {
     let mut tree = Tree { nodes: vec![Node { boxes, children: [Child::EMPTY; 8] }], leaves: Vec::new() };
     for (slot, mut child) in children.into_iter().enumerate() {
@@ -131,8 +131,8 @@ fn join(boxes: Boxes, children: Vec<Tree>) -> Tree {
     tree
 }
 
-/// Sorts the items into up to eight parts: the part with the largest surface is divided until there are eight, or none
-/// is too large for a leaf. Returns size and bounds of each, in order.
+/// Partitions the items into up to eight parts: the part of the largest surface is divided until there are eight, or all fit
+/// into leaves. Size and bounds of each, in order.
 fn eight_parts(items: &mut [Item], depth: usize) -> Vec<(usize, Bounds)> {
     let mut parts = vec![(items.len(), bounds(items))];
     while parts.len() < 8 {
@@ -150,43 +150,43 @@ fn eight_parts(items: &mut [Item], depth: usize) -> Vec<(usize, Bounds)> {
     parts
 }
 
-/// Sorts the items into two parts and returns the size of the first; both hold at least one.
+/// Partitions the items in two, both nonempty; the size of the first.
 fn divide(items: &mut [Item], depth: usize) -> usize {
-    let places = items.iter().fold(Bounds::EMPTY, |all, item| {
-        let place = item.bounds.place();
-        all.union(Bounds { lower: place, upper: place })
+    let centres = items.iter().fold(Bounds::EMPTY, |all, item| {
+        let centre = item.bounds.doubled_centre();
+        all.union(Bounds { lower: centre, upper: centre })
     });
     if depth < MAX_SAH_DEPTH
-        && let Some((axis, edge)) = best_plane(items, &places)
+        && let Some((axis, edge)) = best_plane(items, &centres)
     {
-        let bin = binning(&places, axis);
+        let bin = binning(&centres, axis);
         return partition(items, |item| bin(item) <= edge);
     }
-    let size = places.upper - places.lower;
+    let size = centres.upper - centres.lower;
     let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
     let middle = items.len() / 2;
-    let place = |item: &Item| item.bounds.place()[axis];
-    items.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)).then(a.index.cmp(&b.index)));
+    let centre = |item: &Item| item.bounds.doubled_centre()[axis];
+    items.select_nth_unstable_by(middle, |a, b| centre(a).total_cmp(&centre(b)).then(a.index.cmp(&b.index)));
     middle
 }
 
 /// The bin of an item along an axis.
-fn binning(places: &Bounds, axis: usize) -> impl Fn(&Item) -> usize + use<> {
-    let low = places.lower[axis];
-    let scale = BINS as f32 / (places.upper[axis] - low);
-    move |item| (((item.bounds.place()[axis] - low) * scale) as usize).min(BINS - 1)
+fn binning(centres: &Bounds, axis: usize) -> impl Fn(&Item) -> usize + use<> {
+    let low = centres.lower[axis];
+    let scale = BINS as f32 / (centres.upper[axis] - low);
+    move |item| (((item.bounds.doubled_centre()[axis] - low) * scale) as usize).min(BINS - 1)
 }
 
-/// Axis and last bin of the first part of the cheapest division; none if all centres coincide.
-fn best_plane(items: &[Item], places: &Bounds) -> Option<(usize, usize)> {
+/// Axis and last bin of the first part of the cheapest split; none if all centres coincide.
+fn best_plane(items: &[Item], centres: &Bounds) -> Option<(usize, usize)> {
     let mut best = None;
     let mut lowest = f32::INFINITY;
     for axis in 0..3 {
-        let size = places.upper[axis] - places.lower[axis];
+        let size = centres.upper[axis] - centres.lower[axis];
         if !(size > 0.0 && (BINS as f32 / size).is_finite()) {
             continue;
         }
-        let bin = binning(places, axis);
+        let bin = binning(centres, axis);
         let mut bins = [(Bounds::EMPTY, 0_usize); BINS];
         for item in items {
             let (bounds, count) = &mut bins[bin(item)];
@@ -212,7 +212,7 @@ fn best_plane(items: &[Item], places: &Bounds) -> Option<(usize, usize)> {
     best
 }
 
-/// What `count` triangles cost: whole leaves and a share of the next.
+/// The cost of `count` triangles, in leaves.
 fn leaves(count: usize) -> f32 {
     count as f32 / LEAF as f32 + if count > 0 { 0.5 } else { 0.0 }
 }

@@ -1,5 +1,5 @@
-//! Rays against all triangles of the scene: a hierarchy of boxes, eight to a node, and leaves of eight triangles (Wald,
-//! Benthin, Boulos 2008), tested eight at once.
+//! The acceleration structure: a bounding volume hierarchy with eight boxes per node and eight triangles per leaf, tested
+//! eight at once (Wald, Benthin, Boulos 2008).
 
 mod build;
 mod wide;
@@ -11,30 +11,30 @@ use wide::{Boxes, Nearest, Triangles, WideRay};
 use super::{Hit, Primitive, Ray, SurfaceId};
 use crate::{Progress, Result};
 
-/// One triangle with what a hit needs to know of it.
+/// One triangle with its shading normals and mesh.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangle {
     pub corners: [Vec3; 3],
-    /// Unit normals at the corners, on the side of the true normal.
+    /// Unit shading normals at the corners, on the side of the geometric normal.
     pub normals: [Vec3; 3],
     pub mesh: u16,
 }
 
-/// The hierarchy, and the triangles in the order of its leaves.
+/// The bounding volume hierarchy with the triangles in the order of its leaves.
 pub(super) struct Accel {
     /// The root first; empty without triangles.
     nodes: Vec<Node>,
     leaves: Vec<Triangles>,
-    surfaces: Vec<Surface>,
+    surfaces: Vec<ShadingData>,
 }
 
-/// What only a hit needs to know of a triangle.
-struct Surface {
+/// The part of a triangle that only a hit needs.
+struct ShadingData {
     normals: [Vec3; 3],
     mesh: u16,
 }
 
-/// Eight boxes and what stands in them.
+/// Eight boxes with their children.
 struct Node {
     boxes: Boxes,
     children: [Child; 8],
@@ -46,7 +46,7 @@ struct Child(u32);
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    /// Its box is never met.
+    /// An unused slot; its box is never hit.
     const EMPTY: Self = Self(u32::MAX);
 
     fn node(index: u32) -> Self {
@@ -65,7 +65,7 @@ impl Child {
         (self.0 & !Self::LEAF) as usize
     }
 
-    /// Moves it by the nodes and leaves that now stand before its own.
+    /// Offsets the index by the nodes and leaves now before its own.
     fn shift(&mut self, nodes: u32, leaves: u32) {
         if self.0 != Self::EMPTY.0 {
             self.0 += if self.as_node().is_some() { nodes } else { leaves };
@@ -73,11 +73,11 @@ impl Child {
     }
 }
 
-/// What is still to be searched: each level leaves seven children behind at most.
+/// The traversal stack: each level leaves at most seven children.
 type Stack = ArrayVec<(f32, Child), { 7 * build::MAX_DEPTH + 8 }>;
 
 impl Accel {
-    /// Builds the hierarchy. Degenerate triangles must be gone.
+    /// Builds the hierarchy over triangles with area.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -88,12 +88,12 @@ impl Accel {
         let (nodes, leaves, order) = build::build(triangles, progress)?;
         let surface = |i: &u32| {
             let Triangle { normals, mesh, .. } = triangles[*i as usize];
-            Surface { normals, mesh }
+            ShadingData { normals, mesh }
         };
         Ok(Self { nodes, leaves, surfaces: order.iter().map(surface).collect() })
     }
 
-    /// The nearest triangle before `limit`, other than the one the ray leaves.
+    /// The nearest hit before `limit`; the triangle the ray leaves is skipped.
     pub(super) fn intersect(&self, ray: &Ray, limit: f32) -> Option<Hit> {
         let mut nearest = None;
         self.search(ray, limit, |wide, leaf, limit| {
@@ -109,7 +109,7 @@ impl Accel {
     fn hit(&self, leaf: &Triangles, found: &Nearest) -> Hit {
         let index = leaf.first + found.lane;
         let (corner, edge1, edge2) = leaf.lane(found.lane);
-        let Surface { normals: [n0, n1, n2], mesh } = &self.surfaces[index as usize];
+        let ShadingData { normals: [n0, n1, n2], mesh } = &self.surfaces[index as usize];
         let [u, v] = found.weights;
         let geometric = edge1.cross(edge2).normalize();
         let shading = *n0 * (1.0 - u - v) + *n1 * u + *n2 * v;
@@ -123,7 +123,7 @@ impl Accel {
         }
     }
 
-    /// Whether any triangle, other than the one the ray leaves, lies before `distance`.
+    /// Whether any triangle but the one the ray leaves is hit before `distance`.
     pub(super) fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         let mut occluded = false;
         self.search(ray, distance, |wide, leaf, limit| {
@@ -133,7 +133,7 @@ impl Accel {
         occluded
     }
 
-    /// Every triangle that the ray crosses: its mesh, and whether the ray leaves the solid there.
+    /// Calls `crossed` for every triangle hit, with its mesh and whether the ray leaves the solid there.
     pub(super) fn each_crossing(&self, ray: &Ray, mut crossed: impl FnMut(u16, bool)) {
         self.search(ray, f32::INFINITY, |wide, leaf, limit| {
             let (mask, ..) = leaf.intersect(wide, *limit, ray.from.0);
@@ -146,8 +146,8 @@ impl Accel {
         });
     }
 
-    /// Visits the leaves that the ray meets before a limit, near ones first. A visit may lower the limit, and ends the
-    /// search by returning false.
+    /// Visits the leaves hit before a limit, near ones first. A visit may lower the limit, and ends the search by
+    /// returning false.
     #[inline(always)]
     fn search<'a>(
         &'a self,
@@ -182,7 +182,7 @@ impl Accel {
 }
 
 impl Node {
-    /// The nearest child that the ray meets; the others go onto the stack, the next nearest on top.
+    /// The nearest child hit; the others go onto the stack, the next nearest on top.
     #[inline(always)]
     fn enter(&self, ray: &WideRay, limit: f32, stack: &mut Stack) -> Option<Child> {
         let (mut mask, enter) = self.boxes.intersect(ray, limit);

@@ -5,12 +5,12 @@ use wide::f32x8;
 
 use crate::scene::Ray;
 
-/// A ray as the search wants it.
+/// A ray broadcast to eight lanes, with inverse directions.
 pub(super) struct WideRay {
     origin: [f32x8; 3],
     direction: [f32x8; 3],
     inverse: [f32x8; 3],
-    /// Which axes the ray runs down.
+    /// Axes along which the direction is negative.
     negative: [bool; 3],
 }
 
@@ -30,10 +30,10 @@ impl WideRay {
     }
 }
 
-/// Eight boxes; an empty one is inside out and is never met.
+/// Eight boxes; an empty one is inverted and never hit.
 #[derive(Clone)]
 pub(super) struct Boxes {
-    /// Lower and upper sides by axis.
+    /// Lower and upper bounds by axis.
     sides: [[f32x8; 3]; 2],
 }
 
@@ -45,7 +45,7 @@ impl Boxes {
         Self { sides: [[0, 1, 2].map(|a| column(|b| b.0, a)), [0, 1, 2].map(|a| column(|b| b.1, a))] }
     }
 
-    /// Bit mask of the boxes that the ray meets before `limit`, and where it enters each.
+    /// Bit mask of the boxes hit before `limit`, and the entry distances.
     #[inline(always)]
     pub(super) fn intersect(&self, ray: &WideRay, limit: f32) -> (u32, f32x8) {
         let mut enter = f32x8::splat(0.0);
@@ -63,17 +63,17 @@ impl Boxes {
     }
 }
 
-/// Up to eight triangles, by one corner and two edges; the rest of the lanes are without area.
+/// Up to eight triangles, by one corner and two edges; unused lanes have no area.
 #[derive(Clone)]
 pub(super) struct Triangles {
     corner: [f32x8; 3],
     edge1: [f32x8; 3],
     edge2: [f32x8; 3],
-    /// Index of the first; the others follow it.
+    /// Index of the first triangle; the others follow.
     pub first: u32,
 }
 
-/// The nearest of eight triangles.
+/// The nearest hit among eight triangles.
 pub(super) struct Nearest {
     pub t: f32,
     pub lane: u32,
@@ -96,8 +96,8 @@ impl Triangles {
         }
     }
 
-    /// Bit mask of the triangles that the ray meets after 0 and before `limit`, the distances, and the weights of the
-    /// second and third corner (Moeller & Trumbore 1997). `skip` is met by none.
+    /// Bit mask of the triangles hit between 0 and `limit`, the distances, and the weights of the second and third corner
+    /// (Moeller & Trumbore 1997). Triangle `skip` is never hit.
     #[inline(always)]
     pub(super) fn intersect(&self, ray: &WideRay, limit: f32, skip: u32) -> (u32, f32x8, [f32x8; 2]) {
         let offset =
@@ -117,7 +117,7 @@ impl Triangles {
         (if lane < 8 { mask & !(1 << lane) } else { mask }, t, [u, v])
     }
 
-    /// The nearest triangle met.
+    /// The nearest hit.
     #[inline(always)]
     pub(super) fn nearest(&self, ray: &WideRay, limit: f32, skip: u32) -> Option<Nearest> {
         let (mut mask, t, [u, v]) = self.intersect(ray, limit, skip);

@@ -4,8 +4,8 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, LightDesc};
+use super::common::{Common, Illumination};
+use super::emission::{Cone, Emission, Source, Sphere};
 use crate::Result;
 use crate::scene::check;
 use crate::setting::schema::Describe;
@@ -14,7 +14,7 @@ use crate::setting::{ANY, Setting, settings};
 /// A directional light. It is infinitely far and has no total power: its strength is an irradiance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct DirectionalLight {
     /// Its name.
     pub name: String,
@@ -40,9 +40,9 @@ settings! { DirectionalLight {
 impl Default for DirectionalLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
+            name: Common::DEFAULT_NAME.into(),
             irradiance: Self::IRRADIANCE.value(),
-            colour: LightDesc::COLOUR.value(),
+            colour: Common::COLOUR.value(),
             direction: Self::DIRECTION.value(),
             angle_deg: Self::ANGLE.value(),
         }
@@ -52,7 +52,7 @@ impl Default for DirectionalLight {
 impl DirectionalLight {
     pub(super) fn check(&self, place: &str) -> Result<()> {
         Self::IRRADIANCE.check(self.irradiance, place)?;
-        LightDesc::COLOUR.check(self.colour, place)?;
+        Common::COLOUR.check(self.colour, place)?;
         check::direction(place, "direction", self.direction)?;
         Self::ANGLE.check(self.angle_deg, place)
     }
@@ -62,16 +62,16 @@ impl DirectionalLight {
         Cone { axis: Vec3::from(self.direction).normalize_or(Vec3::NEG_Y), one_minus_cos }
     }
 
-    /// Irradiance of a plane across the single directions, summed over the disk. A disk of even radiance L gives
+    /// Normal irradiance, integrated over the disk. A disk of even radiance L gives
     /// E = L pi sin^2(a) on a surface that faces its middle, and L x solid angle = E x 2 / (1 + cos a) here.
     fn normal_irradiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.irradiance * 2.0 / (2.0 - self.sun().one_minus_cos))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         let target = target.unwrap_or(world);
         let area = std::f32::consts::PI * target.radius * target.radius;
-        // Starts outside everything: any point of the disk, moved back by this, has left the world.
+        // Any point of the disk, moved back by this, lies outside the world.
         let distance = world.centre.distance(target.centre) + world.radius + target.radius;
         Emission {
             flux: self.normal_irradiance() * area,

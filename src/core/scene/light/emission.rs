@@ -1,32 +1,32 @@
-//! How photons leave a light: a map from the unit square to rays that keeps area in proportion to flux, so that photons
-//! of equal weight are uniform points of the square. What a light sends out unevenly, it refuses at random.
+//! Emission: a map from the unit square to rays with area in proportion to flux, so that photons of equal flux are uniform
+//! points of the square. Uneven emission is by rejection sampling.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3, vec2};
 
-use super::frame;
+use super::common::frame;
 use crate::math::rng::Stream;
 use crate::scene::Ray;
 
-/// A ball in world space [m].
+/// A sphere in world space (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
-    /// Its middle.
+pub struct Sphere {
+    /// Its centre.
     pub centre: Vec3,
     /// Its radius.
     pub radius: f32,
 }
 
-impl Ball {
-    /// The ball around a box.
-    pub fn around(lower: Vec3, upper: Vec3) -> Self {
+impl Sphere {
+    /// The bounding sphere of a box.
+    pub fn around_box(lower: Vec3, upper: Vec3) -> Self {
         // A little larger than the box, so that rounding leaves no corner outside.
         Self { centre: (lower + upper) / 2.0, radius: (upper - lower).length() / 2.0 * 1.0001 + 1e-30 }
     }
 
-    /// Whether a ray meets it.
-    pub fn meets(&self, ray: &Ray) -> bool {
+    /// Whether a ray hits it.
+    pub fn intersects(&self, ray: &Ray) -> bool {
         let offset = self.centre - ray.origin;
         let along = offset.dot(ray.direction);
         let closest = (offset - ray.direction * along).length_squared();
@@ -34,8 +34,8 @@ impl Ball {
         inside || (along > 0.0 && closest <= self.radius * self.radius)
     }
 
-    /// The cone of directions from `point` that meet it: axis and 1 - cosine of its half angle; from inside, all.
-    pub(super) fn cone_from(&self, point: Vec3) -> Cone {
+    /// The cone that it subtends at `point`; from inside, all directions.
+    pub(super) fn subtended_cone(&self, point: Vec3) -> Cone {
         let offset = self.centre - point;
         let distance = offset.length();
         if distance <= self.radius {
@@ -46,7 +46,7 @@ impl Ball {
     }
 }
 
-/// A cone of directions around a unit axis.
+/// A cone of directions: unit axis and 1 - cosine of its half angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     pub axis: Vec3,
@@ -71,7 +71,7 @@ impl Cone {
     }
 }
 
-/// The unit square onto the unit disk, area-true and without tearing neighbours apart (Shirley & Chiu 1997).
+/// The concentric, area-preserving map of the unit square to the unit disk (Shirley & Chiu 1997).
 pub(super) fn disk(u: [f32; 2]) -> Vec2 {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
     if a == 0.0 && b == 0.0 {
@@ -83,58 +83,85 @@ pub(super) fn disk(u: [f32; 2]) -> Vec2 {
     radius * vec2(cosine, sine)
 }
 
-/// A direction on the side of the unit `normal`, in proportion to its cosine (Lambert).
+/// A cosine-weighted direction around the unit `normal`.
 pub(super) fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
     let disk = disk(u);
     let (x, y) = frame(normal);
     (x * disk.x + y * disk.y + normal * (1.0 - disk.length_squared()).max(0.0).sqrt()).normalize()
 }
 
-/// How the photons of one light leave it.
+/// Relative intensity by direction, 0..=1.
+#[derive(Clone, Debug)]
+pub(super) struct Profile {
+    pub axis: Vec3,
+    /// 1 - cosine where the fading begins and ends.
+    pub inner: f32,
+    pub outer: f32,
+}
+
+impl Profile {
+    /// Smoothstep in the cosine of the angle; its mean over the soft edge is one half.
+    pub(super) fn at(&self, direction: Vec3) -> f32 {
+        // 1 - cosine by the chord: accurate for narrow cones too.
+        let off = (direction - self.axis).length_squared() / 2.0;
+        if off <= self.inner {
+            return 1.0;
+        }
+        let x = ((self.outer - off) / (self.outer - self.inner)).clamp(0.0, 1.0);
+        x * x * (3.0 - 2.0 * x)
+    }
+
+    /// Integral over all directions [sr].
+    pub(super) fn solid_angle(&self) -> f32 {
+        TAU * (self.inner + self.outer) / 2.0
+    }
+}
+
+/// The emission of one light.
 #[derive(Clone, Debug)]
 pub struct Emission {
-    /// RGB flux [W] of the whole square, if nothing were refused.
+    /// RGB flux (W) of the whole square, without rejection.
     pub flux: Vec3,
     pub(super) source: Source,
 }
 
-/// The maps, by what they have in common.
+/// The maps, by kind of source.
 #[derive(Clone, Debug)]
 pub(super) enum Source {
     /// From a point into a cone.
     Point { origin: Vec3, cone: Cone },
-    /// From a point into a cone, of which a spot light lets only its own pass.
-    Spot { origin: Vec3, cone: Cone, profile: super::spot::Profile },
-    /// Nearly parallel, through a disk around the target.
-    Parallel { sun: Cone, target: Ball, distance: f32 },
-    /// From a surface that shines after Lambert's law, to all its sides.
-    Surface { surface: Surface },
-    /// From such a surface towards a ball; `widest` is the largest solid angle that any of its points sees of it.
-    SurfaceTo { surface: Surface, target: Ball, widest: f32 },
+    /// From a point into a cone, with rejection by the profile of a spot light.
+    Spot { origin: Vec3, cone: Cone, profile: Profile },
+    /// Nearly parallel, through a disk around the target sphere.
+    Parallel { sun: Cone, target: Sphere, distance: f32 },
+    /// From a Lambertian surface, in all directions.
+    Surface { surface: Emitter },
+    /// From a Lambertian surface towards a sphere; `widest` is the largest solid angle that it subtends at any point.
+    SurfaceTo { surface: Emitter, target: Sphere, widest: f32 },
 }
 
-/// Surfaces that shine.
+/// Lambertian surfaces of area lights.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Surface {
+pub(super) enum Emitter {
     Rectangle { centre: Vec3, half_x: Vec3, half_y: Vec3, normal: Vec3 },
-    Sphere(Ball),
+    Sphere(Sphere),
 }
 
-impl Surface {
-    /// A uniform point and its normal.
+impl Emitter {
+    /// A uniform point with its normal.
     fn point(&self, u: [f32; 2]) -> (Vec3, Vec3) {
         match self {
             Self::Rectangle { centre, half_x, half_y, normal } => {
                 (*centre + *half_x * (2.0 * u[0] - 1.0) + *half_y * (2.0 * u[1] - 1.0), *normal)
             }
-            Self::Sphere(ball) => {
+            Self::Sphere(sphere) => {
                 let normal = Cone::ALL.direction(u);
-                (ball.centre + normal * ball.radius, normal)
+                (sphere.centre + normal * sphere.radius, normal)
             }
         }
     }
 
-    /// Distance from `point` to its nearest point.
+    /// Distance from `point`.
     fn distance(&self, point: Vec3) -> f32 {
         match self {
             Self::Rectangle { centre, half_x, half_y, .. } => {
@@ -144,26 +171,26 @@ impl Surface {
                 };
                 (offset - clamped(*half_x) - clamped(*half_y)).length()
             }
-            Self::Sphere(ball) => (point.distance(ball.centre) - ball.radius).max(0.0),
+            Self::Sphere(sphere) => (point.distance(sphere.centre) - sphere.radius).max(0.0),
         }
     }
 }
 
 impl Emission {
-    /// The emission of a Lambertian surface of total `flux`, towards `target` where that is the smaller part of it.
-    pub(super) fn of_surface(surface: Surface, flux: Vec3, target: Option<Ball>) -> Self {
-        let widest = target.map_or(TAU, |ball| {
-            let nearest = surface.distance(ball.centre);
-            if nearest <= ball.radius {
+    /// The emission of a Lambertian surface of total `flux`, narrowed to `target` where that saves candidates.
+    pub(super) fn of_surface(surface: Emitter, flux: Vec3, target: Option<Sphere>) -> Self {
+        let widest = target.map_or(TAU, |sphere| {
+            let nearest = surface.distance(sphere.centre);
+            if nearest <= sphere.radius {
                 TAU
             } else {
-                ball.cone_from(ball.centre + Vec3::Y * nearest).solid_angle()
+                sphere.subtended_cone(sphere.centre + Vec3::Y * nearest).solid_angle()
             }
         });
-        // Radiance is flux / (pi area): a photon towards the ball carries cosine x solid angle / pi of the flux.
+        // Radiance is flux / (pi area): a photon towards the sphere carries cosine x solid angle / pi of the flux.
         match target {
             Some(target) if widest < PI => {
-                // 1e-5: rounding must not make an acceptance exceed 1.
+                // 1e-5: rounding must not raise an acceptance above 1.
                 let widest = widest * 1.000_01;
                 Self { flux: flux * (widest / PI), source: Source::SurfaceTo { surface, target, widest } }
             }
@@ -171,7 +198,7 @@ impl Emission {
         }
     }
 
-    /// The ray of a point of the unit square; none if the light sends nothing there (by chance, in proportion).
+    /// The ray of a point of the unit square; none if rejected.
     pub fn sample(&self, u: [f32; 2], rng: &mut Stream) -> Option<Ray> {
         match &self.source {
             Source::Point { origin, cone } => Some(Ray::new(*origin, cone.direction(u))),
@@ -191,7 +218,7 @@ impl Emission {
             }
             Source::SurfaceTo { surface, target, widest } => {
                 let (origin, normal) = surface.point([rng.f32(), rng.f32()]);
-                let cone = target.cone_from(origin);
+                let cone = target.subtended_cone(origin);
                 let direction = cone.direction(u);
                 let share = direction.dot(normal) * cone.solid_angle() / widest;
                 (rng.f32() < share).then(|| Ray::new(origin, direction))

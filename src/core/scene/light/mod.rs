@@ -1,9 +1,10 @@
-//! Light sources. One kind, one file: values, `check`, how photons leave it ([`Emission`]), how it lights a point.
+//! Light sources. One kind, one file: values, `check`, [`Emission`] of photons, [`Illumination`] of a point.
 //!
-//! Power is in watts and colour a factor on it, so a lamp of 10 W and colour (1, 0.5, 0) sends out 10 W of red and 5 W
-//! of green. Only the sun-like directional light, which has no total, is given by its irradiance. Lights stand in
-//! nobody's way: photons and camera rays pass them.
+//! Power is in watts and colour a factor on it, so a lamp of 10 W and colour (1, 0.5, 0) emits 10 W of red and 5 W of
+//! green. Only the directional light, which has no total power, is given by its irradiance. Photons and camera rays pass
+//! through lights.
 
+mod common;
 mod directional;
 mod emission;
 mod point;
@@ -15,16 +16,17 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use common::{Common, Illumination};
 pub use directional::DirectionalLight;
-pub use emission::{Ball, Emission};
+pub use emission::{Emission, Sphere};
 pub use point::PointLight;
 pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
 
+use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
-use crate::{Error, Result};
 
 /// A light, as saved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,34 +54,10 @@ settings! { LightDesc {
         Choice { value: "rectangle", help: "a flat panel that shines to one side" },
         Choice { value: "sphere", help: "a glowing ball" },
     ]).required();
-    /// Name of the light in the list of caustics; each name once.
-    NAME = Setting::text("scene.lights[].name");
-    /// Power of the whole light. A narrower cone of the same power is brighter.
-    WATTS = Setting::real("scene.lights[].watts", [0.0, 1e9], &[10.0]).unit("W");
-    /// Factor on the power, linear Rec.709.
-    COLOUR = Setting::colour("scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
-    /// Position of the light, x y z; y is up.
-    POSITION = Setting::vector("scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0]).unit("m");
-    /// The point the light looks at.
-    TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
 } }
 
-/// What a light does at a point that sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Illumination {
-    /// Unit vector from the point to the light.
-    pub direction: Vec3,
-    /// Distance to the light [m]; infinite for a directional one.
-    pub distance: f32,
-    /// RGB irradiance on a surface that faces it [W/m^2]; for lights with a size, of one random place, whose mean is right.
-    pub irradiance: Vec3,
-}
-
 impl LightDesc {
-    /// The name of a light that is given none.
-    const DEFAULT_NAME: &str = "light";
-
-    /// The artist's name for it.
+    /// Its name in the project.
     pub fn name(&self) -> &str {
         match self {
             Self::Point(light) => &light.name,
@@ -90,7 +68,7 @@ impl LightDesc {
         }
     }
 
-    /// Where it stands, world [m]; none for a directional one.
+    /// Its position, world (m); none for a directional one.
     pub fn position(&self) -> Option<Vec3> {
         match self {
             Self::Point(light) => Some(light.position.into()),
@@ -112,8 +90,8 @@ impl LightDesc {
         }
     }
 
-    /// How its photons leave: those that may meet the ball `target`, or all of them. `world` encloses the scene.
-    pub fn emission(&self, target: Option<Ball>, world: Ball) -> Emission {
+    /// Its emission: of photons that may hit the sphere `target`, or of all. `world` encloses the scene.
+    pub fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
         match self {
             Self::Point(light) => light.emission(target),
             Self::Spot(light) => light.emission(target),
@@ -123,20 +101,20 @@ impl LightDesc {
         }
     }
 
-    /// Whether any of its photons starts in the box between two corners, perhaps.
-    pub(crate) fn touches(&self, lower: Vec3, upper: Vec3) -> bool {
-        let ball = match self {
-            Self::Point(light) => Ball { centre: light.position.into(), radius: 0.0 },
-            Self::Spot(light) => Ball { centre: light.position.into(), radius: 0.0 },
+    /// Whether photons may start in the box between two corners.
+    pub(crate) fn overlaps_box(&self, lower: Vec3, upper: Vec3) -> bool {
+        let sphere = match self {
+            Self::Point(light) => Sphere { centre: light.position.into(), radius: 0.0 },
+            Self::Spot(light) => Sphere { centre: light.position.into(), radius: 0.0 },
             Self::Directional(_) => return false,
-            Self::Rectangle(light) => light.ball(),
-            Self::Sphere(light) => light.ball(),
+            Self::Rectangle(light) => light.bounding_sphere(),
+            Self::Sphere(light) => light.sphere(),
         };
-        ball.centre.distance_squared(ball.centre.clamp(lower, upper)) <= ball.radius * ball.radius
+        sphere.centre.distance_squared(sphere.centre.clamp(lower, upper)) <= sphere.radius * sphere.radius
     }
 
-    /// How it lights `point` (world), for shadow rays; `u` picks the place on lights that have a size, uniform in
-    /// [0, 1)^2. None where it sends no light.
+    /// The illumination of `point` (world), for shadow rays; `u`, uniform in [0, 1)^2, selects the point on area lights.
+    /// None where it emits nothing.
     pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
         match self {
             Self::Point(light) => light.illuminate(point),
@@ -147,7 +125,7 @@ impl LightDesc {
         }
     }
 
-    /// Distance and radiance [W/(sr m^2)] where a ray meets the light itself; none for lights without a size.
+    /// Distance and radiance [W/(sr m^2)] where a ray hits the light itself; area lights only.
     pub fn intersect(&self, ray: &super::Ray) -> Option<(f32, Vec3)> {
         match self {
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => None,
@@ -155,25 +133,4 @@ impl LightDesc {
             Self::Sphere(light) => light.intersect(ray),
         }
     }
-}
-
-/// Checks that all lights but the directional share.
-fn check_lamp(place: &str, watts: f32, colour: [f32; 3], position: [f32; 3]) -> Result<()> {
-    LightDesc::WATTS.check(watts, place)?;
-    LightDesc::COLOUR.check(colour, place)?;
-    LightDesc::POSITION.check(position, place)
-}
-
-/// Checks of the lights that look at a point.
-fn check_target(place: &str, position: [f32; 3], target: [f32; 3]) -> Result<()> {
-    LightDesc::TARGET.check(target, place)?;
-    if position == target {
-        return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
-    }
-    Ok(())
-}
-
-/// Two unit vectors that form a right-handed frame with the unit vector `z` (Duff et al. 2017).
-pub(crate) fn frame(z: Vec3) -> (Vec3, Vec3) {
-    z.any_orthonormal_pair()
 }

@@ -6,33 +6,33 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, LightDesc, check_lamp};
+use super::common::{Common, Illumination, check_lamp};
+use super::emission::{Cone, Emission, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
 
 /// A point light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS))]
 pub struct PointLight {
     /// Its name.
     pub name: String,
-    /// Power to all sides together [W].
+    /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
 }
 
 impl Default for PointLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
         }
     }
 }
@@ -42,9 +42,9 @@ impl PointLight {
         check_lamp(place, self.watts, self.colour, self.position)
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
-        let cone = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let cone = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let share = cone.solid_angle() / (4.0 * PI);
         Emission {
             flux: Vec3::from(self.colour) * (self.watts * share),

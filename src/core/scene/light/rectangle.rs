@@ -6,8 +6,8 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::Surface;
-use super::{Ball, Emission, Illumination, LightDesc, check_lamp, check_target, frame};
+use super::common::{Common, Illumination, check_lamp, check_target, frame};
+use super::emission::{Emission, Emitter, Sphere};
 use crate::Result;
 use crate::scene::Ray;
 use crate::setting::schema::Describe;
@@ -16,19 +16,19 @@ use crate::setting::{Setting, settings};
 /// A rectangle of light. Its width lies horizontal where it can.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct RectangleLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole panel [W].
+    /// Power of the whole panel (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its centre, world [m].
+    /// Its centre, world (m).
     pub position: [f32; 3],
-    /// The point it faces, world [m].
+    /// The point it faces, world (m).
     pub target: [f32; 3],
-    /// Width and height [m].
+    /// Width and height (m).
     pub size: [f32; 2],
 }
 
@@ -40,11 +40,11 @@ settings! { RectangleLight {
 impl Default for RectangleLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
-            target: LightDesc::TARGET.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
+            target: Common::TARGET.value(),
             size: Self::SIZE.value(),
         }
     }
@@ -57,7 +57,7 @@ impl RectangleLight {
         check_target(place, self.position, self.target)
     }
 
-    /// Normal and the two half sides.
+    /// Normal and the two half edges.
     fn axes(&self) -> (Vec3, Vec3, Vec3) {
         let normal = (Vec3::from(self.target) - Vec3::from(self.position)).normalize_or(Vec3::NEG_Y);
         let x = normal.cross(Vec3::Y).try_normalize().unwrap_or_else(|| frame(normal).0);
@@ -65,19 +65,19 @@ impl RectangleLight {
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
     }
 
-    /// The ball around it.
-    pub(super) fn ball(&self) -> Ball {
+    /// Its bounding sphere.
+    pub(super) fn bounding_sphere(&self) -> Sphere {
         let radius = glam::Vec2::from(self.size).length() / 2.0;
-        Ball { centre: self.position.into(), radius }
+        Sphere { centre: self.position.into(), radius }
     }
 
     fn radiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.watts / (PI * self.size[0] * self.size[1]))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let (normal, half_x, half_y) = self.axes();
-        let surface = Surface::Rectangle { centre: self.position.into(), half_x, half_y, normal };
+        let surface = Emitter::Rectangle { centre: self.position.into(), half_x, half_y, normal };
         Emission::of_surface(surface, Vec3::from(self.colour) * self.watts, target)
     }
 

@@ -1,4 +1,4 @@
-//! A glowing ball: every point of it shines outward after Lambert's law.
+//! A Lambertian sphere.
 
 use std::f32::consts::PI;
 
@@ -6,8 +6,8 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Surface};
-use super::{Ball, Emission, Illumination, LightDesc, check_lamp};
+use super::common::{Common, Illumination, check_lamp};
+use super::emission::{Cone, Emission, Emitter, Sphere};
 use crate::Result;
 use crate::scene::Ray;
 use crate::setting::schema::Describe;
@@ -16,17 +16,17 @@ use crate::setting::{Setting, settings};
 /// A ball of light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SphereLight {
     /// Its name.
     pub name: String,
-    /// Power to all sides together [W].
+    /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// Its centre, world [m].
+    /// Its centre, world (m).
     pub position: [f32; 3],
-    /// Its radius [m].
+    /// Its radius (m).
     pub radius: f32,
 }
 
@@ -38,10 +38,10 @@ settings! { SphereLight {
 impl Default for SphereLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
             radius: Self::RADIUS.value(),
         }
     }
@@ -53,38 +53,38 @@ impl SphereLight {
         Self::RADIUS.check(self.radius, place)
     }
 
-    pub(super) fn ball(&self) -> Ball {
-        Ball { centre: self.position.into(), radius: self.radius }
+    pub(super) fn sphere(&self) -> Sphere {
+        Sphere { centre: self.position.into(), radius: self.radius }
     }
 
     fn radiance(&self) -> Vec3 {
         Vec3::from(self.colour) * (self.watts / (4.0 * PI * PI * self.radius * self.radius))
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
-        Emission::of_surface(Surface::Sphere(self.ball()), Vec3::from(self.colour) * self.watts, target)
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
+        Emission::of_surface(Emitter::Sphere(self.sphere()), Vec3::from(self.colour) * self.watts, target)
     }
 
-    /// By a random direction of the cone in which the ball is seen.
+    /// By a uniform direction of the subtended cone.
     pub(super) fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
-        let cone: Cone = self.ball().cone_from(point);
+        let cone: Cone = self.sphere().subtended_cone(point);
         if cone.one_minus_cos >= 2.0 {
-            return None; // Inside the ball: it shines outward.
+            return None; // Inside: it emits outward.
         }
         let direction = cone.direction(u);
         let (distance, radiance) = self.intersect(&Ray::new(point, direction)).unwrap_or_else(|| {
-            let tangent = self.ball().centre.distance_squared(point) - self.radius * self.radius;
+            let tangent = self.sphere().centre.distance_squared(point) - self.radius * self.radius;
             (tangent.max(0.0).sqrt(), self.radiance())
         });
         Some(Illumination { direction, distance, irradiance: radiance * cone.solid_angle() })
     }
 
     pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec3)> {
-        let ball = self.ball();
-        let offset = ball.centre - ray.origin;
+        let sphere = self.sphere();
+        let offset = sphere.centre - ray.origin;
         let along = offset.dot(ray.direction);
         let closest = (offset - ray.direction * along).length_squared();
-        let reach = ball.radius * ball.radius - closest;
+        let reach = sphere.radius * sphere.radius - closest;
         if reach < 0.0 {
             return None;
         }

@@ -1,13 +1,11 @@
 //! A cone of light from one point, even inside and fading out at its edge.
 
-use std::f32::consts::TAU;
-
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::emission::{Cone, Source};
-use super::{Ball, Emission, Illumination, LightDesc, check_lamp, check_target};
+use super::common::{Common, Illumination, check_lamp, check_target};
+use super::emission::{Cone, Emission, Profile, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
@@ -15,17 +13,17 @@ use crate::setting::{Setting, settings};
 /// A spot light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(transform = Describe(LightDesc::SETTINGS), transform = Describe(Self::SETTINGS))]
+#[schemars(transform = Describe(Common::SETTINGS), transform = Describe(Self::SETTINGS))]
 pub struct SpotLight {
     /// Its name.
     pub name: String,
-    /// Power of the whole cone [W].
+    /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
     pub colour: [f32; 3],
-    /// World [m].
+    /// World (m).
     pub position: [f32; 3],
-    /// The point it looks at, world [m].
+    /// The point it looks at, world (m).
     pub target: [f32; 3],
     /// Opening angle of the cone from edge to edge, degrees.
     pub angle_deg: f32,
@@ -43,41 +41,14 @@ settings! { SpotLight {
 impl Default for SpotLight {
     fn default() -> Self {
         Self {
-            name: LightDesc::DEFAULT_NAME.into(),
-            watts: LightDesc::WATTS.value(),
-            colour: LightDesc::COLOUR.value(),
-            position: LightDesc::POSITION.value(),
-            target: LightDesc::TARGET.value(),
+            name: Common::DEFAULT_NAME.into(),
+            watts: Common::WATTS.value(),
+            colour: Common::COLOUR.value(),
+            position: Common::POSITION.value(),
+            target: Common::TARGET.value(),
             angle_deg: Self::ANGLE.value(),
             soft_edge: Self::SOFT_EDGE.value(),
         }
-    }
-}
-
-/// How bright the light is by direction, between 0 and 1.
-#[derive(Clone, Debug)]
-pub(super) struct Profile {
-    axis: Vec3,
-    /// 1 - cosine where the fading begins and ends.
-    inner: f32,
-    outer: f32,
-}
-
-impl Profile {
-    /// Smooth in the cosine of the angle; its mean over the fading rim is one half.
-    pub(super) fn at(&self, direction: Vec3) -> f32 {
-        // 1 - cosine by the chord: accurate for narrow cones too.
-        let off = (direction - self.axis).length_squared() / 2.0;
-        if off <= self.inner {
-            return 1.0;
-        }
-        let x = ((self.outer - off) / (self.outer - self.inner)).clamp(0.0, 1.0);
-        x * x * (3.0 - 2.0 * x)
-    }
-
-    /// Integral over all directions [sr].
-    fn solid_angle(&self) -> f32 {
-        TAU * (self.inner + self.outer) / 2.0
     }
 }
 
@@ -103,11 +74,11 @@ impl SpotLight {
         Vec3::from(self.colour) * (self.watts / profile.solid_angle())
     }
 
-    pub(super) fn emission(&self, target: Option<Ball>) -> Emission {
+    pub(super) fn emission(&self, target: Option<Sphere>) -> Emission {
         let origin = Vec3::from(self.position);
         let profile = self.profile();
         let own = Cone { axis: profile.axis, one_minus_cos: profile.outer };
-        let aimed = target.map_or(Cone::ALL, |ball| ball.cone_from(origin));
+        let aimed = target.map_or(Cone::ALL, |sphere| sphere.subtended_cone(origin));
         let cone = if aimed.one_minus_cos < own.one_minus_cos { aimed } else { own };
         let flux = self.intensity(&profile) * cone.solid_angle();
         Emission { flux, source: Source::Spot { origin, cone, profile } }

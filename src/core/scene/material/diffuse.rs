@@ -1,4 +1,4 @@
-//! Matt surfaces: the same radiance to all sides (Lambert). Caustic photons end here.
+//! Matt surfaces: the same radiance in all directions (Lambert). Caustic photons end here.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,17 +1,17 @@
-//! Colour by wavelength. A white beam that enters dispersive glass picks one wavelength and becomes coloured light of the
-//! same total: the three channels are overlapping bands of the visible range, nowhere negative, which add up to white
-//! exactly. (Colour matching functions have negative lobes in Rec.709; negative flux could not be matched.)
+//! Colour by wavelength. A white beam that enters dispersive glass samples one wavelength and becomes coloured light of the
+//! same total: the channels are overlapping bands of the visible range, nonnegative, which sum to white exactly. (Colour
+//! matching functions have negative lobes in Rec.709; negative flux could not be matched.)
 
 use glam::Vec3;
 
 use crate::math::rng::Stream;
 
-/// The visible range taken into account [nm].
+/// The visible range (nm).
 pub const VISIBLE_NM: [f32; 2] = [400.0, 700.0];
 /// Half width of the ramp between two bands, as a share of the range.
 const RAMP: f32 = 0.12;
 
-/// The colour (R, G, B) of light of one wavelength [nm]; its mean over the visible range is (1, 1, 1), and its three
+/// The colour (R, G, B) of light of one wavelength (nm); its mean over the visible range is (1, 1, 1), and its three
 /// channels sum to 3 at every wavelength.
 pub fn rgb_of_wavelength(nm: f32) -> Vec3 {
     let x = (nm - VISIBLE_NM[0]) / (VISIBLE_NM[1] - VISIBLE_NM[0]);
@@ -20,9 +20,9 @@ pub fn rgb_of_wavelength(nm: f32) -> Vec3 {
     3.0 * Vec3::new(red_on, green_on - red_on, 1.0 - green_on)
 }
 
-/// Draws a wavelength [nm] in proportion to what `weight` holds of it, and the colour that the beam then has: its
-/// channels sum to those of `weight`, and its expectation is `weight`.
-pub(super) fn pick_wavelength(weight: Vec3, rng: &mut Stream) -> (f32, Vec3) {
+/// A wavelength (nm) sampled in proportion to its share of `weight`, with the beam's new colour: its channels sum to those
+/// of `weight`, and its expectation is `weight`.
+pub(super) fn sample_wavelength(weight: Vec3, rng: &mut Stream) -> (f32, Vec3) {
     let sum = weight.element_sum();
     let choice = rng.f32() * sum;
     let band = if choice < weight.z {

@@ -17,19 +17,19 @@ pub fn fresnel(cos_i: f32, eta: f32) -> (f32, f32) {
     (0.5 * (parallel * parallel + perpendicular * perpendicular), cos_t)
 }
 
-/// Mirrors `direction` at a surface with unit `normal`.
+/// The reflection of `direction` at a surface with unit `normal`.
 pub fn reflect(direction: Vec3, normal: Vec3) -> Vec3 {
     (direction - 2.0 * direction.dot(normal) * normal).normalize()
 }
 
-/// Bends `direction` at a surface whose unit `normal` looks against it; `cos_t` as [`fresnel`] returned it.
+/// The refraction of `direction` at a surface with unit `normal` against it; `cos_t` from [`fresnel`].
 pub fn refract(direction: Vec3, normal: Vec3, cos_i: f32, cos_t: f32, eta: f32) -> Vec3 {
     ((direction + normal * cos_i) / eta - normal * cos_t).normalize()
 }
 
-/// Geometric and shading normal turned against `direction`. Where the smooth normal faces away though the surface
-/// does not (near a silhouette), the geometric one stands in for it.
-pub fn toward(hit: &Hit, direction: Vec3) -> (Vec3, Vec3) {
+/// Geometric and shading normal turned against `direction`. Where the shading normal faces away though the surface does not
+/// (near a silhouette), the geometric one replaces it.
+pub fn facing_normals(hit: &Hit, direction: Vec3) -> (Vec3, Vec3) {
     let sign = if direction.dot(hit.geometric_normal) < 0.0 { 1.0 } else { -1.0 };
     let (geometric, shading) = (hit.geometric_normal * sign, hit.shading_normal * sign);
     if direction.dot(shading) < 0.0 { (geometric, shading) } else { (geometric, geometric) }

@@ -1,16 +1,16 @@
-//! Glass: refracts and reflects after Fresnel, absorbs by distance (Beer-Lambert), bends blue more than red if dispersive.
+//! Glass: refraction and reflection by Fresnel, absorption by Beer-Lambert, optional dispersion.
 //!
 //! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
-//! the surface of the other inside it is passed unseen (Schmidt & Budge 2002). Every surface needs an inside, so the mesh
-//! should be closed; through an open sheet light passes as if the solid went on behind it.
+//! the other's surface within it has no effect (Schmidt & Budge 2002). Meshes should be closed; behind an open sheet the
+//! solid never ends.
 
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Beam;
-use super::dispersion::pick_wavelength;
-use super::fresnel::{fresnel, reflect, refract, toward};
+use super::dispersion::sample_wavelength;
+use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use crate::Result;
 use crate::math::rng::Stream;
 use crate::scene::{Hit, Mesh, SurfaceId};
@@ -61,7 +61,7 @@ impl Glass {
         Self::DISPERSION.check(self.dispersion, place)
     }
 
-    /// Index of refraction at a wavelength [nm] by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and
+    /// Index of refraction at a wavelength (nm) by Cauchy's two-term equation n = A + B / lambda^2, fixed by index and
     /// Abbe number V = (n_d - 1) / (n_F - n_C); without dispersion or wavelength it is `ior`.
     pub fn index(&self, wavelength: Option<f32>) -> f32 {
         let (Some(abbe), Some(nm)) = (self.dispersion, wavelength) else { return self.ior };
@@ -70,7 +70,7 @@ impl Glass {
         self.ior + b * (inverse_square(nm / 1000.0) - inverse_square(LINE_D))
     }
 
-    /// What is left of the light after `distance` [m].
+    /// RGB transmittance over `distance` (m).
     pub fn transmittance(&self, distance: f32) -> Vec3 {
         if self.absorption == [0.0; 3] {
             return Vec3::ONE;
@@ -99,24 +99,23 @@ impl Glass {
             return direction;
         }
         if self.dispersion.is_some() && beam.wavelength.is_none() {
-            let (nm, colour) = pick_wavelength(beam.weight, rng);
+            let (nm, colour) = sample_wavelength(beam.weight, rng);
             beam.weight = colour;
             beam.wavelength = Some(nm);
         }
         let index =
             |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
         let eta = index(&after) / index(&before);
-        let (next, through) = cross(hit, direction, eta, rng.f32());
+        let (next, through) = scatter_at_boundary(hit, direction, eta, rng.f32());
         beam.media = if through { after } else { before };
         next
     }
 }
 
-/// Reflects with the probability of Fresnel, else refracts; whether it went through. The smooth normal decides the
-/// way, unless that would lead to the wrong side of the true surface: then the true normal does. So every photon goes
-/// on, and none loses or gains energy.
-fn cross(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
-    let (geometric, shading) = toward(hit, direction);
+/// Reflection with the Fresnel probability, else refraction; whether it went through. The geometric normal replaces the
+/// shading normal where that would lead to the wrong side of the surface, so that no energy is lost or gained.
+fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
+    let (geometric, shading) = facing_normals(hit, direction);
     for normal in [shading, geometric] {
         let cos_i = -direction.dot(normal);
         let (reflectance, cos_t) = fresnel(cos_i, eta);
@@ -132,5 +131,5 @@ fn cross(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
             }
         }
     }
-    (direction, true) // Exactly along the surface: passes on.
+    (direction, true) // Exactly along the surface: passes straight on.
 }

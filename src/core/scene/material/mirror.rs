@@ -1,11 +1,11 @@
-//! Polished metal: reflects everything one way, coloured by its reflectance, from both sides.
+//! Polished metal: specular reflection from both sides, coloured by its reflectance.
 
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Beam;
-use super::fresnel::{reflect, toward};
+use super::fresnel::{facing_normals, reflect};
 use crate::Result;
 use crate::scene::Hit;
 use crate::setting::schema::Describe;
@@ -38,7 +38,7 @@ impl Mirror {
 
     pub(super) fn scatter(&self, hit: &Hit, direction: Vec3, beam: &mut Beam) -> Vec3 {
         beam.weight *= Vec3::from(self.reflectance);
-        let (geometric, shading) = toward(hit, direction);
+        let (geometric, shading) = facing_normals(hit, direction);
         let reflected = reflect(direction, shading);
         if reflected.dot(geometric) > 0.0 { reflected } else { reflect(direction, geometric) }
     }

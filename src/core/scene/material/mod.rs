@@ -1,4 +1,4 @@
-//! What surfaces do with light. One kind, one file: values, `check`, `scatter`.
+//! Materials. One kind, one file: values, `check`, `scatter`.
 
 mod diffuse;
 mod dispersion;
@@ -44,14 +44,14 @@ settings! { Material {
     ]);
 } }
 
-/// What a path carries from surface to surface: flux for a photon, throughput for a camera path.
+/// The light carried along a path: flux for a photon, throughput for a camera path.
 #[derive(Clone, Debug)]
 pub struct Beam {
     /// RGB, linear Rec.709.
     pub weight: Vec3,
-    /// The glass solids it is in.
+    /// The glass solids around it.
     pub media: Media,
-    /// Its wavelength [nm] once a dispersive glass has picked one; none while it is still white.
+    /// Its wavelength (nm) after dispersive glass; none while white.
     pub wavelength: Option<f32>,
 }
 
@@ -61,7 +61,7 @@ impl Beam {
         Self { weight, media, wavelength: None }
     }
 
-    /// Loses what the glass it is in takes over `distance` [m] (Beer-Lambert); exact 1 in clear glass and air.
+    /// Absorption over `distance` (m) (Beer-Lambert); exactly none in clear glass and air.
     pub fn travel(&mut self, meshes: &[Mesh], distance: f32) {
         if let Some(glass) = self.media.glass(meshes) {
             self.weight *= glass.transmittance(distance);
@@ -70,7 +70,7 @@ impl Beam {
 }
 
 impl Material {
-    /// Whether light that meets it casts caustics.
+    /// Whether it casts caustics.
     pub fn is_specular(&self) -> bool {
         match self {
             Self::Diffuse(_) => false,
@@ -78,9 +78,8 @@ impl Material {
         }
     }
 
-    /// The next direction (unit) of a path along `direction` that met this material at `hit`, chosen at random in
-    /// proportion to the energy; the beam takes colour, medium and wavelength of the chosen way. None for a matt
-    /// surface, where specular paths end.
+    /// The next direction (unit) of a path along `direction` at `hit`, sampled in proportion to energy; updates colour, media
+    /// and wavelength of the beam. None for a matt surface, where specular paths end.
     pub fn scatter(
         &self,
         meshes: &[Mesh],

@@ -1,5 +1,4 @@
-//! From faces as read to triangles as traced: equal vertices welded, degenerate faces dropped, glass turned right side
-//! out, and what remains odd counted for the artist.
+//! Clean-up of faces: equal vertices welded, degenerate faces dropped, glass wound outward; notes count what remains.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -62,9 +61,9 @@ fn flip(face: &mut Face) {
     face.normals.swap(1, 2);
 }
 
-/// For every vertex the first vertex at the same place.
+/// For every vertex the first vertex at the same position.
 fn weld(positions: &[Vec3]) -> Vec<u32> {
-    // Adding 0 turns -0 into 0, so that equal places have equal bits.
+    // Adding 0 turns -0 into 0, so that equal positions have equal bits.
     let key = |i: u32| (positions[i as usize] + 0.0).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.par_sort_unstable_by_key(|i| (key(*i), *i));
@@ -79,11 +78,11 @@ fn weld(positions: &[Vec3]) -> Vec<u32> {
     welded
 }
 
-/// How the faces meet at their edges.
+/// Counts of faulty edges.
 struct Edges {
-    /// Edges with a face on one side only.
+    /// Edges with an odd number of faces.
     open: usize,
-    /// Edges run through in the same direction by both faces.
+    /// Edges that both faces traverse in the same direction.
     inconsistent: usize,
 }
 
@@ -108,7 +107,7 @@ impl Edges {
     }
 }
 
-/// Six times the enclosed volume; negative if the faces look inward.
+/// Six times the enclosed volume; negative if the faces are wound inward.
 fn volume(file: &ObjFile, faces: &[Face]) -> f64 {
     let origin =
         faces.first().map_or(DVec3::ZERO, |face| file.positions[face.vertices[0] as usize].as_dvec3());

@@ -1,4 +1,4 @@
-//! Triangle meshes from OBJ files: read, placed, cleaned up, given smooth normals.
+//! Triangle meshes from OBJ files: reading, placement, clean-up, smooth normals.
 
 mod clean;
 mod mtl;
@@ -61,7 +61,7 @@ fn smooth() -> bool {
 #[serde(default, deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct Transform {
-    /// Where the file's origin comes to lie [m].
+    /// Where the file's origin comes to lie (m).
     pub translate: [f32; 3],
     /// Turn about the X, then Y, then Z axis, degrees.
     pub rotate: [f32; 3],
@@ -118,7 +118,7 @@ pub(super) struct Part {
     pub triangles: Vec<Triangle>,
 }
 
-/// Reads a mesh file, splits it by material, and reports what was done in `notes`.
+/// Reads a mesh file and splits it by material; `notes` tell what was changed.
 pub(super) fn load(
     desc: &MeshDesc,
     place: &str,
@@ -175,7 +175,7 @@ fn transform(file: &mut obj::ObjFile, transform: &Transform, path: &std::path::P
     Ok(())
 }
 
-/// Name and material of each `usemtl` of the file, by its index.
+/// Name and material of each `usemtl`, by index.
 fn materials(
     file: &obj::ObjFile,
     desc: &MeshDesc,
@@ -203,9 +203,9 @@ fn materials(
         .zip(used)
         .map(|(name, used)| {
             let label = if single { desc.name.clone() } else { format!("{}/{name}", desc.name) };
-            let found = library.iter().find(|entry| entry.name == *name);
+            let found = library.iter().find(|material| material.name == *name);
             let material = match found {
-                Some(entry) => entry.material(&label, used, notes),
+                Some(found) => found.material(&label, used, notes),
                 None => {
                     if used {
                         notes.push(format!("{label}: has no material; taken as matt grey"));
@@ -218,7 +218,7 @@ fn materials(
         .collect()
 }
 
-/// The true normal of a counter-clockwise triangle, not normalized; twice its area long.
+/// The normal of a counter-clockwise triangle, not normalized; its length is twice the area.
 fn cross([a, b, c]: [Vec3; 3]) -> Vec3 {
     (b - a).cross(c - a)
 }

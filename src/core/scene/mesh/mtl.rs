@@ -1,6 +1,6 @@
-//! Wavefront MTL. The format does not know glass: exporters write only its index `Ni`, and often `d 1`, `illum 2`. A
-//! material is taken as glass if the file says so with an `absorption` line of ours, or if its index is above 1.05 and
-//! something hints at glass (transparency, a transmission filter, its name); what was guessed is always reported.
+//! Wavefront MTL. The format has no glass: exporters write only its index `Ni`, and often `d 1`, `illum 2`. A material
+//! counts as glass with our `absorption` line, or with an index above 1.05 and a hint of glass (transparency, a
+//! transmission filter, its name); guesses are always noted.
 
 use std::path::Path;
 
@@ -11,12 +11,12 @@ use crate::scene::material::{Diffuse, Glass, Material, Mirror};
 
 /// Largest file read [bytes].
 const MAX_BYTES: u64 = 16 << 20;
-/// `Tf` has no length in the format; here it is what is left after this distance [m].
+/// Distance (m) to which the transmission filter `Tf` applies; the format gives none.
 const FILTER_DISTANCE: f32 = 0.01;
 
 /// One `newmtl` of a file.
 #[derive(Debug, Default)]
-pub(super) struct Entry {
+pub(super) struct MtlMaterial {
     pub name: String,
     diffuse: Option<[f32; 3]>,
     specular: Option<[f32; 3]>,
@@ -27,24 +27,24 @@ pub(super) struct Entry {
     model: Option<u32>,
 }
 
-/// Reads a file; lines it does not know, or whose numbers are not plain, are skipped as the format wants.
-pub(super) fn read(path: &Path) -> Result<Vec<Entry>> {
+/// Reads a file; unknown or malformed lines are skipped, as the format requires.
+pub(super) fn read(path: &Path) -> Result<Vec<MtlMaterial>> {
     let bytes = read_regular_file(path, MAX_BYTES)?;
     let text = obj::text(&bytes, path)?;
-    let mut entries: Vec<Entry> = Vec::new();
+    let mut materials: Vec<MtlMaterial> = Vec::new();
     obj::lines(&text, |_, line| {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         if keyword == "newmtl" {
-            entries.push(Entry { name: rest.trim().to_owned(), ..Entry::default() });
-        } else if let Some(entry) = entries.last_mut() {
-            entry.line(keyword, rest);
+            materials.push(MtlMaterial { name: rest.trim().to_owned(), ..MtlMaterial::default() });
+        } else if let Some(material) = materials.last_mut() {
+            material.line(keyword, rest);
         }
         Ok(())
     })?;
-    Ok(entries)
+    Ok(materials)
 }
 
-impl Entry {
+impl MtlMaterial {
     fn line(&mut self, keyword: &str, rest: &str) {
         match keyword {
             "Kd" => self.diffuse = colour(rest),
@@ -59,7 +59,7 @@ impl Entry {
         }
     }
 
-    /// What it is taken for; guesses are noted if it is `used`.
+    /// The material it describes; guesses are noted if it is `used`.
     pub(super) fn material(&self, label: &str, used: bool, notes: &mut Vec<String>) -> Material {
         let mut note = |text: String| {
             if used {
@@ -72,10 +72,10 @@ impl Entry {
             note(format!("taken as a mirror, by its name '{}'", self.name));
             return Material::Mirror(Mirror { reflectance: reflectance.map(|c| c.clamp(0.0, 1.0)) });
         }
-        let sounds =
+        let glassy_name =
             ["glass", "water", "lens", "wine", "liquid", "crystal"].iter().any(|word| name.contains(word));
         let index = self.index.filter(|ni| (1.05..=4.0).contains(ni));
-        let Some(hint) = self.glass_hint(sounds) else {
+        let Some(hint) = self.glass_hint(glassy_name) else {
             return self.matt();
         };
         let Some(ior) = index else {
@@ -86,7 +86,7 @@ impl Entry {
         Material::Glass(Glass { ior, absorption: self.absorption(), dispersion: None })
     }
 
-    fn glass_hint(&self, sounds: bool) -> Option<&'static str> {
+    fn glass_hint(&self, glassy_name: bool) -> Option<&'static str> {
         if self.absorption.is_some() {
             Some("its absorption line")
         } else if self.opacity.is_some_and(|d| d < 0.99) {
@@ -96,7 +96,7 @@ impl Entry {
         } else if matches!(self.model, Some(4 | 6 | 7 | 9)) {
             Some("its illumination model")
         } else {
-            sounds.then_some("its name")
+            glassy_name.then_some("its name")
         }
     }
 
@@ -116,7 +116,7 @@ fn number(rest: &str) -> Option<f32> {
     rest.split_ascii_whitespace().next()?.parse().ok().filter(|x: &f32| x.is_finite())
 }
 
-/// One or three numbers; one stands for all channels.
+/// One or three numbers; one applies to all channels.
 fn colour(rest: &str) -> Option<[f32; 3]> {
     let mut words = rest.split_ascii_whitespace().map_while(number);
     let red = words.next()?;

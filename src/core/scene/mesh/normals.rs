@@ -1,5 +1,5 @@
-//! Normals at the corners of triangles: the file's own, or averages weighted by angle (Thuermer & Wuethrich 1998) over
-//! faces that meet smoothly.
+//! Corner normals: those of the file, or averages weighted by angle (Thuermer & Wuethrich 1998) over faces that meet
+//! smoothly.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -8,13 +8,12 @@ use super::cross;
 use super::obj::{Face, NONE, ObjFile};
 use crate::scene::accel::Triangle;
 
-/// Cosine of the angle between faces from which on an edge is sharp: 50 degrees.
+/// Crease angle: cosine of the angle between faces above which an edge is sharp, 50 degrees.
 const CREASE: f32 = 0.642_787_6;
-/// A corner looks at each face around its vertex; where more than this meet, all share one average, which keeps the work
-/// linear.
+/// Faces at a vertex above which all share one average, which keeps the work linear.
 const MANY: usize = 64;
 
-/// Triangles with their normals, and how many of the file's normals were turned to the side of their face.
+/// Triangles with their corner normals, and how many of the file's normals were turned to the side of their face.
 pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
     let corners: Vec<[Vec3; 3]> =
         faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
@@ -42,7 +41,7 @@ pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool
     (triangles, turned.iter().sum())
 }
 
-/// For each vertex, the corners that meet there.
+/// The corners around each vertex.
 struct Averages<'a> {
     faces: &'a [Face],
     welded: &'a [u32],
@@ -53,7 +52,7 @@ struct Averages<'a> {
     /// Corners (3 x face + corner) sorted by vertex; those of vertex v from `start[v]` to `start[v + 1]`.
     corners: Vec<u32>,
     start: Vec<u32>,
-    /// The average of all faces, at vertices where many meet; sorted by vertex.
+    /// The average of all faces, at vertices of many faces; sorted by vertex.
     shared: Vec<(u32, Vec3)>,
 }
 
@@ -92,7 +91,7 @@ impl<'a> Averages<'a> {
         &self.corners[self.start[vertex] as usize..self.start[vertex + 1] as usize]
     }
 
-    /// Sum of the normals of those faces that are wanted, by the angle of their corner.
+    /// Sum of the normals of the `wanted` faces, weighted by corner angle.
     fn sum(&self, corners: &[u32], wanted: impl Fn(Vec3) -> bool) -> Vec3 {
         corners
             .iter()

@@ -1,5 +1,5 @@
-//! Wavefront OBJ: vertices, normals, faces, material names. What it cannot use it ignores, as the format wants; what is
-//! wrong it refuses with the line. Files are foreign: no index is trusted, nothing is allocated by their word.
+//! Wavefront OBJ: vertices, normals, faces, material names. Unknown statements are ignored, as the format requires; errors
+//! name the line. Files are untrusted: every index is checked, nothing is allocated by their word.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -25,14 +25,14 @@ pub(super) struct Face {
     pub material: u32,
 }
 
-/// What a file holds, all indices checked, all vertices finite.
+/// The content of a file: all indices checked, all vertices finite.
 #[derive(Debug, Default)]
 pub(super) struct ObjFile {
     pub positions: Vec<Vec3>,
-    /// Not normalized, perhaps zero.
+    /// Not normalized; may be zero.
     pub normals: Vec<Vec3>,
     pub faces: Vec<Face>,
-    /// Names by `usemtl`; the first stands for faces before any.
+    /// Names by `usemtl`; the first is for faces before any.
     pub materials: Vec<String>,
     pub libraries: Vec<String>,
     /// Polygons of more than four corners, which were split into fans.
@@ -52,7 +52,7 @@ pub(super) fn text<'a>(bytes: &'a [u8], path: &Path) -> Result<Cow<'a, str>> {
     Ok(String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)))
 }
 
-/// Calls `each` with the number and text of every line; `\` at the end of a line continues it.
+/// Calls `each` with number and text of every line; a `\` at its end continues a line.
 pub(super) fn lines(text: &str, mut each: impl FnMut(usize, &str) -> Result<()>) -> Result<()> {
     let mut joined = String::new();
     for (index, line) in text.lines().enumerate() {

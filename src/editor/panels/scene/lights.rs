@@ -2,7 +2,9 @@
 
 use egui::Ui;
 use lightloom_core::project::CausticDesc;
-use lightloom_core::scene::light::{DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightloom_core::scene::light::{
+    Common, DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight,
+};
 use lightloom_core::scene::{LightDesc, SceneDesc};
 
 use crate::editor::context::EditorContext;
@@ -21,11 +23,11 @@ const KINDS: &[fn() -> LightDesc] = &[
 
 const KIND: Control =
     Control::new("Kind", LightDesc::KIND).labels(&["Point", "Spot", "Directional", "Rectangle", "Sphere"]);
-const NAME: Control = Control::new("Name", LightDesc::NAME);
-const WATTS: Control = Control::new("Power", LightDesc::WATTS).log_slider(0.0, 1000.0);
-const COLOUR: Control = Control::new("Colour", LightDesc::COLOUR);
-const POSITION: Control = Control::new("Position", LightDesc::POSITION);
-const TARGET: Control = Control::new("Looks at", LightDesc::TARGET);
+const NAME: Control = Control::new("Name", Common::NAME);
+const WATTS: Control = Control::new("Power", Common::WATTS).log_slider(0.0, 1000.0);
+const COLOUR: Control = Control::new("Colour", Common::COLOUR);
+const POSITION: Control = Control::new("Position", Common::POSITION);
+const TARGET: Control = Control::new("Looks at", Common::TARGET);
 const ANGLE: Control = Control::new("Cone", SpotLight::ANGLE).log_slider(0.1, 180.0);
 const EDGE: Control = Control::new("Soft edge", SpotLight::SOFT_EDGE);
 const IRRADIANCE: Control = Control::new("Irradiance", DirectionalLight::IRRADIANCE).log_slider(0.0, 2000.0);

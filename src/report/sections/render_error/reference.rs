@@ -6,8 +6,8 @@ use crate::crop::{Crop, shrunk};
 use crate::ssim::ssim;
 use lightloom_core::Result;
 use lightloom_core::engine::{FittedProject, PlaneLight};
-use lightloom_core::render::density::Smoother;
-use lightloom_core::render::{Image, ReceiverTexture, View, plane_picture};
+use lightloom_core::render::density::KernelFilter;
+use lightloom_core::render::{Image, ReceiverTexture, View, plane_image};
 
 /// Largest change of a still pixel from one frame to the next, as a share of its light.
 const STILL: f32 = 0.02;
@@ -75,9 +75,9 @@ impl PlanePictures {
         let picture = |texture: &ReceiverTexture| {
             let mut texture = texture.clone();
             if radius > 0.0 {
-                Smoother::default().filter(&mut texture, radius);
+                KernelFilter::default().filter(&mut texture, radius);
             }
-            plane_picture(&texture, fitted.extent(), fitted.paper())
+            plane_image(&texture, fitted.extent(), fitted.plane_material())
         };
         Self(light.iter().map(picture).collect())
     }

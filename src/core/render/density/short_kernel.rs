@@ -1,6 +1,6 @@
-//! A short kernel as one weighted sum along each axis, done only where there is light.
+//! A short separable kernel, applied only where there is light.
 //!
-//! Both axes are done band by band of rows, from one texture into another: what lies between stays in the cache.
+//! Both axes are filtered band by band of rows, from one texture to another: the intermediate rows stay in the cache.
 
 use glam::Vec4;
 use rayon::prelude::*;
@@ -8,23 +8,22 @@ use rayon::prelude::*;
 use super::LANES;
 use crate::render::texture::ReceiverTexture;
 
-/// Texels that are dark or lit together. A kernel reaches no farther than to the next block.
+/// Texels per block, the unit that is dark or lit. The kernel reaches no farther than the next block.
 const BLOCK: usize = 32;
 /// Rows per task.
 const BAND: usize = 32;
 /// Numbers summed at once: four vector registers of eight.
 const VECTOR: usize = 32;
 
-/// The filter with its buffer, kept from call to call.
+/// The filter, with a buffer kept from call to call.
 #[derive(Debug, Default)]
-pub(super) struct Taps {
-    /// The texels of the result, then of the texture before.
+pub(super) struct ShortKernel {
+    /// The texels of the result; after the swap, those of the input.
     other: Vec<Vec4>,
 }
 
-impl Taps {
-    /// Filters by the weights of the middle and of each distance from it, which reach no farther than a block; at the
-    /// border the kernel is reflected.
+impl ShortKernel {
+    /// Filters by the weights at the centre and at each distance, at most a block; reflected at the border.
     pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, weights: &[f32]) {
         let (columns, rows) = (texture.layout().columns, texture.layout().rows);
         self.other.resize(columns * rows, Vec4::ZERO);
@@ -50,10 +49,10 @@ impl Source<'_> {
     }
 }
 
-/// What the work on one band needs.
+/// The buffers of one band.
 #[derive(Default)]
 struct Band {
-    /// Whether a block of a source row holds light, row by row, from `reach` rows below the band to as many above.
+    /// Whether each block of a source row holds light, row by row, from `reach` rows below the band to `reach` above.
     lit: Vec<bool>,
     /// A row filtered along its columns, with `reach` texels more on either side.
     padded: Vec<f32>,
@@ -85,13 +84,13 @@ impl Band {
     }
 }
 
-/// A place that may lie beyond 0..`all`, reflected as often as it takes.
-fn reflected(place: isize, all: usize) -> usize {
-    let place = place.rem_euclid(2 * all as isize) as usize;
-    place.min(2 * all - 1 - place)
+/// The index in 0..`count` of one beyond, by reflection.
+fn reflected(index: isize, count: usize) -> usize {
+    let index = index.rem_euclid(2 * count as isize) as usize;
+    index.min(2 * count - 1 - index)
 }
 
-/// One row filtered along the columns, from the rows `near` it.
+/// One row filtered across rows, from those `near` it.
 fn upright_row(source: &Source, near: &[usize], lit: &[bool], weights: &[f32], out: &mut [f32]) {
     let mut lines: Vec<&[f32]> = Vec::with_capacity(near.len());
     for (block, out) in out.chunks_mut(LANES * BLOCK).enumerate() {
@@ -113,7 +112,7 @@ fn reflect(padded: &mut [f32], reach: usize, columns: usize) {
     }
 }
 
-/// One row filtered along itself.
+/// One row filtered along itself, across columns.
 fn level_row(padded: &[f32], lit: &[bool], weights: &[f32], out: &mut [f32]) {
     let taps = 2 * weights.len() - 1;
     let mut lines: Vec<&[f32]> = Vec::with_capacity(taps);
@@ -129,7 +128,7 @@ fn level_row(padded: &[f32], lit: &[bool], weights: &[f32], out: &mut [f32]) {
     }
 }
 
-/// The weighted sum of lines as long as `out`; the weight of a line is that of its distance from the middle one.
+/// The weighted sum of lines; a line's weight is by its distance from the middle one.
 fn weigh(lines: &[&[f32]], weights: &[f32], out: &mut [f32]) {
     let reach = weights.len() - 1;
     let (vectors, rest) = out.as_chunks_mut::<VECTOR>();
@@ -156,7 +155,7 @@ fn weigh(lines: &[&[f32]], weights: &[f32], out: &mut [f32]) {
 mod tests {
     use glam::{Vec2, vec2};
 
-    use super::super::boxes::{Box1, Running};
+    use super::super::running_sum::{ExtendedBox, RunningSum};
     use super::*;
     use crate::render::TextureLayout;
 
@@ -174,10 +173,10 @@ mod tests {
     fn short_sums_and_running_ones_are_the_same_filter() {
         // From a part of a texel to the longest that is taken.
         for variance in [0.1, 0.6, 1.9, 4.0, 15.0] {
-            let kernel = Box1::with_variance(variance);
+            let kernel = ExtendedBox::with_variance(variance);
             let (mut short, mut long) = (texture(), texture());
-            Taps::default().filter(&mut short, &kernel.taps());
-            Running::default().filter(&mut long, &kernel);
+            ShortKernel::default().filter(&mut short, &kernel.weights());
+            RunningSum::default().filter(&mut long, &kernel);
             let gap = short.texels().iter().zip(long.texels()).map(|(a, b)| (*a - *b).abs().max_element());
             // Weights and sums of f32, of values up to 2.
             assert!(gap.fold(0.0, f32::max) < 1e-6, "variance {variance}");
@@ -188,7 +187,7 @@ mod tests {
     fn a_texture_narrower_than_the_kernel_keeps_its_light() {
         let mut texture = ReceiverTexture::new(TextureLayout::new(Vec2::new(1.0, 0.05), 40, 0.0));
         texture.texels_mut()[3] = Vec4::ONE;
-        Taps::default().filter(&mut texture, &Box1::with_variance(15.0).taps());
+        ShortKernel::default().filter(&mut texture, &ExtendedBox::with_variance(15.0).weights());
         assert!((texture.total().x - 1.0).abs() < 1e-6);
     }
 }

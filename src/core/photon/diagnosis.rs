@@ -1,11 +1,11 @@
-//! Why is there no caustic? The first condition that fails, and who takes part.
+//! The diagnosis of a scene without caustics: the first condition that fails, with the objects concerned.
 
-use super::Ledger;
+use super::FluxBalance;
 use crate::Error;
 use crate::scene::Scene;
 
-/// The error that tells the artist which link of the chain light, caster, receiver is broken.
-pub(super) fn no_caustic(scene: &Scene, ledgers: &[Ledger]) -> Error {
+/// The error that names the broken link of the chain light, caster, receiver.
+pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
     let casters: Vec<&str> = scene
         .meshes()
         .iter()
@@ -20,8 +20,8 @@ pub(super) fn no_caustic(scene: &Scene, ledgers: &[Ledger]) -> Error {
     } else {
         let each = lights
             .iter()
-            .zip(ledgers)
-            .map(|(name, ledger)| format!("light '{name}' {}", broken_link(ledger)));
+            .zip(balances)
+            .map(|(name, balance)| format!("light '{name}' {}", broken_link(balance)));
         each.collect::<Vec<_>>().join("; ")
     };
     let list = |names: &[&str]| {
@@ -44,11 +44,11 @@ pub(super) fn no_caustic(scene: &Scene, ledgers: &[Ledger]) -> Error {
     )
 }
 
-/// What happens to a light's photons, in the order of their way.
-fn broken_link(ledger: &Ledger) -> String {
+/// The fate of a light's photons, in the order of their path.
+fn broken_link(balance: &FluxBalance) -> String {
     let sum = |flux: glam::DVec3| flux.element_sum();
-    let met = sum(ledger.emitted - ledger.direct);
-    if sum(ledger.emitted) <= 0.0 {
+    let met = sum(balance.emitted - balance.direct);
+    if sum(balance.emitted) <= 0.0 {
         return "sends nothing towards glass or mirrors (is it on, and turned to them?)".to_owned();
     }
     if met <= 0.0 {
@@ -60,10 +60,10 @@ fn broken_link(ledger: &Ledger) -> String {
         "reaches them, but none of that light comes to the lit side of the receiver: {} leaves the scene, {} falls \
          beside the receiver, {} ends on matt things or the receiver's back, {} is absorbed, {} stays in the glass; move \
          or enlarge the receiver, or turn its lit side to the glass",
-        share(ledger.escaped),
-        share(ledger.surround),
-        share(ledger.blocked),
-        share(ledger.absorbed),
-        share(ledger.capped)
+        share(balance.escaped),
+        share(balance.surround),
+        share(balance.blocked),
+        share(balance.absorbed),
+        share(balance.capped)
     )
 }

@@ -1,9 +1,9 @@
-//! What a field means, from the schema's own descriptions: so that an error says which range is allowed.
+//! The documentation of fields in the schema, for error messages that name the allowed range.
 
 use serde_json::Value;
 
-/// The description of the field at a path such as `keys[1].shows.image`, where the schema has one.
-pub(super) fn field(schema: &Value, path: &str) -> Option<String> {
+/// The description of the field at a path such as `keys[1].shows.image`, if the schema has one.
+pub(super) fn description(schema: &Value, path: &str) -> Option<String> {
     let mut node = schema;
     for step in path.split('.') {
         let (name, indices) = step.split_at(step.find('[').unwrap_or(step.len()));
@@ -16,7 +16,7 @@ pub(super) fn field(schema: &Value, path: &str) -> Option<String> {
     Some(description.as_str()?.replace("\\[", "[").replace("\\]", "]").replace('\n', " "))
 }
 
-/// The property `name` of `node`, also where `node` is a choice between several forms.
+/// The property `name` of `node`, also where `node` is a choice of several forms.
 fn child<'a>(schema: &'a Value, node: &'a Value, name: &str) -> Option<&'a Value> {
     let node = resolve(schema, node)?;
     if let Some(found) = node.get("properties").and_then(|p| p.get(name)) {

@@ -1,4 +1,4 @@
-//! Boxes summed on the run: the cost does not depend on their length.
+//! Box filters by running sums: the cost does not depend on their length.
 
 use std::ops::Range;
 
@@ -8,22 +8,22 @@ use rayon::prelude::*;
 use super::{BOXES, LANES};
 use crate::render::texture::ReceiverTexture;
 
-/// Columns, or rows, filtered side by side: two cache lines, and enough vector registers' worth of running sums.
+/// Columns, or rows, filtered side by side: two cache lines, and enough running sums for the vector registers.
 const STRIP: usize = 8;
 
 /// The texels of one row of a strip of columns, or of one column of a block of rows.
 type Cell = [f32; LANES * STRIP];
 const EMPTY: Cell = [0.0; LANES * STRIP];
 
-/// The filter with its buffers, kept from call to call.
+/// The filter, with buffers kept from call to call.
 #[derive(Debug, Default)]
-pub(super) struct Running {
+pub(super) struct RunningSum {
     strips: Vec<Line>,
 }
 
-impl Running {
-    /// Applies the box three times along columns and rows.
-    pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, kernel: &Box1) {
+impl RunningSum {
+    /// Applies the three boxes along columns and rows.
+    pub(super) fn filter(&mut self, texture: &mut ReceiverTexture, kernel: &ExtendedBox) {
         let columns = texture.layout().columns;
         self.strips.resize_with(columns.div_ceil(STRIP), Line::default);
         let texels: &[f32] = bytemuck::cast_slice(texture.texels());
@@ -64,12 +64,12 @@ fn across(strips: &[Line], x: usize, first: usize, rows: usize) -> Cell {
 
 /// A box of 2 `half` + 1 cells and `edge` of a cell more on either side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Box1 {
+pub(super) struct ExtendedBox {
     half: usize,
     edge: f64,
 }
 
-impl Box1 {
+impl ExtendedBox {
     /// The box whose variance, in cells squared, is `variance`.
     pub(super) fn with_variance(variance: f64) -> Self {
         // A box of 2k+1 cells has the variance k(k+1)/3; k is the largest that does not exceed it.
@@ -83,13 +83,13 @@ impl Box1 {
         self.half == 0 && self.edge < 1e-9
     }
 
-    /// Cells that it reaches to either side.
+    /// Its reach to either side, cells.
     pub(super) fn reach(&self) -> usize {
         self.half + 1
     }
 
-    /// All boxes as one: the weight of the middle and of each distance from it, which add up to 1 over both sides.
-    pub(super) fn taps(&self) -> Vec<f32> {
+    /// The three boxes as one kernel: the weight at the centre and at each distance; they sum to 1 over both sides.
+    pub(super) fn weights(&self) -> Vec<f32> {
         let norm = 1.0 / (2.0 * self.half as f64 + 1.0 + 2.0 * self.edge);
         let mut one = vec![norm; 2 * self.reach() + 1];
         (one[0], one[2 * self.reach()]) = (self.edge * norm, self.edge * norm);
@@ -103,7 +103,7 @@ impl Box1 {
         convolved[convolved.len() / 2..].iter().map(|&weight| weight as f32).collect()
     }
 
-    /// One box over `from`, which reaches `half` + 1 cells further on either side than `to`.
+    /// One box over `from`, which has `half` + 1 cells more than `to` on either side.
     fn apply(&self, from: &[Cell], to: &mut [Cell]) {
         let length = 2 * self.half + 1;
         let norm = 1.0 / (length as f64 + 2.0 * self.edge);
@@ -125,7 +125,7 @@ impl Box1 {
     }
 }
 
-/// A line of cells with room for its reflection on either side, and a second one: boxes go from one to the other.
+/// A line of cells padded on either side, and a second one: each box filters from one to the other.
 #[derive(Debug, Default)]
 struct Line {
     padded: Vec<Cell>,
@@ -138,8 +138,8 @@ impl Line {
         &self.padded[self.inside.clone()]
     }
 
-    /// Takes a line and applies all boxes to it.
-    fn filter(&mut self, line: impl Iterator<Item = Cell>, kernel: &Box1) {
+    /// Applies all boxes to a line.
+    fn filter(&mut self, line: impl Iterator<Item = Cell>, kernel: &ExtendedBox) {
         let reach = kernel.half + 1;
         self.padded.clear();
         self.padded.resize(reach, EMPTY);
@@ -154,7 +154,7 @@ impl Line {
         }
     }
 
-    /// Fills the room on either side; as often to and fro as it is longer than the line.
+    /// Fills the padding by reflection, repeated where it is longer than the line.
     fn reflect(&mut self, reach: usize) {
         let count = self.inside.len();
         let mirror = |i: isize| {

@@ -1,9 +1,8 @@
-//! What each pixel sees of the receiver: directly, through glass, in mirrors.
+//! The sparse matrix from texels to pixels: what the camera sees of the receiver directly, through glass and in mirrors.
 //!
-//! Every camera sample that reaches the receiver reads the texture at one point, bilinearly. All samples of a pixel
-//! together are a short list of texels with RGB weights, and the whole picture a sparse matrix from texels to pixels: found
-//! once per camera, then a frame is one product with its texture. Light that falls from the receiver onto other matt
-//! things is left out.
+//! Every camera sample that reaches the receiver reads the texture bilinearly at one point. The samples of a pixel are a
+//! short list of texels with RGB weights, a row of the matrix; it is built once per camera, then a frame is one product
+//! with its texture. Light from the receiver on other matt surfaces is left out.
 
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
@@ -17,34 +16,33 @@ use crate::scene::material::{Beam, Material};
 use crate::scene::{Media, Ray, Scene, SurfaceId};
 use crate::{Progress, Result};
 
-/// A pixel whose path met glass or a mirror takes this many times the samples: which way a path goes there is left to
-/// chance.
+/// Factor on the samples of a pixel that sees glass or a mirror, where paths branch at random.
 const SPECULAR_FACTOR: u32 = 16;
-/// Surfaces after which a path is given up.
+/// Most surfaces of a path.
 const MAX_SURFACES: usize = 32;
-/// A sum of weights in a pixel below which a texel is left out.
+/// Weight below which a texel is dropped from a pixel.
 const NEGLIGIBLE: f32 = 1e-7;
 
 /// The sparse matrix from the texels of one layout to the pixels of one picture, compressed by rows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Visible {
+pub struct GatherMatrix {
     width: usize,
     height: usize,
     layout: TextureLayout,
-    /// Where the list of each pixel begins in `taps`, and the end.
+    /// Start of each pixel's list in `weights`, and the end.
     starts: Vec<usize>,
-    taps: Vec<Tap>,
+    weights: Vec<TexelWeight>,
 }
 
-/// One texel and what a pixel takes from a watt in it, as radiance [W/(sr m^2)].
+/// An entry of the matrix: a pixel's radiance [W/(sr m^2)] per watt in a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Tap {
+struct TexelWeight {
     texel: u32,
     weight: Vec3,
 }
 
-impl Visible {
-    /// Looks through the camera of a scene. The same seed gives the same matrix for any number of threads.
+impl GatherMatrix {
+    /// The matrix of a scene's camera. The same seed gives the same matrix for any number of threads.
     pub fn through_camera(
         scene: &Scene,
         layout: &TextureLayout,
@@ -53,7 +51,7 @@ impl Visible {
         progress: &Progress,
     ) -> Result<Self> {
         let (width, height) = (settings.width as usize, settings.height as usize);
-        let eye = Eye { scene, media: scene.media_at(scene.camera().position), width, height };
+        let camera = CameraSampler { scene, media: scene.media_at(scene.camera().position), width, height };
         let watts = texel_area(layout, scene.receiver().metres_per_plane_unit()).recip();
         progress.begin("visible", height as u64);
         let rows = (0..height).into_par_iter().map(|y| {
@@ -65,7 +63,7 @@ impl Visible {
                 let mut samples = settings.camera_samples;
                 let mut index = 0;
                 while index < samples {
-                    let (seen, specular) = eye.look(x, y, sampler.pair(index, 0), rng);
+                    let (seen, specular) = camera.sample(x, y, sampler.pair(index, 0), rng);
                     row.add(layout, seen);
                     index += 1;
                     if specular && samples == settings.camera_samples {
@@ -80,8 +78,7 @@ impl Visible {
         Ok(Self::from_rows(width, height, layout, rows.collect::<Result<Vec<_>>>()?))
     }
 
-    /// The receiver alone, seen straight on, whole and in the middle of the picture, as white paper of one metre by plane
-    /// unit: for projects without a scene.
+    /// The matrix of a project without scene: the plane seen straight on, whole and centred, white, one metre per plane unit.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -115,7 +112,7 @@ impl Visible {
         Ok(Self::from_rows(width, height, layout, rows.collect::<Result<Vec<_>>>()?))
     }
 
-    /// The picture of a texture: the radiance that each pixel receives from it, for flux in watts per texel.
+    /// The picture of a texture: radiance per pixel, for flux in watts per texel.
     ///
     /// # Panics
     /// If the texture has another layout.
@@ -126,33 +123,33 @@ impl Visible {
         image.pixels.par_chunks_mut(self.width).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.iter_mut().enumerate() {
                 let pixel_index = y * self.width + x;
-                let taps = &self.taps[self.starts[pixel_index]..self.starts[pixel_index + 1]];
-                *pixel = taps.iter().map(|tap| tap.weight * texels[tap.texel as usize].xyz()).sum();
+                let weights = &self.weights[self.starts[pixel_index]..self.starts[pixel_index + 1]];
+                *pixel = weights.iter().map(|entry| entry.weight * texels[entry.texel as usize].xyz()).sum();
             }
         });
         image
     }
 
-    /// Where the texels lie that it looks at.
+    /// The layout of the texture.
     pub fn layout(&self) -> &TextureLayout {
         &self.layout
     }
 
     fn from_rows(width: usize, height: usize, layout: &TextureLayout, rows: Vec<Row>) -> Self {
         let mut starts = Vec::with_capacity(width * height + 1);
-        let mut taps = Vec::with_capacity(rows.iter().map(|row| row.taps.len()).sum());
+        let mut weights = Vec::with_capacity(rows.iter().map(|row| row.weights.len()).sum());
         starts.push(0);
         for row in rows {
-            starts.extend(row.ends.iter().map(|end| taps.len() + end));
-            taps.extend_from_slice(&row.taps);
+            starts.extend(row.ends.iter().map(|end| weights.len() + end));
+            weights.extend_from_slice(&row.weights);
         }
-        Self { width, height, layout: *layout, starts, taps }
+        Self { width, height, layout: *layout, starts, weights }
     }
 }
 
-/// The layout of the texture for a camera, or for the flat view without a scene: as fine as the sharper tenth of the
-/// picture shows it or as the kernel of the last pass can draw, whichever is coarser; with a margin as wide as the
-/// kernel of the first. `radius` holds the two radii, first and last, in plane units.
+/// The texture layout for a camera, or for the flat view without a scene: as fine as the sharper tenth of the picture or
+/// the kernel of the last pass, whichever is coarser; with a margin as wide as the kernel of the first. `radius` is
+/// that of the first and the last pass, plane units.
 pub fn layout_for(
     scene: Option<&Scene>,
     extent: Vec2,
@@ -173,13 +170,13 @@ pub(super) fn flat_pixel(extent: Vec2, size: Vec2) -> f32 {
     (extent / size).max_element()
 }
 
-/// The plane units that one pixel covers in the sharper tenth of what the camera sees of the receiver directly.
+/// Plane units per pixel in the sharper tenth of the receiver's directly visible part.
 fn camera_pixel(scene: &Scene, settings: &RenderSettings) -> Option<f32> {
     const PROBES: usize = 64;
     let (width, height) = (settings.width as usize, settings.height as usize);
-    let eye = Eye { scene, media: Media::default(), width, height };
+    let camera = CameraSampler { scene, media: Media::default(), width, height };
     let place = |x: f32, y: f32| {
-        let hit = scene.intersect(&eye.ray(vec2(x, y)))?;
+        let hit = scene.intersect(&camera.ray(vec2(x, y)))?;
         (hit.surface == SurfaceId::Receiver).then(|| scene.receiver().plane_from_world(hit.point))
     };
     let mut sizes: Vec<f32> = (0..PROBES * PROBES)
@@ -198,25 +195,25 @@ fn texel_area(layout: &TextureLayout, metres: f32) -> f32 {
     (layout.texel * metres).powi(2)
 }
 
-/// The camera with the picture in front of it.
-struct Eye<'a> {
+/// The camera paths of a picture.
+struct CameraSampler<'a> {
     scene: &'a Scene,
     media: Media,
     width: usize,
     height: usize,
 }
 
-impl Eye<'_> {
-    /// The ray through a place of the picture, in pixels from its upper left corner.
+impl CameraSampler<'_> {
+    /// The ray through a point of the picture, in pixels from the upper left corner.
     fn ray(&self, at: Vec2) -> Ray {
         let size = vec2(self.width as f32, self.height as f32);
         let place = at / size * 2.0 - 1.0;
         self.scene.camera().ray(place.x, -place.y, size.x / size.y)
     }
 
-    /// Follows one sample of a pixel: where it meets the plane of the receiver, with its throughput, and whether it met
-    /// something specular.
-    fn look(&self, x: usize, y: usize, u: [f32; 2], rng: &mut Stream) -> (Option<(Vec2, Vec3)>, bool) {
+    /// One sample of a pixel: its point on the plane of the receiver with its throughput, and whether it met a specular
+    /// surface.
+    fn sample(&self, x: usize, y: usize, u: [f32; 2], rng: &mut Stream) -> (Option<(Vec2, Vec3)>, bool) {
         let scene = self.scene;
         let mut ray = self.ray(vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(u));
         let mut beam = Beam::new(Vec3::ONE, self.media);
@@ -241,34 +238,34 @@ impl Eye<'_> {
     }
 }
 
-/// The pixels of one row of the picture, while they are made.
+/// The pixels of one row of the picture, under construction.
 #[derive(Debug, Default)]
 struct Row {
     ends: Vec<usize>,
-    taps: Vec<Tap>,
+    weights: Vec<TexelWeight>,
     /// Taps of the samples of the current pixel.
-    loose: Vec<Tap>,
+    loose: Vec<TexelWeight>,
 }
 
 impl Row {
-    /// Adds what one sample saw to the current pixel.
+    /// Adds one sample to the current pixel.
     fn add(&mut self, layout: &TextureLayout, seen: Option<(Vec2, Vec3)>) {
         let Some((point, weight)) = seen else { return };
         for (texel, share) in layout.bilinear(point).into_iter().flatten() {
-            self.loose.push(Tap { texel: texel as u32, weight: weight * share });
+            self.loose.push(TexelWeight { texel: texel as u32, weight: weight * share });
         }
     }
 
-    /// Merges the taps of the current pixel, multiplies them by `scale`, and goes on to the next.
+    /// Merges the weights of the current pixel, times `scale`, and begins the next.
     fn finish_pixel(&mut self, scale: f32) {
-        self.loose.sort_by_key(|tap| tap.texel);
+        self.loose.sort_by_key(|entry| entry.texel);
         for same in self.loose.chunk_by(|a, b| a.texel == b.texel) {
-            let weight: Vec3 = same.iter().map(|tap| tap.weight).sum();
+            let weight: Vec3 = same.iter().map(|entry| entry.weight).sum();
             if weight.max_element() > NEGLIGIBLE {
-                self.taps.push(Tap { texel: same[0].texel, weight: weight * scale });
+                self.weights.push(TexelWeight { texel: same[0].texel, weight: weight * scale });
             }
         }
         self.loose.clear();
-        self.ends.push(self.taps.len());
+        self.ends.push(self.weights.len());
     }
 }

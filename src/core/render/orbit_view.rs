@@ -1,7 +1,7 @@
-//! A quick look at a scene from anywhere, to find one's way in it: no picture of its light.
+//! The orbit view: a schematic picture of a scene from anywhere, for orientation.
 //!
-//! One ray per pixel goes straight on through glass, which shows as a tinted shape with bright rims, and ends on what is
-//! matt or a mirror, lit by a lamp at the eye. The receiver shows the caustic as it is.
+//! One ray per pixel passes straight through glass, shown as a tinted shape with bright rims, to the first matt surface or
+//! mirror, lit by a lamp at the camera. The receiver shows the caustic as it is.
 
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
@@ -13,69 +13,69 @@ use crate::scene::material::{Diffuse, Material};
 use crate::scene::{Hit, Ray, Scene, SurfaceId};
 use crate::{Progress, Result};
 
-/// Surfaces of glass that a ray goes through.
+/// Most glass surfaces of a ray.
 const LAYERS: usize = 12;
-/// What a surface that faces the eye gives back of its albedo, and one that is seen along it.
+/// Reflected share of the albedo, at grazing angle and facing the camera.
 const FACING: [f32; 2] = [0.12, 0.55];
-/// What glass gives back where it faces the eye, and at its rims.
+/// Reflectance of glass, facing the camera and at its rims.
 const GLASS: [f32; 2] = [0.012, 0.4];
-/// What glass lets through where it faces the eye, and at its rims.
+/// Transmittance of glass, facing the camera and at its rims.
 const CLEAR: [f32; 2] = [0.93, 0.3];
-/// The light behind everything, below and above.
+/// Radiance of the background, below and above.
 const BEHIND: [f32; 2] = [0.015, 0.06];
-/// The receiver and the floor around it, over other matt things: dark, so that the caustic stands out.
+/// Brightness of the receiver and the floor, relative to other matt surfaces: dark, so that the caustic stands out.
 const GROUND: [f32; 2] = [0.4, 0.25];
-/// Width of the line around the receiver, pixels.
+/// Width of the outline of the receiver, pixels.
 const BORDER: f32 = 1.5;
 
-/// What a look shows beside the scene.
+/// The light in an orbit view.
 #[derive(Clone, Copy)]
-pub struct LookLight<'a> {
-    /// The light on the receiver, watts per texel.
+pub struct OrbitLight<'a> {
+    /// The caustic on the receiver, watts per texel.
     pub caustic: Option<&'a ReceiverTexture>,
-    /// Factor on the lamp at the eye, so that it is as bright on the screen at any exposure: 2^-exposure.
+    /// Factor on the lamp at the camera, 2^-exposure: equally bright on the screen at any exposure.
     pub lamp: f32,
 }
 
-/// Looks at `scene` through `camera` in a picture of `size` pixels, linear light.
+/// The orbit view of `scene` through `camera`, `size` pixels, linear light.
 ///
 /// # Errors
 /// `Cancelled`.
-pub fn look(
+pub fn orbit_image(
     scene: &Scene,
     camera: &Camera,
     size: [u32; 2],
-    light: LookLight,
+    light: OrbitLight,
     progress: &Progress,
 ) -> Result<Image> {
     let mut image = Image::new(size[0] as usize, size[1] as usize);
-    let eye = Eye { scene, light, pixel: 2.0 * camera.half_height / size[1] as f32 };
+    let shader = OrbitShader { scene, light, pixel: 2.0 * camera.half_height / size[1] as f32 };
     let extent = vec2(size[0] as f32, size[1] as f32);
     image.pixels.par_chunks_mut(size[0].max(1) as usize).enumerate().try_for_each(|(y, row)| {
         progress.check()?;
         for (x, pixel) in row.iter_mut().enumerate() {
             let at = vec2(x as f32 + 0.5, y as f32 + 0.5) / extent * 2.0 - 1.0;
-            *pixel = eye.colour(camera.ray(at.x, -at.y, extent.x / extent.y));
+            *pixel = shader.colour(camera.ray(at.x, -at.y, extent.x / extent.y));
         }
         Ok(())
     })?;
     Ok(image)
 }
 
-struct Eye<'a> {
+struct OrbitShader<'a> {
     scene: &'a Scene,
-    light: LookLight<'a>,
-    /// Angle of a pixel, about.
+    light: OrbitLight<'a>,
+    /// Approximate angle of a pixel.
     pixel: f32,
 }
 
-impl Eye<'_> {
-    /// The light along one ray.
+impl OrbitShader<'_> {
+    /// The radiance along one ray.
     fn colour(&self, mut ray: Ray) -> Vec3 {
-        let (mut colour, mut weight, mut way) = (Vec3::ZERO, Vec3::ONE, 0.0);
+        let (mut colour, mut weight, mut distance) = (Vec3::ZERO, Vec3::ONE, 0.0);
         for _ in 0..LAYERS {
             let Some(hit) = self.scene.intersect(&ray) else { break };
-            way += hit.t;
+            distance += hit.t;
             let facing = ray.direction.dot(hit.shading_normal).abs();
             match self.scene.material(hit.surface) {
                 Material::Glass(glass) => {
@@ -94,14 +94,16 @@ impl Eye<'_> {
                     let sky = between(BEHIND, 0.5 + 0.5 * reflected.y) + 0.3 * facing * facing;
                     return colour + weight * Vec3::from(mirror.reflectance) * (sky * self.light.lamp);
                 }
-                Material::Diffuse(diffuse) => return colour + weight * self.matt(&hit, facing, way, diffuse),
+                Material::Diffuse(diffuse) => {
+                    return colour + weight * self.matt(&hit, facing, distance, diffuse);
+                }
             }
         }
         colour + weight * self.light.lamp * between(BEHIND, 0.5 + 0.5 * ray.direction.y)
     }
 
-    /// What a matt surface gives back that is hit after `way` metres.
-    fn matt(&self, hit: &Hit, facing: f32, way: f32, diffuse: &Diffuse) -> Vec3 {
+    /// The radiance of a matt surface at `distance` metres.
+    fn matt(&self, hit: &Hit, facing: f32, distance: f32, diffuse: &Diffuse) -> Vec3 {
         let albedo = Vec3::from(diffuse.albedo);
         let lit = albedo * (self.light.lamp * between(FACING, facing));
         match hit.surface {
@@ -111,15 +113,16 @@ impl Eye<'_> {
                 let receiver = self.scene.receiver();
                 let p = receiver.plane_from_world(hit.point);
                 let edge = p.min(receiver.extent() - p).min_element();
-                // Seen along it, a pixel covers more of the plane.
-                let border = BORDER * self.pixel * way / facing.max(0.05) / receiver.metres_per_plane_unit();
+                // At grazing angles a pixel covers more of the plane.
+                let border =
+                    BORDER * self.pixel * distance / facing.max(0.05) / receiver.metres_per_plane_unit();
                 let line = if edge < border { 0.25 * self.light.lamp } else { 0.0 };
                 lit * GROUND[0] + self.caustic(hit) * albedo + line
             }
         }
     }
 
-    /// Radiance of the caustic on white paper at a place of the plane.
+    /// Radiance of the caustic at a hit, for albedo 1.
     fn caustic(&self, hit: &Hit) -> Vec3 {
         let Some(texture) = self.light.caustic else { return Vec3::ZERO };
         let receiver = self.scene.receiver();
@@ -135,34 +138,33 @@ fn between([from, to]: [f32; 2], x: f32) -> f32 {
     from + (to - from) * x
 }
 
-/// Something of a scene that no ray meets, in a look at it.
+/// The position of an object without a surface in an orbit view.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// What it is.
-    pub kind: MarkKind,
-    /// Its place in pixels from the upper left corner; it may lie beyond the picture.
+pub struct SceneMarker {
+    /// Kind of object.
+    pub kind: MarkerKind,
+    /// Its position in pixels from the upper left corner; may lie outside the picture.
     pub at: Vec2,
 }
 
-/// What a [`Mark`] stands for.
+/// The object of a [`SceneMarker`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkKind {
-    /// The light of this number in the scene.
+pub enum MarkerKind {
+    /// The light of this index in the scene.
     Light(usize),
-    /// The camera that the pictures are taken with.
+    /// The camera of the rendered pictures.
     Camera,
 }
 
-/// Where the lights and the camera of a scene are in a look at it; those behind the eye, and directional lights, are
-/// nowhere.
-pub fn marks(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<Mark> {
+/// The markers of the lights and the camera of a scene in an orbit view; none behind the view, none for directional lights.
+pub fn scene_markers(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<SceneMarker> {
     let size = vec2(size[0] as f32, size[1] as f32);
     let lights = scene.lights().iter().enumerate();
-    let lights = lights.filter_map(|(i, light)| Some((MarkKind::Light(i), light.position()?)));
-    let all = lights.chain([(MarkKind::Camera, scene.camera().position)]);
+    let lights = lights.filter_map(|(i, light)| Some((MarkerKind::Light(i), light.position()?)));
+    let all = lights.chain([(MarkerKind::Camera, scene.camera().position)]);
     let mark = |(kind, place)| {
         let at = camera.project(place, size.x / size.y)?;
-        Some(Mark { kind, at: (vec2(at.x, -at.y) + 1.0) * 0.5 * size })
+        Some(SceneMarker { kind, at: (vec2(at.x, -at.y) + 1.0) * 0.5 * size })
     };
     all.filter_map(mark).collect()
 }

@@ -1,66 +1,67 @@
-//! Learns from trial paths which cells of a domain send photons to the receiver: a quadtree, refined where some do.
+//! The learning of the emission guide: a quadtree over one domain, refined where trial paths reach the receiver.
 
 use rayon::prelude::*;
 
-use super::aim::Domain;
-use super::path::{Ledger, follow};
+use super::emission_plan::Domain;
+use super::path::{FluxBalance, follow};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
-/// Paths per level of the quadtree, shared among its open cells, but so many per cell.
+/// Trial paths per level of the quadtree, shared among its open cells, and the bounds per cell.
 const LEVEL_PROBES: u64 = 16_384;
 const CELL_PROBES: std::ops::RangeInclusive<u64> = 4..=64;
-/// Where the first level saw nothing land, it looks again with this many times the paths.
+/// Factor on the paths of a second attempt, where nothing landed on the first level.
 const SECOND_LOOK: u64 = 16;
-/// First level of the quadtree, 32 x 32 cells, and last.
+/// First and last level of the quadtree; the first has 32 x 32 cells.
 const FIRST_LEVEL: u32 = 5;
 const LAST_LEVEL: u32 = 10;
-/// Pass number of the trial paths; no render reaches it.
+/// Random-stream pass number of the trial paths; no render reaches it.
 const LEARNING: u64 = u64::MAX;
 
 /// A leaf of the quadtree over one domain.
 pub(super) struct Leaf {
     pub domain: u32,
-    /// The domain has 2^level x 2^level cells of this size.
+    /// Depth: the domain has 2^level x 2^level cells of this size.
     pub level: u32,
     /// Column and row.
     pub at: [u32; 2],
-    /// Whether photons from it, or from a neighbour, were seen to land.
+    /// Whether photons from it or a neighbour reached the receiver.
     pub active: bool,
 }
 
-/// Sends trial paths from one domain.
-pub(super) struct Scout<'a> {
+/// The trial paths of one domain.
+pub(super) struct GuideLearner<'a> {
     pub scene: &'a Scene,
     pub domain: &'a Domain,
-    /// Of the domain.
+    /// Index of the domain.
     pub index: u32,
     pub seed: u64,
     pub progress: &'a Progress,
-    /// Where the trial paths end.
-    pub ledger: &'a mut Ledger,
+    /// The flux balance of the trial paths.
+    pub balance: &'a mut FluxBalance,
 }
 
-impl Scout<'_> {
-    /// Fills the ledger, without learning from it.
-    pub(super) fn look_once(&mut self) -> Result<()> {
+impl GuideLearner<'_> {
+    /// Fills the balance by a few paths, without refining.
+    pub(super) fn probe_once(&mut self) -> Result<()> {
         self.probe(FIRST_LEVEL, &all_cells(FIRST_LEVEL), *CELL_PROBES.start()).map(|_| ())
     }
 
-    /// Refines where photons land, level by level, as long as no more than `enough` cells are open.
-    pub(super) fn learn(&mut self, enough: usize) -> Result<Vec<Leaf>> {
+    /// Refines where photons land, level by level, while at most `max_open` cells are open.
+    pub(super) fn learn(&mut self, max_open: usize) -> Result<Vec<Leaf>> {
         let mut leaves = Vec::new();
         let mut open = all_cells(FIRST_LEVEL);
         let mut level = FIRST_LEVEL;
         while !open.is_empty() {
             let probes = (LEVEL_PROBES / open.len() as u64).clamp(*CELL_PROBES.start(), *CELL_PROBES.end());
             let mut landed = self.probe(level, &open, probes)?;
-            if level == FIRST_LEVEL && !landed.contains(&true) && self.ledger.met_specular() {
+            if level == FIRST_LEVEL && !landed.contains(&true) && self.balance.met_specular() {
                 landed = self.probe(level, &open, probes * SECOND_LOOK)?;
             }
             let active = with_neighbours(level, &open, &landed);
-            let refine = level < LAST_LEVEL && 4 * active.iter().filter(|active| **active).count() <= enough;
+            let refine =
+                level < LAST_LEVEL && 4 * active.iter().filter(|active| **active).count() <= max_open;
             let mut next = Vec::new();
             for (at, active) in open.into_iter().zip(active) {
                 if active && refine {
@@ -77,24 +78,24 @@ impl Scout<'_> {
         Ok(leaves)
     }
 
-    /// Sends `probes` paths from each cell: whether any lands.
+    /// Traces `probes` paths from each cell; whether any lands.
     fn probe(&mut self, level: u32, cells: &[[u32; 2]], probes: u64) -> Result<Vec<bool>> {
-        let results: Vec<(Vec<bool>, Ledger)> = cells
+        let results: Vec<(Vec<bool>, FluxBalance)> = cells
             .par_chunks(128)
             .map(|chunk| {
-                let mut ledger = Ledger::default();
+                let mut balance = FluxBalance::default();
                 let landed = chunk.iter().map(|at| {
                     self.progress.check()?;
-                    Ok(self.any_lands(level, *at, probes, &mut ledger))
+                    Ok(self.any_lands(level, *at, probes, &mut balance))
                 });
-                Ok((landed.collect::<Result<_>>()?, ledger))
+                Ok((landed.collect::<Result<_>>()?, balance))
             })
             .collect::<Result<_>>()?;
-        results.iter().for_each(|(_, ledger)| self.ledger.add(*ledger));
+        results.iter().for_each(|(_, balance)| self.balance.add(*balance));
         Ok(results.into_iter().flat_map(|(landed, _)| landed).collect())
     }
 
-    fn any_lands(&self, level: u32, at: [u32; 2], probes: u64, ledger: &mut Ledger) -> bool {
+    fn any_lands(&self, level: u32, at: [u32; 2], probes: u64, balance: &mut FluxBalance) -> bool {
         let size = 0.5_f32.powi(level as i32);
         let [x, y] = at.map(u64::from);
         let cell = (u64::from(self.index) << 44) | (u64::from(level) << 40) | (y << 20) | x;
@@ -104,7 +105,7 @@ impl Scout<'_> {
         for _ in 0..probes {
             let u = at.map(|index| (index as f32 + rng.f32()) * size);
             if let Some((ray, media)) = self.domain.sample(self.scene, u, &mut rng) {
-                landed |= follow(self.scene, ray, flux, media, &mut rng, ledger).is_some();
+                landed |= follow(self.scene, ray, flux, media, &mut rng, balance).is_some();
             }
         }
         landed
@@ -116,7 +117,7 @@ fn all_cells(level: u32) -> Vec<[u32; 2]> {
     (0..side * side).map(|i| [i % side, i / side]).collect()
 }
 
-/// Whether each cell or one of its eight neighbours had a photon that landed.
+/// For each cell, whether a photon landed from it or one of its eight neighbours.
 fn with_neighbours(level: u32, cells: &[[u32; 2]], landed: &[bool]) -> Vec<bool> {
     let side = 1_usize << level;
     let mut map = vec![false; side * side];

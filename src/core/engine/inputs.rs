@@ -1,0 +1,37 @@
+//! Everything that the smaller stages depend on.
+
+use glam::Vec2;
+
+use super::fitted_segment::FittedSegment;
+use super::matched::Matched;
+use super::memo::Same;
+use crate::render::{RenderSettings, TextureLayout};
+use crate::scene::{Geometry, LightDesc, ReceiverDesc, Scene};
+
+/// Everything that the emission guide of a scene depends on.
+#[derive(PartialEq)]
+pub(super) struct GuideInput {
+    pub(super) geometry: Same<Geometry>,
+    pub(super) lights: Vec<LightDesc>,
+    pub(super) receiver: ReceiverDesc,
+    pub(super) seed: u64,
+}
+
+/// Everything that the camera's stages depend on.
+#[derive(Clone, PartialEq)]
+pub(super) struct ViewInput {
+    pub(super) scene: Option<Same<Scene>>,
+    pub(super) render: RenderSettings,
+    pub(super) extent: Vec2,
+    pub(super) seed: u64,
+    pub(super) layout: Option<TextureLayout>,
+    pub(super) rough: bool,
+}
+
+/// Everything that the frames of a segment depend on.
+#[derive(PartialEq)]
+pub(super) struct PositionsInput {
+    pub(super) fitted: Same<FittedSegment>,
+    pub(super) matched: Same<Matched>,
+    pub(super) times: Vec<f64>,
+}

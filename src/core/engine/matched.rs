@@ -1,0 +1,74 @@
+//! The matching of a segment, and everything that it depends on.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use super::active::ActiveConstraints;
+use super::key_photons::KeyPhotons;
+use super::key_sources::KeySource;
+use super::memo::Same;
+use super::pairing::{Pairing, PairingMethod, TransportCost};
+use crate::matching::{ContinuousMap, Method};
+use crate::photon::EmissionGuide;
+use crate::project::CausticDesc;
+
+/// The continuous maps of a segment by group; absent where rows are paired as given, where the group rests, and where it
+/// has no photon.
+pub(super) type Maps = Vec<Option<ContinuousMap>>;
+
+/// The photons of a pass at both key frames of a segment, row by row.
+pub(super) struct SegmentPhotons {
+    /// Number of the segment, from 0.
+    pub(super) number: usize,
+    /// By group, at the earlier key frame.
+    pub(super) from: Arc<Vec<KeyPhotons>>,
+    /// By group, at the later one.
+    pub(super) to: Arc<Vec<KeyPhotons>>,
+    /// Flux that all photons should have at both, watts; rho does not count.
+    pub(super) requested: [f64; 2],
+    /// The groups that move; those together that share a field.
+    pub(super) layers: Vec<Vec<usize>>,
+    pub(super) matched: Arc<Matched>,
+    /// The lines and walls that act between the two.
+    pub(super) active: ActiveConstraints,
+}
+
+/// The matching of one segment.
+pub(super) struct Matched {
+    /// By group.
+    pub(super) pairings: Vec<Pairing>,
+    pub(super) maps: Arc<Maps>,
+    pub(super) cost: TransportCost,
+}
+
+/// Everything that a matching depends on.
+#[derive(PartialEq)]
+pub(super) struct MatchInput {
+    pub(super) from: Origin,
+    pub(super) sources: Vec<Same<KeySource>>,
+    pub(super) method: PairingMethod,
+    pub(super) anchors: usize,
+    pub(super) bounded: bool,
+    pub(super) maps: Option<Same<Maps>>,
+}
+
+/// Everything that the photons at a key frame depend on.
+#[derive(Clone, PartialEq)]
+pub(super) enum Origin {
+    /// At the first key frame.
+    First(Box<FirstKey>),
+    /// At a later one, as they were matched.
+    Matched(Same<Matched>),
+}
+
+#[derive(Clone, PartialEq)]
+pub(super) struct FirstKey {
+    pub(super) guide: Option<Same<EmissionGuide>>,
+    pub(super) photons: usize,
+    pub(super) seed: u64,
+    pub(super) extent: Vec2,
+    pub(super) caustics: Vec<CausticDesc>,
+    pub(super) rows: Method,
+    pub(super) sources: Vec<Same<KeySource>>,
+}

@@ -1,0 +1,59 @@
+//! What the lights have in common: settings and their checks, illumination, a frame around a direction.
+
+use glam::Vec3;
+
+use crate::setting::{Setting, settings};
+use crate::{Error, Result};
+
+/// The settings that lights share.
+pub struct Common;
+
+impl Common {
+    /// The name of a light without one.
+    pub(super) const DEFAULT_NAME: &str = "light";
+}
+
+settings! { Common {
+    /// Name of the light in the list of caustics; each name once.
+    NAME = Setting::text("scene.lights[].name");
+    /// Power of the whole light. A narrower cone of the same power is brighter.
+    WATTS = Setting::real("scene.lights[].watts", [0.0, 1e9], &[10.0]).unit("W");
+    /// Factor on the power, linear Rec.709.
+    COLOUR = Setting::colour("scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
+    /// Position of the light, x y z; y is up.
+    POSITION = Setting::vector("scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0]).unit("m");
+    /// The point the light looks at.
+    TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
+} }
+
+/// The illumination of a point by one light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illumination {
+    /// Unit vector from the point to the light.
+    pub direction: Vec3,
+    /// Distance to the light (m); infinite for a directional one.
+    pub distance: f32,
+    /// RGB irradiance on a surface that faces it [W/m^2]; for area lights an unbiased sample.
+    pub irradiance: Vec3,
+}
+
+/// Checks that all lights but the directional share.
+pub(super) fn check_lamp(place: &str, watts: f32, colour: [f32; 3], position: [f32; 3]) -> Result<()> {
+    Common::WATTS.check(watts, place)?;
+    Common::COLOUR.check(colour, place)?;
+    Common::POSITION.check(position, place)
+}
+
+/// Checks of the lights that look at a point.
+pub(super) fn check_target(place: &str, position: [f32; 3], target: [f32; 3]) -> Result<()> {
+    Common::TARGET.check(target, place)?;
+    if position == target {
+        return Err(Error::value(format!("{place}.target"), "is where the light stands: move one of them"));
+    }
+    Ok(())
+}
+
+/// Two unit vectors that complete the unit vector `z` to a right-handed frame (Duff et al. 2017).
+pub(super) fn frame(z: Vec3) -> (Vec3, Vec3) {
+    z.any_orthonormal_pair()
+}
