@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lightloom_core::engine::{Comparison, Engine, Summary, prepare_folder, write_report};
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Progress, Result};
 use lightloom_report::{Report, Stability};
@@ -39,7 +39,7 @@ impl Outcome for Summary {
 impl Outcome for Comparison {
     const FILE: &'static str = "compare.json";
     fn folders() -> Vec<&'static str> {
-        Movement::ALL.map(Movement::name).to_vec()
+        MotionMethod::ALL.map(MotionMethod::name).to_vec()
     }
     fn to_json(&self) -> String {
         self.to_json()

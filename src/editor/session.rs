@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::Vec2;
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 
 use super::selection::Selection;
 
@@ -159,7 +159,7 @@ pub struct Wipe {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
     /// Another method of movement.
-    Method(Movement),
+    Method(MotionMethod),
     /// The same project without constraints.
     NothingDrawn,
 }

@@ -1,6 +1,6 @@
 //! The editor without its window: the open document, the session and the preview, and what actions do to them.
 
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 
 use super::action::Action;
 use super::clipboard;
@@ -165,7 +165,7 @@ impl EditorState {
             Command::ZoomIn => zoom(session, ZOOM_STEP),
             Command::ZoomOut => zoom(session, ZOOM_STEP.recip()),
             Command::Compare => {
-                let with = Comparison::Method(Movement::Linear);
+                let with = Comparison::Method(MotionMethod::Linear);
                 session.compare =
                     if session.compare.is_some() { None } else { Some(Wipe { with, split: 0.5 }) };
             }

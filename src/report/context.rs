@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::effort::Effort;
 use crate::machine::Machine;
 use lightloom_core::engine::{Engine, MovingSegment, Quality, Summary};
-use lightloom_core::flow::{Fields, FlowSettings, Movement, Segment, fit_segment};
+use lightloom_core::flow::{Fields, FlowSettings, MotionMethod, Segment, fit_segment};
 use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 
@@ -135,10 +135,10 @@ impl<'a> Context<'a> {
     /// # Errors
     /// As [`Self::moving_segment`].
     pub(crate) fn flow_photons(&mut self, count: usize, progress: &Progress) -> Result<Arc<MovingSegment>> {
-        if self.project.method == Movement::Flow {
+        if self.project.method == MotionMethod::Flow {
             return self.photons(count, progress);
         }
-        let mut project = Project { method: Movement::Flow, ..self.project.clone() };
+        let mut project = Project { method: MotionMethod::Flow, ..self.project.clone() };
         project.render.photons = count as u64;
         Ok(Arc::new(self.engine.moving_segment(&project, Some(count), &progress.inner())?))
     }

@@ -6,7 +6,7 @@ use lightloom_core::render::Image;
 
 /// Share of the light that may lie beyond each edge.
 const BEYOND: f64 = 0.005;
-/// SceneCase on either side, as a share of the part's own size.
+/// Margin on either side, as a share of the part's own size.
 const ROOM: f64 = 0.05;
 
 /// A part of a picture, in pixels.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::previews::{bits, draft, example, example_path, flux, stages, two_balls};
 use glam::Vec2;
 use lightloom_core::engine::{Engine, Preview, Quality};
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 use lightloom_core::photon::Tracer;
 use lightloom_core::project::{AssetFolder, Ease, Project};
 use lightloom_core::scene::{LightDesc, Scene};
@@ -192,12 +192,12 @@ fn caustics_keep_their_rows_and_flow_by_themselves() {
 #[test]
 fn all_methods_and_a_single_key_are_previewed() {
     let (mut project, engine) = example("letters_free");
-    for method in Movement::ALL {
+    for method in MotionMethod::ALL {
         project.method = method;
         let preview = draft(&engine, &project);
         assert!(preview.frames().all(|frame| preview.is_ready(frame)), "{method:?}");
         assert_eq!(preview.positions(60).unwrap(), preview.targets(1), "{method:?}");
-        assert_eq!(preview.fields(20).is_empty(), method != Movement::Flow);
+        assert_eq!(preview.fields(20).is_empty(), method != MotionMethod::Flow);
     }
     project.keys.truncate(1);
     let still = draft(&engine, &project);

@@ -6,7 +6,7 @@ use std::fs;
 
 use lightloom::editor::document::{Document, Edit, STEPS};
 use lightloom_core::constraint::{Constraint, DirectedLine, Wall};
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 use lightloom_core::project::Project;
 use proptest::prelude::*;
 
@@ -68,7 +68,7 @@ fn edit(step: &Step, project: &Project) -> Option<Edit> {
             keys.last_mut()?.frame = *frame;
             Edit::Keys(keys)
         }
-        Step::Method(linear) => Edit::Method(if *linear { Movement::Linear } else { Movement::Flow }),
+        Step::Method(linear) => Edit::Method(if *linear { MotionMethod::Linear } else { MotionMethod::Flow }),
         Step::Settle | Step::Undo | Step::Redo => return None,
     })
 }

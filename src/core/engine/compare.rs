@@ -10,8 +10,8 @@ use super::prepare::Prepared;
 use super::render::{Output, Rendered};
 use super::{Engine, Summary, active};
 use crate::export::{ComparisonSheet, MethodRow, Overlay, OverlayLine, evenly_chosen, write_comparison};
-use crate::flow::Movement;
-use crate::matching::Method;
+use crate::flow::MotionMethod;
+use crate::matching::MatchingMethod;
 use crate::project::Project;
 use crate::render::Image;
 use crate::{Error, Progress, Result};
@@ -46,7 +46,7 @@ pub struct Comparison {
 #[derive(Clone, Debug, Serialize)]
 pub struct Compared {
     /// Its name in project files.
-    pub method: Movement,
+    pub method: MotionMethod,
     /// Unexplained share of the velocity variance at t = 0.25, 0.5, 0.75, the worst of all segments; absent where nothing
     /// moves.
     pub crossing_index: Option<[f64; 3]>,
@@ -86,8 +86,8 @@ impl Engine {
         for (prepared, _) in &prepared {
             prepared.plan.require_memory()?;
         }
-        progress.set_stages(road(&prepared));
-        let mut done: Vec<(Movement, Rendered)> = Vec::new();
+        progress.set_stages(stages_ahead(&prepared));
+        let mut done: Vec<(MotionMethod, Rendered)> = Vec::new();
         let mut stopped = false;
         for ((method, _), (prepared, meter)) in variants.iter().zip(prepared) {
             let folder = out.join(method.name());
@@ -114,22 +114,24 @@ impl Engine {
 }
 
 /// The project by each method that can do it, with the frames to be rendered.
-fn variants(project: &Project, most: Option<usize>) -> Result<Vec<(Movement, Project)>> {
+fn variants(project: &Project, most: Option<usize>) -> Result<Vec<(MotionMethod, Project)>> {
     let frames = project.frames()?;
     let chosen = evenly_chosen(&frames, most.unwrap_or(frames.len()));
     let list = chosen.iter().map(i32::to_string).collect::<Vec<_>>().join(",");
     // The method of 2016 finds its own pairs.
-    let able = |method: &Movement| project.matching == Method::Transport || *method != Movement::Stylized;
+    let able = |method: &MotionMethod| {
+        project.matching == MatchingMethod::Transport || *method != MotionMethod::Stylized
+    };
     let variant = |method| {
         let mut variant = Project { method, ..project.clone() };
         variant.output.frames = Some(list.clone());
         (method, variant)
     };
-    Ok(Movement::ALL.into_iter().filter(able).map(variant).collect())
+    Ok(MotionMethod::ALL.into_iter().filter(able).map(variant).collect())
 }
 
 /// The stages ahead; camera and background are looked at once.
-fn road(prepared: &[(Prepared, Meter)]) -> Vec<(&'static str, f64)> {
+fn stages_ahead(prepared: &[(Prepared, Meter)]) -> Vec<(&'static str, f64)> {
     let stages = prepared.iter().enumerate().flat_map(|(i, (prepared, _))| {
         let once = |stage: &str| ["visible", "background"].contains(&stage);
         prepared.plan.stages.iter().copied().filter(move |(stage, _)| i == 0 || !once(stage))
@@ -138,7 +140,7 @@ fn road(prepared: &[(Prepared, Meter)]) -> Vec<(&'static str, f64)> {
 }
 
 impl Comparison {
-    fn new(project: &Project, done: &[(Movement, Rendered)], stopped: bool) -> Self {
+    fn new(project: &Project, done: &[(MotionMethod, Rendered)], stopped: bool) -> Self {
         let methods = done.iter().map(|(method, rendered)| Compared::new(*method, rendered, done)).collect();
         let summary = done.first().map(|(_, rendered)| &rendered.summary);
         let shown: Vec<i32> =
@@ -156,7 +158,12 @@ impl Comparison {
     }
 
     /// Draws all methods on one page.
-    fn write_sheet(&self, path: &Path, drawn: &[OverlayLine], done: &[(Movement, Rendered)]) -> Result<()> {
+    fn write_sheet(
+        &self,
+        path: &Path,
+        drawn: &[OverlayLine],
+        done: &[(MotionMethod, Rendered)],
+    ) -> Result<()> {
         let rows: Vec<MethodRow> =
             self.methods.iter().zip(done).map(|(m, (_, r))| m.row(&self.frames, r)).collect();
         let size = rows.iter().flat_map(|row| &row.pictures).next().map_or([1, 1], |p| [p.width, p.height]);
@@ -202,7 +209,7 @@ impl Comparison {
 }
 
 impl Compared {
-    fn new(method: Movement, rendered: &Rendered, all: &[(Movement, Rendered)]) -> Self {
+    fn new(method: MotionMethod, rendered: &Rendered, all: &[(MotionMethod, Rendered)]) -> Self {
         let summary = rendered.summary.clone();
         let seconds = |stage: &str| {
             summary.stages.iter().find(|cost| cost.stage == stage).map_or(0.0, |cost| cost.seconds)

@@ -8,7 +8,7 @@ use super::grouping::{CausticFlux, Grouping};
 use super::matched::{Maps, Matched};
 use super::memo::Same;
 use super::pairing::TransportCost;
-use crate::flow::{Fields, FlowReport, FlowSettings, Movement, SegmentFlow};
+use crate::flow::{Fields, FlowReport, FlowSettings, MotionMethod, SegmentFlow};
 
 /// The fitted flow of one segment.
 pub(super) struct FittedSegment {
@@ -40,7 +40,7 @@ pub(super) struct FittedFlow {
 pub(super) struct FlowInput {
     pub(super) matched: Same<Matched>,
     pub(super) active: ActiveConstraints,
-    pub(super) method: Movement,
+    pub(super) method: MotionMethod,
     pub(super) settings: FlowSettings,
 }
 

@@ -16,7 +16,7 @@ use super::memo::Same;
 use super::meter::Meter;
 use super::walk::{MapsFrom, Walk};
 use crate::flow::{
-    FlowReport, FlowSettings, Movement, PathTrajectories, Segment, SegmentFlow, Snapshots,
+    FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots,
     fit_with_snapshots, path_report,
 };
 use crate::project::Project;
@@ -44,7 +44,13 @@ pub(super) fn fit_segment(
     samples: Option<LayerSamples>,
 ) -> Result<Arc<FittedSegment>> {
     let Project { method, flow, .. } = job.project;
-    let settings = FlowSettings { rho: 1.0, ..flow.clone() };
+    let settings = match method {
+        MotionMethod::Flow => FlowSettings { rho: 1.0, ..flow.clone() },
+        // Closed-form paths are watched by so many guides at so many times, and heed nothing else.
+        MotionMethod::Stylized | MotionMethod::Linear => {
+            FlowSettings { guides: flow.guides, steps: flow.steps, ..FlowSettings::default() }
+        }
+    };
     let matched = &photons.matched;
     let input =
         FlowInput { matched: Same::of(matched), active: photons.active.clone(), method: *method, settings };
@@ -125,7 +131,7 @@ fn column<'a>(
 
 /// Fits the flow of one layer by a method, and reports on it. `samples` are shown the photons that the method looks at.
 fn fit_layer(
-    method: Movement,
+    method: MotionMethod,
     segment: &Segment,
     midpoint_offsets: &[Vec2],
     samples: Option<Snapshots>,
@@ -133,11 +139,11 @@ fn fit_layer(
     progress: &Progress,
 ) -> Result<(SegmentFlow, FlowReport)> {
     match method {
-        Movement::Flow => meter.measure("fit", || {
+        MotionMethod::Flow => meter.measure("fit", || {
             let (fields, report) = fit_with_snapshots(segment, samples, progress)?;
             Ok((SegmentFlow::Fields(fields), report))
         }),
-        Movement::Stylized | Movement::Linear => meter.measure("watch", || {
+        MotionMethod::Stylized | MotionMethod::Linear => meter.measure("watch", || {
             let Segment { source, target, extent, settings, .. } = *segment;
             let (guides, steps) = (settings.guides as usize, settings.steps as usize);
             let paths = PathTrajectories::new(source, target, midpoint_offsets);

@@ -10,7 +10,7 @@ use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
-use crate::flow::Movement;
+use crate::flow::MotionMethod;
 use crate::project::Project;
 use crate::render::{GatherMatrix, Image, PlaneView, ProgressiveRender, View};
 use crate::{Error, Progress, Result};
@@ -36,7 +36,7 @@ pub(super) struct FrameWriter<'a> {
     /// The drawn constraints, for the contact sheet.
     pub(super) drawn: &'a [OverlayLine],
     pub(super) plane: PlaneView,
-    /// Told of each file as it is complete.
+    /// Called with each finished file.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
@@ -113,7 +113,7 @@ impl FrameWriter<'_> {
             ("flow".into(), json(serde_json::to_string(flow))),
             ("render".into(), json(serde_json::to_string(render))),
         ];
-        if *method != Movement::Flow {
+        if *method != MotionMethod::Flow {
             settings.push(("method".into(), method.name().into()));
         }
         Metadata {

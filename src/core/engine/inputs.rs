@@ -1,4 +1,4 @@
-//! Everything that the smaller stages depend on.
+//! The keys under which emission guides, camera views and positions are remembered.
 
 use glam::Vec2;
 

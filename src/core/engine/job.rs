@@ -1,4 +1,4 @@
-//! One piece of work: a prepared project, the stages it asks, and who watches it.
+//! The context of one piece of work: a prepared project, the stages, progress and costs.
 
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec2, Vec3};
 pub(super) struct GroupLight {
     /// The traced photons; absent where no key frame shows them.
     pub(super) physical: Option<KeyPhotons>,
-    /// Flux of all photons, watts, which the other key frames share out.
+    /// Flux of all photons, watts; the other key frames distribute it over their points.
     pub(super) total: DVec3,
     /// Number of photons.
     pub(super) count: usize,

@@ -10,7 +10,7 @@ use super::grouping::{CausticFlux, Grouping};
 use super::key_photons::{GroupLight, KeyPhotons, PassLight};
 use super::memo::{FileStamp, Same};
 use crate::flow::flux;
-use crate::matching::Method;
+use crate::matching::MatchingMethod;
 use crate::photon::Photons;
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
@@ -123,10 +123,10 @@ impl KeySources {
     }
 
     /// The rows of the point files where rows are paired as given: all files must have the same number.
-    pub(super) fn given_rows(&self, method: Method) -> Result<Option<usize>> {
+    pub(super) fn given_rows(&self, method: MatchingMethod) -> Result<Option<usize>> {
         let mut rows = None;
         for (i, key) in self.shown.iter().enumerate() {
-            let (KeySource::Points(points), Method::Given) = (&*key[0], method) else { continue };
+            let (KeySource::Points(points), MatchingMethod::Given) = (&*key[0], method) else { continue };
             let count = points.positions.len();
             match rows {
                 Some(first) if first != count => {
@@ -143,7 +143,7 @@ impl KeySources {
 
     /// The same of which at most `count` rows of the point files, the same of each, stand for all where rows are paired as
     /// given; and the number of photons that remain of `count`.
-    pub(super) fn thinned(&self, method: Method, count: usize) -> Result<(Self, usize)> {
+    pub(super) fn thinned(&self, method: MatchingMethod, count: usize) -> Result<(Self, usize)> {
         let mut thinned = self.clone();
         let Some(rows) = self.given_rows(method)? else { return Ok((thinned, count)) };
         if rows > count {

@@ -9,7 +9,7 @@ use super::key_photons::KeyPhotons;
 use super::key_sources::KeySource;
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
-use crate::matching::{ContinuousMap, Method};
+use crate::matching::{ContinuousMap, MatchingMethod};
 use crate::photon::EmissionGuide;
 use crate::project::CausticDesc;
 
@@ -69,6 +69,6 @@ pub(super) struct FirstKey {
     pub(super) seed: u64,
     pub(super) extent: Vec2,
     pub(super) caustics: Vec<CausticDesc>,
-    pub(super) rows: Method,
+    pub(super) matching: MatchingMethod,
     pub(super) sources: Vec<Same<KeySource>>,
 }

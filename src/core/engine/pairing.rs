@@ -7,8 +7,8 @@ use glam::Vec2;
 use super::active::active;
 use super::key_photons::KeyPhotons;
 use crate::constraint::{ActiveWall, VisibilityGraph};
-use crate::flow::Movement;
-use crate::matching::{ContinuousMap, Method, StylizedMap, WallMap, transport_map};
+use crate::flow::MotionMethod;
+use crate::matching::{ContinuousMap, MatchingMethod, StylizedMap, WallMap, transport_map};
 use crate::project::Project;
 use crate::{Progress, Result};
 
@@ -37,10 +37,10 @@ impl PairingMethod {
     /// The method of a project in segment `segment`.
     pub(super) fn of(project: &Project, segment: usize, extent: Vec2) -> Self {
         match (project.matching, project.method) {
-            (Method::Given, _) => Self::Given,
-            (Method::Transport, Movement::Linear) => Self::Transport,
-            (Method::Transport, Movement::Stylized) => Self::Stylized,
-            (Method::Transport, Movement::Flow) => {
+            (MatchingMethod::Given, _) => Self::Given,
+            (MatchingMethod::Transport, MotionMethod::Linear) => Self::Transport,
+            (MatchingMethod::Transport, MotionMethod::Stylized) => Self::Stylized,
+            (MatchingMethod::Transport, MotionMethod::Flow) => {
                 let mut walls = active(project, segment, extent).walls;
                 walls.retain(takes_part);
                 if walls.is_empty() { Self::Transport } else { Self::AroundWalls(walls) }

@@ -4,8 +4,8 @@ use glam::Vec2;
 use serde::Serialize;
 
 use crate::constraint::Constraint;
-use crate::flow::{Movement, TurbulenceSettings};
-use crate::matching::Method;
+use crate::flow::{MotionMethod, TurbulenceSettings};
+use crate::matching::MatchingMethod;
 use crate::project::{Project, Shows};
 use crate::render::frames::FrameStore;
 use crate::{Error, Result};
@@ -121,8 +121,9 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
 
 /// The parts between matching and arrival, for projects whose light moves.
 fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
-    let (flow, given) = (project.fits(), project.matching == Method::Given);
-    let [linear, stylized] = [Movement::Linear, Movement::Stylized].map(|method| project.method == method);
+    let (flow, given) = (project.fits(), project.matching == MatchingMethod::Given);
+    let [linear, stylized] =
+        [MotionMethod::Linear, MotionMethod::Stylized].map(|method| project.method == method);
     let rests = (1..project.keys.len()).any(|key| layers(project, key) == 0);
     let gamma = project.flow.gamma;
     let drawn = || project.constraints.iter().filter(|constraint| constraint.is_enabled());
@@ -199,10 +200,10 @@ fn motion_stages(
 }
 
 /// Points paired per second by the first pass, and by each later one.
-fn match_pace(method: Movement) -> [f64; 2] {
+fn match_pace(method: MotionMethod) -> [f64; 2] {
     match method {
-        Movement::Flow | Movement::Linear => [pace::MATCH, pace::REMATCH],
-        Movement::Stylized => [pace::STYLIZED; 2],
+        MotionMethod::Flow | MotionMethod::Linear => [pace::MATCH, pace::REMATCH],
+        MotionMethod::Stylized => [pace::STYLIZED; 2],
     }
 }
 

@@ -1,7 +1,10 @@
-//! Qualities: the only place that decides numbers of photons, cells and steps below the project's own.
+//! Qualities: the limits of photons, cells and steps below the project's own numbers.
+//!
+//! Numbers of photons come from here and from the project alone. Two things may lower them further: point files with fewer
+//! rows that are paired as given (`plan.rs`), and the memory of a live preview (`preview/mod.rs`).
 
 use crate::constraint::Constraint;
-use crate::matching::Method;
+use crate::matching::MatchingMethod;
 use crate::project::Project;
 
 /// The quality of a picture: a lower one is the same project with smaller numbers.
@@ -49,7 +52,7 @@ impl Quality {
         }
     }
 
-    /// Most photons of one pass; none where the project's own number counts.
+    /// Most photons of one pass where no walls stand; none where the project's own number counts.
     pub fn photons(self) -> Option<usize> {
         self.limits().map(|limits| limits.photons)
     }
@@ -80,8 +83,7 @@ impl Quality {
         let all = self.fitted_at() == self;
         flow.guides = if all { limits.guides as u32 } else { flow.guides.min(limits.guides as u32) };
         flow.tolerance = flow.tolerance.max(TOLERANCE);
-        let walled = project.fits() && project.constraints.iter().any(is_wall);
-        let photons = limits.photons.min(if walled { WALLED_PHOTONS } else { usize::MAX });
+        let photons = limits.photons.min(walled_limit(&project));
         let render = &mut project.render;
         let shrink = (SIDE / f64::from(render.width.max(render.height).max(1))).min(1.0);
         let side = |pixels: u32| (f64::from(pixels) * shrink).round().max(f64::from(pixels.min(16))) as u32;
@@ -96,10 +98,18 @@ impl Quality {
     /// number is that of the files, up to the limit of the quality.
     pub(super) fn photons_of(self, project: &Project) -> usize {
         match project.matching {
-            Method::Given => self.photons().unwrap_or(usize::MAX),
-            Method::Transport => usize::try_from(project.render.photons).unwrap_or(usize::MAX),
+            MatchingMethod::Given => {
+                self.photons().map_or(usize::MAX, |most| most.min(walled_limit(project)))
+            }
+            MatchingMethod::Transport => usize::try_from(project.render.photons).unwrap_or(usize::MAX),
         }
     }
+}
+
+/// Most photons where walls stand; no limit elsewhere.
+fn walled_limit(project: &Project) -> usize {
+    let walled = project.fits() && project.constraints.iter().any(is_wall);
+    if walled { WALLED_PHOTONS } else { usize::MAX }
 }
 
 fn is_wall(constraint: &Constraint) -> bool {

@@ -20,7 +20,7 @@ use crate::{Error, Progress, Result};
 pub(super) struct Output<'a> {
     pub(super) folder: &'a Path,
     pub(super) progress: &'a Progress,
-    /// Told of each file as it is complete.
+    /// Called with each finished file.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
     pub(super) observer: &'a dyn RenderObserver,
 }
@@ -128,9 +128,9 @@ impl Engine {
                 "there is one key frame, so there is no flow to fit; add another",
             ));
         }
-        let road = prepared.plan.stages.iter().copied();
+        let stages = prepared.plan.stages.iter().copied();
         progress.set_stages(
-            road.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect(),
+            stages.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect(),
         );
         let fitted = self.fit_prepared(prepared, &meter, progress)?;
         let FittedProject { prepared, flow, .. } = &fitted;

@@ -41,12 +41,12 @@ pub(super) fn write(
     saved: &(dyn Fn(&Path) + Sync),
 ) -> Result<EnergyBalance> {
     let grouping = job.sources.grouping();
-    let stops = stops(job, flow)?;
+    let key_states = key_states(job, flow)?;
     progress.begin("write", 3);
     // Where walls stand there are more steps: the way between two rows shall cross none.
     let fields = flow.segments.iter().flat_map(|segment| segment.fields(grouping));
     let steps = fields.map(|(_, fields)| fields.steps()).max().unwrap_or(job.project.flow.steps as usize);
-    let table = Table { stops: &stops, flow, steps };
+    let table = Table { key_states: &key_states, flow, steps };
     let tracks = out.join("tracks.npy");
     table.write_tracks(&tracks, progress)?;
     saved(&tracks);
@@ -73,7 +73,7 @@ pub(super) fn write(
 }
 
 /// The photons at one key frame.
-struct Stop {
+struct KeyState {
     /// By group.
     at: Arc<Vec<KeyPhotons>>,
     /// The flux they should have, watts.
@@ -81,22 +81,22 @@ struct Stop {
 }
 
 /// The photons at every key frame, row k of a group always being its photon k.
-fn stops(job: &Job, flow: &FittedFlow) -> Result<Vec<Stop>> {
+fn key_states(job: &Job, flow: &FittedFlow) -> Result<Vec<KeyState>> {
     let mut walk = Walk::start(job, 0)?;
-    let mut stops = vec![Stop { at: walk.at().clone(), requested: walk.requested() }];
+    let mut key_states = vec![KeyState { at: walk.at().clone(), requested: walk.requested() }];
     for segment in &flow.segments {
         let photons = walk.next(MapsFrom::Own { bounded: true })?;
         debug_assert!(
             photons.is_some_and(|p| Arc::ptr_eq(&p.matched.maps, &segment.maps)),
             "it is remembered"
         );
-        stops.push(Stop { at: walk.at().clone(), requested: walk.requested() });
+        key_states.push(KeyState { at: walk.at().clone(), requested: walk.requested() });
     }
-    Ok(stops)
+    Ok(key_states)
 }
 
 struct Table<'a> {
-    stops: &'a [Stop],
+    key_states: &'a [KeyState],
     flow: &'a FittedFlow,
     steps: usize,
 }
@@ -108,11 +108,11 @@ impl Table<'_> {
 
     /// The trajectories of the photons through segment `i`.
     fn trajectories(&self, i: usize) -> SegmentTrajectories<'_> {
-        SegmentTrajectories::new(&self.flow.segments[i], &self.stops[i].at, &self.stops[i + 1].at)
+        SegmentTrajectories::new(&self.flow.segments[i], &self.key_states[i].at, &self.key_states[i + 1].at)
     }
 
     fn photons(&self) -> usize {
-        count(&self.stops[0].at)
+        count(&self.key_states[0].at)
     }
 
     /// The flow's times of the rows that segment `segment` adds.
@@ -152,7 +152,7 @@ impl Table<'_> {
             let mut now = vec![Vec3::ZERO; photons];
             for i in 0..self.flow.segments.len() {
                 let trajectories = self.trajectories(i);
-                let requested = [i, i + 1].map(|stop| self.stops[stop].requested);
+                let requested = [i, i + 1].map(|key| self.key_states[key].requested);
                 for time in self.times(i) {
                     trajectories.flux_at(time, &mut now);
                     balance.keep_flux_ratio(total(&now), between(requested, time));

@@ -11,7 +11,7 @@ use super::matched::{FirstKey, Maps, MatchInput, Matched, Origin, SegmentPhotons
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
 use crate::flow::spatial_order;
-use crate::matching::{ContinuousMap, Method, mean_square_distance};
+use crate::matching::{ContinuousMap, MatchingMethod, mean_square_distance};
 use crate::{Progress, Result};
 
 /// The photons of one pass at a key frame, on their way to the next.
@@ -45,8 +45,8 @@ impl<'a> Walk<'a> {
             let at = sources.key(0, group, &light, pass);
             match job.project.matching {
                 // Neighbours on the plane become neighbours in memory: a step reads each coefficient of the field once.
-                Method::Transport => at.permuted(&spatial_order(&at.positions)),
-                Method::Given => at,
+                MatchingMethod::Transport => at.permuted(&spatial_order(&at.positions)),
+                MatchingMethod::Given => at,
             }
         };
         let at = Arc::new((0..light.groups.len()).map(first).collect());
@@ -56,7 +56,7 @@ impl<'a> Walk<'a> {
             seed: sources.seed(),
             extent: job.extent,
             caustics: job.project.caustics.clone(),
-            rows: job.project.matching,
+            matching: job.project.matching,
             sources: sources.at_key(0),
         }));
         Self { job, pass, light, key: 0, at, origin }

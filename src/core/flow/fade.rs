@@ -68,10 +68,10 @@ fn default_tau() -> f32 {
 }
 
 /// A photon keeps the field while it is slower than this share of its speed limit.
-const AT_EASE: f32 = 0.7;
-/// A photon with a long way may go this much faster than on its straight line. AT_EASE times this is more than 1, so that
+const SPEED_RAMP_START: f32 = 0.7;
+/// A photon with a long way may go this much faster than on its straight line. SPEED_RAMP_START times this is more than 1, so that
 /// none leaves the field at the start.
-const OWN_PACE: f32 = 1.5;
+const OWN_SPEED_FACTOR: f32 = 1.5;
 
 impl Default for Fade {
     fn default() -> Self {
@@ -134,7 +134,7 @@ impl Fade {
     /// Speed at which a photon with a straight way of `straight` leaves the field whatever the time.
     pub(super) fn speed_limit(&self, straight: f32, mean_straight: f32) -> f32 {
         match *self {
-            Self::Smooth { limit, .. } => (OWN_PACE * straight).max(limit * mean_straight),
+            Self::Smooth { limit, .. } => (OWN_SPEED_FACTOR * straight).max(limit * mean_straight),
             Self::Paper { .. } => f32::INFINITY,
         }
     }
@@ -143,7 +143,7 @@ impl Fade {
 /// Share of the field left to a photon at this part of its speed limit.
 #[inline(always)]
 pub(super) fn ease(speed_over_limit: f32) -> f32 {
-    let x = ((speed_over_limit - AT_EASE) / (1.0 - AT_EASE)).clamp(0.0, 1.0);
+    let x = ((speed_over_limit - SPEED_RAMP_START) / (1.0 - SPEED_RAMP_START)).clamp(0.0, 1.0);
     1.0 - x * x * (3.0 - 2.0 * x)
 }
 

@@ -1,4 +1,4 @@
-//! The fields of one segment, kept.
+//! The fitted fields of one segment, interpolated in time.
 
 use std::sync::Arc;
 

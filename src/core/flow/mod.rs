@@ -2,7 +2,7 @@
 //!
 //! At each time step the field is fitted ([`fit`]) to the [`guidance`] of the photons, then carries them on (`step`,
 //! `photons`); by the [`fade`] they leave it and arrive exactly. [`Fields`] keeps the fields for the photons of all later
-//! passes. The methods for comparison ([`Movement`]) have closed-form paths. [`SegmentFlow`] is either; its
+//! passes. The methods for comparison ([`MotionMethod`]) have closed-form paths. [`SegmentFlow`] is either; its
 //! [`Trajectories`] give positions at any time.
 //!
 //! # The fade, measured
@@ -56,7 +56,7 @@ pub use fade::Fade;
 pub use field_trajectories::FieldTrajectories;
 pub use fields::Fields;
 pub use fit_segment::{GuideTracks, Snapshots, fit_segment, fit_tracks, fit_with_snapshots};
-pub use movement::Movement;
+pub use movement::MotionMethod;
 pub use path_trajectories::{PathTrajectories, path_report};
 pub use report::FlowReport;
 pub use segment::Segment;

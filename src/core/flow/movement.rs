@@ -10,7 +10,7 @@ use crate::setting::{Choice, Setting, settings};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(transform = Describe(Self::METHOD))]
-pub enum Movement {
+pub enum MotionMethod {
     /// Along a fitted vector field, paired by optimal transport.
     #[default]
     Flow,
@@ -20,7 +20,7 @@ pub enum Movement {
     Linear,
 }
 
-settings! { Movement {
+settings! { MotionMethod {
     /// How the light gets from key frame to key frame.
     METHOD = Setting::choice("method", &[
         Choice { value: "flow", help: "along a fitted field; the only one that heeds lines and walls" },
@@ -29,7 +29,7 @@ settings! { Movement {
     ]);
 } }
 
-impl Movement {
+impl MotionMethod {
     /// All methods, the default first.
     pub const ALL: [Self; 3] = [Self::Flow, Self::Stylized, Self::Linear];
 

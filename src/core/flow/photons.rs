@@ -18,7 +18,7 @@ const BATCH: usize = 16;
 pub(super) struct GuidedPhotons<'a> {
     targets: &'a [Vec2],
     /// One over the speed at which each leaves the field.
-    inverse_limits: Vec<f32>,
+    inverse_speed_limits: Vec<f32>,
     /// Guidance at the begin of the step.
     guidance: Vec<Vec2>,
     /// Its cubic over the step: v(x) = guidance + x (k0 + x (k1 + x k2)), x in 0..=1.
@@ -48,7 +48,7 @@ impl<'a> GuidedPhotons<'a> {
     /// `Cancelled`.
     pub(super) fn find_paths(&mut self, progress: &Progress) -> Result<()> {
         match &mut self.walls {
-            Some(walls) => walls.find_paths(self.targets, &mut self.inverse_limits, progress),
+            Some(walls) => walls.find_paths(self.targets, &mut self.inverse_speed_limits, progress),
             None => Ok(()),
         }
     }
@@ -56,12 +56,12 @@ impl<'a> GuidedPhotons<'a> {
     /// Photons without walls.
     fn free(source: &[Vec2], targets: &'a [Vec2], fade: &Fade, reference_speed: f32) -> Self {
         let pairs = source.par_iter().zip(targets);
-        let inverse_limits = pairs
+        let inverse_speed_limits = pairs
             .clone()
             .map(|(&a, &b)| 1.0 / fade.speed_limit(a.distance(b), reference_speed).max(f32::MIN_POSITIVE));
         Self {
             targets,
-            inverse_limits: inverse_limits.collect(),
+            inverse_speed_limits: inverse_speed_limits.collect(),
             guidance: pairs.map(|(&a, &b)| b - a).collect(),
             curve: vec![[Vec2::ZERO; 3]; source.len()],
             start: 0.0,
@@ -89,7 +89,7 @@ impl<'a> GuidedPhotons<'a> {
                     guidance: &mut self.guidance,
                     curve: &mut self.curve,
                     targets: self.targets,
-                    inverse_limits: &self.inverse_limits,
+                    inverse_speed_limits: &self.inverse_speed_limits,
                 };
                 walls.advance(step, columns, progress)?
             }
@@ -111,11 +111,11 @@ impl<'a> GuidedPhotons<'a> {
             self.guidance.par_chunks_mut(CHUNK),
             self.curve.par_chunks_mut(CHUNK),
             self.targets.par_chunks(CHUNK),
-            self.inverse_limits.par_chunks(CHUNK),
+            self.inverse_speed_limits.par_chunks(CHUNK),
         );
         columns
             .into_par_iter()
-            .map(|(guidance, curve, targets, inverse_limits)| {
+            .map(|(guidance, curve, targets, inverse_speed_limits)| {
                 progress.check()?;
                 for (v, [k0, k1, k2]) in guidance.iter_mut().zip(&*curve) {
                     *v += *k0 + *k1 + *k2;
@@ -126,13 +126,13 @@ impl<'a> GuidedPhotons<'a> {
                     .0
                     .iter()
                     .zip(targets.as_chunks().0)
-                    .zip(inverse_limits.as_chunks().0);
-                for (curves, ((&v, &targets), &inverse_limits)) in groups.iter_mut().zip(of_group) {
-                    *curves = step.curves(targets, v, inverse_limits);
+                    .zip(inverse_speed_limits.as_chunks().0);
+                for (curves, ((&v, &targets), &inverse_speed_limits)) in groups.iter_mut().zip(of_group) {
+                    *curves = step.curves(targets, v, inverse_speed_limits);
                 }
                 let first = guidance.len() - rest.len();
                 for (i, curve) in rest.iter_mut().enumerate().map(|(i, curve)| (first + i, curve)) {
-                    *curve = step.curve(targets[i], guidance[i], inverse_limits[i]);
+                    *curve = step.curve(targets[i], guidance[i], inverse_speed_limits[i]);
                 }
                 let finite = |curve: &&[Vec2; 3]| curve.iter().all(|k| k.is_finite());
                 Ok(curve.iter().filter(|curve| !finite(curve)).count())
@@ -156,7 +156,7 @@ impl<'a> GuidedPhotons<'a> {
         self.velocities(t, &mut velocities);
         self.guidance(t, &mut guidance);
         let share = fade.share(t) as f32;
-        let limits = guidance.par_iter().zip(&self.inverse_limits);
+        let limits = guidance.par_iter().zip(&self.inverse_speed_limits);
         let field_shares =
             limits.map(|(v, inverse_limit)| share * ease(v.length() * inverse_limit)).collect();
         Steering { velocities, guidance, field_shares }

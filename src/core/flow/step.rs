@@ -64,13 +64,13 @@ impl Step {
 
     /// The cubics v(x) = v + x (k0 + x (k1 + x k2)), x in 0..=1, of N photons with guidance `v`: the continuous extension of
     /// order 3 of classical RK4 (Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, II.6), without a
-    /// fifth evaluation. `inverse_limits` are one over the speeds at which the photons leave the field.
+    /// fifth evaluation. `inverse_speed_limits` are one over the speeds at which the photons leave the field.
     #[inline(always)]
     pub(super) fn curves<const N: usize>(
         &self,
         targets: [Vec2; N],
         v: [Vec2; N],
-        inverse_limits: [f32; N],
+        inverse_speed_limits: [f32; N],
     ) -> [[Vec2; 3]; N] {
         let Some([begin, middle, end]) = &self.velocities else {
             return [[Vec2::ZERO; 3]; N];
@@ -78,7 +78,7 @@ impl Step {
         let (t, h) = (self.start as f32, self.length as f32);
         let slopes = |stage: &StageVelocity, v: [Vec2; N], t: f32| -> [Vec2; N] {
             let u: [Vec2; N] = stage.velocities(from_fn(|i| position(targets[i], v[i], t)));
-            from_fn(|i| (v[i] - u[i]) * (h * stage.rate * ease(v[i].length() * inverse_limits[i])))
+            from_fn(|i| (v[i] - u[i]) * (h * stage.rate * ease(v[i].length() * inverse_speed_limits[i])))
         };
         let k1 = slopes(begin, v, t);
         let k2 = slopes(middle, from_fn(|i| v[i] + 0.5 * k1[i]), t + 0.5 * h);

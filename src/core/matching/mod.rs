@@ -28,7 +28,7 @@ mod wall_map;
 pub use bijection::{Matching, SWEEPS, mean_square_distance};
 pub use continuous_map::{ContinuousMap, Pairing};
 pub use dual::dual_bound;
-pub use settings::{MapSettings, Method};
+pub use settings::{MapSettings, MatchingMethod};
 pub use stylized::StylizedMap;
 pub use transport_map::{TransportMap, transport_map, transport_map_with};
 pub use wall_map::{ANCHORS, WallMap};

@@ -28,7 +28,7 @@ impl Default for MapSettings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(transform = Describe(Self::MATCHING))]
-pub enum Method {
+pub enum MatchingMethod {
     /// Optimal transport.
     #[default]
     Transport,
@@ -36,7 +36,7 @@ pub enum Method {
     Given,
 }
 
-settings! { Method {
+settings! { MatchingMethod {
     /// Which photon goes to which place of the target.
     MATCHING = Setting::choice("matching", &[
         Choice { value: "transport", help: "(nearly) least total squared distance: neighbours stay neighbours" },

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::caustic::{CausticDesc, unknown_name};
 use super::shows::Shows;
 use super::{Project, VERSION, keyframe};
-use crate::flow::Movement;
-use crate::matching::Method;
+use crate::flow::MotionMethod;
+use crate::matching::MatchingMethod;
 use crate::{Error, Result};
 
 /// Most caustics of a project.
@@ -42,16 +42,16 @@ impl Project {
     /// Checks that pairing row by row has point files at every key.
     fn check_given(&self) -> Result<()> {
         let all_points = self.shown().all(|shows| matches!(shows, Shows::Points(_)));
-        if self.matching == Method::Given && !all_points {
+        if self.matching == MatchingMethod::Given && !all_points {
             let what =
                 "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
             return Err(Error::value("matching", what));
         }
-        if self.matching == Method::Given && !self.caustics.is_empty() {
+        if self.matching == MatchingMethod::Given && !self.caustics.is_empty() {
             let what = "\"given\" pairs the rows of point files, which know no caustics; use \"transport\"";
             return Err(Error::value("matching", what));
         }
-        if self.matching == Method::Given && self.method == Movement::Stylized {
+        if self.matching == MatchingMethod::Given && self.method == MotionMethod::Stylized {
             let what =
                 "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
             return Err(Error::value("method", what));

@@ -37,8 +37,8 @@ pub use settings::settings;
 pub use shows::Shows;
 
 use crate::constraint::Constraint;
-use crate::flow::{FlowSettings, Movement};
-use crate::matching::Method;
+use crate::flow::{FlowSettings, MotionMethod};
+use crate::matching::MatchingMethod;
 use crate::render::RenderSettings;
 use crate::scene::SceneDesc;
 use crate::setting::schema::Describe;
@@ -51,7 +51,7 @@ pub const VERSION: u32 = 1;
 /// A Lightloom project.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(Method::MATCHING), transform = Describe(Movement::METHOD))]
+#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(MatchingMethod::MATCHING), transform = Describe(MotionMethod::METHOD))]
 pub struct Project {
     /// Where the JSON schema of this format stands, for editors that complete and check while one types.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
@@ -78,10 +78,10 @@ pub struct Project {
     pub keys: Vec<KeyFrame>,
     /// How source and target points are paired.
     #[serde(default)]
-    pub matching: Method,
+    pub matching: MatchingMethod,
     /// How the photons get from key to key.
     #[serde(default)]
-    pub method: Movement,
+    pub method: MotionMethod,
     /// What the artist drew: directed lines and walls. Only the flow heeds them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub constraints: Vec<Constraint>,
@@ -164,7 +164,7 @@ impl Project {
 
     /// Whether fields are fitted: several keys, and the method is the flow.
     pub fn fits(&self) -> bool {
-        self.keys.len() > 1 && self.method == Movement::Flow
+        self.keys.len() > 1 && self.method == MotionMethod::Flow
     }
 
     /// The paths of all files of the project, as written.

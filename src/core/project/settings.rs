@@ -2,8 +2,8 @@
 
 use super::{CausticDesc, CausticKey, KeyFrame, OutputSettings, PlaneSettings, Project};
 use crate::constraint::{Common, DirectedLine, Span, Wall};
-use crate::flow::{Fade, FlowSettings, Movement, TurbulenceSettings};
-use crate::matching::Method;
+use crate::flow::{Fade, FlowSettings, MotionMethod, TurbulenceSettings};
+use crate::matching::MatchingMethod;
 use crate::render::RenderSettings;
 use crate::render::view::ViewSettings;
 use crate::scene::camera::CameraDesc;
@@ -19,7 +19,7 @@ use crate::targets::{ImageTarget, Placement, PointsTarget};
 #[rustfmt::skip]
 pub fn settings() -> impl Iterator<Item = &'static Setting> {
     [
-        FlowSettings::SETTINGS, Fade::SETTINGS, TurbulenceSettings::SETTINGS, Movement::SETTINGS, Method::SETTINGS,
+        FlowSettings::SETTINGS, Fade::SETTINGS, TurbulenceSettings::SETTINGS, MotionMethod::SETTINGS, MatchingMethod::SETTINGS,
         Common::SETTINGS, DirectedLine::SETTINGS, Wall::SETTINGS, Span::SETTINGS,
         KeyFrame::SETTINGS, ImageTarget::SETTINGS, Placement::SETTINGS, PointsTarget::SETTINGS,
         CausticDesc::SETTINGS, CausticKey::SETTINGS,

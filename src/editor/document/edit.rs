@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use lightloom_core::Result;
 use lightloom_core::constraint::Constraint;
-use lightloom_core::flow::{FlowSettings, Movement};
-use lightloom_core::matching::Method;
+use lightloom_core::flow::{FlowSettings, MotionMethod};
+use lightloom_core::matching::MatchingMethod;
 use lightloom_core::project::{CausticDesc, KeyFrame, OutputSettings, PlaneSettings, Project};
 use lightloom_core::render::RenderSettings;
 use lightloom_core::scene::SceneDesc;
@@ -28,9 +28,9 @@ pub enum Edit {
     /// The key frames; sorted by frame.
     Keys(Vec<KeyFrame>),
     /// The matching method.
-    Matching(Method),
+    Matching(MatchingMethod),
     /// The method of movement.
-    Method(Movement),
+    Method(MotionMethod),
     /// Adds constraints.
     Add(Vec<Constraint>),
     /// Removes constraints by index.

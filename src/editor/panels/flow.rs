@@ -1,8 +1,8 @@
 //! The flow: its kind, its smoothness, its lines; what is seldom touched is folded.
 
 use egui::Ui;
-use lightloom_core::flow::{FitKind, FlowSettings, GridSize, Movement};
-use lightloom_core::matching::Method;
+use lightloom_core::flow::{FitKind, FlowSettings, GridSize, MotionMethod};
+use lightloom_core::matching::MatchingMethod;
 use lightloom_core::setting::format::number;
 
 use super::control::Control;
@@ -18,13 +18,13 @@ const ALPHA: Control =
 const BETA: Control =
     Control::new("Beta", FlowSettings::BETA).log_slider(0.0, 100.0).pictures(&pictures::BETA);
 const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0);
-const METHOD: Control = Control::new("Method", Movement::METHOD).labels(&["Flow", "2016", "Linear"]);
+const METHOD: Control = Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "2016", "Linear"]);
 const FIT: Control = Control::new("Fit", FlowSettings::FIT).labels(&["Separate", "Joint"]);
 const GRID: Control = Control::new("Grid", FlowSettings::GRID).log_slider(16.0, 512.0);
 const STEPS: Control = Control::new("Steps", FlowSettings::STEPS).log_slider(5.0, 200.0);
 const GUIDES: Control = Control::new("Guides", FlowSettings::GUIDES).log_slider(1000.0, 1e6);
 const TOLERANCE: Control = Control::new("Tolerance", FlowSettings::TOLERANCE).log_slider(1e-8, 0.1);
-const MATCHING: Control = Control::new("Matching", Method::MATCHING).labels(&["Transport", "Given"]);
+const MATCHING: Control = Control::new("Matching", MatchingMethod::MATCHING).labels(&["Transport", "Given"]);
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] =
@@ -45,8 +45,8 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     fade::show(ui, &mut flow.fade);
     let (mut method, mut matching) = (project.method, project.matching);
     fold(ui, "Advanced", |ui| {
-        METHOD.choose(ui, &mut method, &Movement::ALL);
-        MATCHING.choose(ui, &mut matching, &[Method::Transport, Method::Given]);
+        METHOD.choose(ui, &mut method, &MotionMethod::ALL);
+        MATCHING.choose(ui, &mut matching, &[MatchingMethod::Transport, MatchingMethod::Given]);
         FIT.choose(ui, &mut flow.fit, &[FitKind::Separate, FitKind::Joint]);
         grid(ui, &mut flow);
         STEPS.number(ui, &mut flow.steps);

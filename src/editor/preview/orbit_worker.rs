@@ -71,8 +71,8 @@ impl OrbitWorker {
         Self { worker, seen }
     }
 
-    pub(super) fn ask(&self, stand: OrbitRequest) {
-        self.worker.ask(stand);
+    pub(super) fn ask(&self, request: OrbitRequest) {
+        self.worker.ask(request);
     }
 
     pub(super) fn seen(&self) -> Seen {

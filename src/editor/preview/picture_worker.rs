@@ -74,12 +74,12 @@ impl PictureWorker {
         let seen = wake.clone();
         let worker = Worker::new("pictures", Share::Whole, wake, move || {
             let (painted, seen) = (theirs.clone(), seen.clone());
-            let mut easel = Easel::default();
+            let mut buffers = PictureBuffers::default();
             move |request: PictureRequest, turn: &Turn| {
                 // A picture takes less than the patience of a viewer, and while one scrubs a newer moment always waits:
                 // each is finished, or none would ever be seen.
                 turn.shielded(|_| {
-                    easel.paint(&request, &mut |picture| {
+                    buffers.paint(&request, &mut |picture| {
                         let mut painted = painted.lock().unwrap_or_else(PoisonError::into_inner);
                         *painted = Painted { number: painted.number + 1, ..picture.clone() };
                         drop(painted);
@@ -108,11 +108,11 @@ impl PictureWorker {
 
 /// Buffers kept from picture to picture.
 #[derive(Default)]
-struct Easel {
+struct PictureBuffers {
     exposure: PreviewExposure,
 }
 
-impl Easel {
+impl PictureBuffers {
     /// Paints the plane, shows it, then the shot.
     fn paint(&mut self, request: &PictureRequest, show: &mut dyn FnMut(&Painted)) {
         let view = request.view.view();

@@ -30,9 +30,9 @@ impl Default for Wanted {
 /// The last request to each worker.
 #[derive(Default)]
 pub(super) struct Requests {
-    pub(super) painted: Option<Painting>,
-    pub(super) staged: Option<Staging>,
-    pub(super) looked: Option<(Painting, Same<Project>, CameraDesc, [u32; 2])>,
+    pub(super) painted: Option<PictureKey>,
+    pub(super) staged: Option<BackgroundKey>,
+    pub(super) looked: Option<(PictureKey, Same<Project>, CameraDesc, [u32; 2])>,
 }
 
 /// An object compared by identity. It is kept alive, so that its address is not reused.
@@ -50,7 +50,7 @@ impl<T> PartialEq for Same<T> {
 
 /// The inputs of the pictures at one frame.
 #[derive(PartialEq)]
-pub(super) struct Painting {
+pub(super) struct PictureKey {
     pub(super) previews: [Same<Preview>; 2],
     pub(super) shot: Same<Shot>,
     pub(super) frame: i32,
@@ -62,7 +62,7 @@ pub(super) struct Painting {
 
 /// The inputs of the background.
 #[derive(Clone, PartialEq)]
-pub(super) struct Staging {
+pub(super) struct BackgroundKey {
     pub(super) scene: Option<SceneDesc>,
     pub(super) aspect: f32,
     pub(super) size: [u32; 2],

@@ -8,7 +8,7 @@ use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
 use super::picture_worker::{Moment, PictureRequest};
-use super::requested::{Painting, Same, Staging, Wanted};
+use super::requested::{BackgroundKey, PictureKey, Same, Wanted};
 use super::{LivePreview, Subject};
 use crate::editor::session::Session;
 
@@ -23,7 +23,7 @@ impl LivePreview {
         };
         let other = self.other_preview();
         let shot = wanted.shot.and_then(|_| self.shot());
-        let painting = Painting {
+        let painting = PictureKey {
             previews: [Same(preview.clone()), Same(other.clone())],
             shot: Same(shot.clone()),
             frame: session.playhead,
@@ -66,7 +66,7 @@ impl LivePreview {
         let Some(size) = wanted.shot else { return };
         let Project { scene, plane, seed, .. } = &*subject.project;
         let files = (subject.base.clone(), subject.external);
-        let asked = Staging { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed, files };
+        let asked = BackgroundKey { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed, files };
         if self.requests.staged.as_ref() != Some(&asked) {
             self.background.ask(subject.clone(), size);
             self.requests.staged = Some(asked);

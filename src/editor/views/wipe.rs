@@ -3,7 +3,7 @@
 use egui::{
     Align2, Color32, ComboBox, CursorIcon, FontId, Rect, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 
 use crate::editor::session::{Comparison, Wipe};
 use crate::editor::theme;
@@ -58,15 +58,18 @@ fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
 }
 
 /// All comparisons.
-const COMPARISONS: [Comparison; 3] =
-    [Comparison::Method(Movement::Linear), Comparison::Method(Movement::Stylized), Comparison::NothingDrawn];
+const COMPARISONS: [Comparison; 3] = [
+    Comparison::Method(MotionMethod::Linear),
+    Comparison::Method(MotionMethod::Stylized),
+    Comparison::NothingDrawn,
+];
 
 /// The name of a comparison.
 fn name(comparison: Comparison) -> &'static str {
     match comparison {
-        Comparison::Method(Movement::Flow) => "The flow",
-        Comparison::Method(Movement::Stylized) => "Method of 2016",
-        Comparison::Method(Movement::Linear) => "Straight lines",
+        Comparison::Method(MotionMethod::Flow) => "The flow",
+        Comparison::Method(MotionMethod::Stylized) => "Method of 2016",
+        Comparison::Method(MotionMethod::Linear) => "Straight lines",
         Comparison::NothingDrawn => "No constraints",
     }
 }

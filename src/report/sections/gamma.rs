@@ -7,7 +7,7 @@ use crate::content::{Cell, Section, Table, Tone};
 use crate::context::Context;
 use crate::plot::{Axis, Line, Panel, Plot, Style};
 use lightloom_core::engine::{Engine, MovingSegment, Quality};
-use lightloom_core::flow::{FitKind, FlowSettings, Movement, fit_segment, metric};
+use lightloom_core::flow::{FitKind, FlowSettings, MotionMethod, fit_segment, metric};
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 
@@ -67,7 +67,7 @@ pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -
 
 /// The project at preview size, with fields. The shape of the response does not depend on the grid.
 fn preview(project: &Project) -> Project {
-    Project { method: Movement::Flow, ..Quality::Preview.apply(project) }
+    Project { method: MotionMethod::Flow, ..Quality::Preview.apply(project) }
 }
 
 fn responses(project: &Project, photons: &MovingSegment, progress: &Progress) -> Result<GammaResponse> {

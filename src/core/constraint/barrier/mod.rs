@@ -5,8 +5,8 @@
 //! meets that edge, end points included. A point exactly on a wall may leave it to either side.
 
 mod edge;
+mod gap_closing;
 mod lookup;
-mod weld;
 
 use glam::Vec2;
 
@@ -34,10 +34,10 @@ pub struct Contact {
 impl Barriers {
     /// The walls on the rectangle `extent`, with the gaps closed that are narrower than their thickness.
     pub fn new(walls: &[&ActiveWall], extent: Vec2) -> Self {
-        let (bridges, notes) = weld::bridges(walls, extent);
+        let (closing_edges, notes) = gap_closing::closing_edges(walls, extent);
         let drawn = walls.iter().flat_map(|wall| wall.points.windows(2)).map(|pair| [pair[0], pair[1]]);
         let edges: Vec<Edge> = drawn
-            .chain(bridges)
+            .chain(closing_edges)
             .filter(|[from, to]| from != to)
             .map(|[from, to]| Edge { from, to })
             .collect();

@@ -49,7 +49,7 @@ pub(super) struct Keys {
     pub(super) left_out: Vec<LeftOut>,
     /// Area that the photons cover, plane units squared, as a mean over the keys.
     pub(super) covered: f32,
-    /// Brightness requested for at later keys than the first.
+    /// Brightness requested at later keys than the first.
     pub(super) rho: f64,
 }
 
@@ -91,7 +91,7 @@ impl Preview {
 
     /// Photons at every frame.
     pub fn photons(&self) -> usize {
-        self.keys.lights.first().map_or(0, |stop| stop.positions.len())
+        self.keys.lights.first().map_or(0, |light| light.positions.len())
     }
 
     /// The named caustics in their order, then the rest, without a name: their rows.
@@ -116,8 +116,8 @@ impl Preview {
         flux::blend(&from.flux, &to.flux, time as f32, out);
     }
 
-    /// Flux of all photons at a frame over that of the source, times rho, colour and brightness as they are requested for:
-    /// 1 but for rounding. None where no light is requested for.
+    /// Flux of all photons at a frame over that of the source, times rho, colour and brightness as they are requested:
+    /// 1 but for rounding. None where no light is requested.
     pub fn energy(&self, frame: i32) -> Option<f64> {
         let ([from, to], time) = self.lights(frame);
         let key = self.moment(frame).segment;
@@ -236,11 +236,11 @@ impl Preview {
         &self.stages
     }
 
-    /// Flux of all photons over that of the source, times the colour and brightness requested for, at the key where it is
+    /// Flux of all photons over that of the source, times the colour and brightness requested, at the key where it is
     /// farthest from 1; between two keys it is between theirs.
     pub(super) fn flux_ratio(&self) -> f64 {
         let ratios =
-            self.keys.lights.iter().filter(|s| s.requested > 0.0).map(|stop| stop.watts / stop.requested);
+            self.keys.lights.iter().filter(|s| s.requested > 0.0).map(|light| light.watts / light.requested);
         ratios.reduce(|a, b| if (b - 1.0).abs() > (a - 1.0).abs() { b } else { a }).unwrap_or(1.0)
     }
 

@@ -11,7 +11,7 @@ use crate::render::{ReceiverTexture, TextureLayout};
 /// Widest kernel, plane units.
 const WIDEST: f32 = 0.5;
 
-/// Exposes frames of previewes, with its buffers.
+/// Exposes frames of previews, with its buffers.
 #[derive(Default)]
 pub struct PreviewExposure {
     splatter: Splatter,
@@ -62,7 +62,7 @@ impl PreviewExposure {
     }
 }
 
-/// The texture of all previewes on a receiver of `extent`, with a margin for the widest kernel.
+/// The texture of all previews on a receiver of `extent`, with a margin for the widest kernel.
 pub(super) fn layout(extent: Vec2, resolution: usize) -> TextureLayout {
     TextureLayout::new(extent, resolution, margin(extent))
 }

@@ -70,7 +70,7 @@ impl Engine {
     }
 }
 
-/// A prepared project with no more work in it than a quality is worth, and a note where memory allows fewer photons.
+/// A prepared project limited to a quality, and a note where memory allows fewer photons.
 fn at_quality(whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<String>)> {
     let project = quality.apply(&whole.project);
     let wanted = quality.photons_of(&project);

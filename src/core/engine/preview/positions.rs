@@ -56,12 +56,14 @@ impl Growing<'_> {
             None => job.meter.measure("carry", || {
                 let mut trajectories = SegmentTrajectories::new(fitted, &photons.from, &photons.to);
                 let mut frames = Vec::with_capacity(slots.len());
+                job.progress.begin("carry", slots.len() as u64);
                 for (&slot, &time) in slots.iter().zip(&input.times) {
                     let mut positions = vec![Vec2::ZERO; trajectories.len()];
                     trajectories.positions_at(time, &mut positions, &job.progress.inner())?;
                     let positions = Arc::from(positions);
                     self.add(slot, &positions);
                     frames.push(positions);
+                    job.progress.advance(1);
                 }
                 Ok::<_, Error>(Arc::new(frames))
             }),

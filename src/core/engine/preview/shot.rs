@@ -1,4 +1,4 @@
-//! The project's camera without photons: the picture without caustics, into which light is laid.
+//! The project's camera without photons: the picture without caustics, to which the light of a preview is added.
 
 use std::sync::Arc;
 

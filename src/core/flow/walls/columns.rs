@@ -35,7 +35,7 @@ pub(crate) struct Columns<'a> {
     pub(crate) guidance: &'a mut [Vec2],
     pub(crate) curve: &'a mut [[Vec2; 3]],
     pub(crate) targets: &'a [Vec2],
-    pub(crate) inverse_limits: &'a [f32],
+    pub(crate) inverse_speed_limits: &'a [f32],
 }
 
 /// Lost photons and wall crossings of a step.
@@ -57,7 +57,7 @@ impl<'a> WallColumns<'a> {
     pub(crate) fn find_paths(
         &mut self,
         targets: &[Vec2],
-        inverse_limits: &mut Vec<f32>,
+        inverse_speed_limits: &mut Vec<f32>,
         progress: &Progress,
     ) -> Result<()> {
         if std::mem::replace(&mut self.ready, true) {
@@ -66,7 +66,7 @@ impl<'a> WallColumns<'a> {
         self.obstacles.find_paths(0, &self.at, targets, &mut self.states, progress)?;
         let (fade, reference_speed) = self.fade;
         let limit = |length| 1.0 / fade.speed_limit(length, reference_speed).max(f32::MIN_POSITIVE);
-        *inverse_limits =
+        *inverse_speed_limits =
             self.obstacles.lengths(&self.states, &self.at, targets).into_iter().map(limit).collect();
         Ok(())
     }
@@ -91,18 +91,19 @@ impl<'a> WallColumns<'a> {
             columns.guidance.par_chunks_mut(CHUNK),
             columns.curve.par_chunks_mut(CHUNK),
             columns.targets.par_chunks(CHUNK),
-            columns.inverse_limits.par_chunks(CHUNK),
+            columns.inverse_speed_limits.par_chunks(CHUNK),
             self.from.par_chunks_mut(CHUNK),
             self.at.par_chunks_mut(CHUNK),
             self.states.par_chunks_mut(CHUNK),
         );
         let losses = columns
             .into_par_iter()
-            .map(|(guidance, curve, targets, inverse_limits, from, at, states)| {
+            .map(|(guidance, curve, targets, inverse_speed_limits, from, at, states)| {
                 progress.check()?;
                 let (mut losses, mut buffers) = (Losses::default(), SearchBuffers::default());
                 for i in 0..at.len() {
-                    let photon = Photon { at: at[i], target: targets[i], inverse_limit: inverse_limits[i] };
+                    let photon =
+                        Photon { at: at[i], target: targets[i], inverse_limit: inverse_speed_limits[i] };
                     from[i] = at[i];
                     let v = photon.guidance(step);
                     (guidance[i], curve[i], at[i]) =

@@ -168,7 +168,7 @@ impl Obstacles {
         Ok((sum / source.len().max(1) as f64) as f32)
     }
 
-    /// The no-penetration term of the walls of step `step`: points along them at half a cell's distance, their normals, and
+    /// The no-penetration term of the walls of step `step`: points sampled along them every half cell, their normals, and
     /// the weight of each, `STIFFNESS` times length where Term (3) gives all photons together weight 1.
     pub(crate) fn no_penetration(&self, step: usize, grid: Grid) -> (Vec<Vec2>, Vec<Vec2>, f64) {
         let [width, height] = grid.cell_size();

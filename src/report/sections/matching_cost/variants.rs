@@ -8,9 +8,9 @@ use super::points::Points;
 use crate::clock::fastest;
 use lightloom_core::constraint::VisibilityGraph;
 use lightloom_core::engine::MovingSegment;
-use lightloom_core::flow::Movement;
+use lightloom_core::flow::MotionMethod;
 use lightloom_core::matching::{
-    ContinuousMap, MapSettings, Matching, Method, SWEEPS, StylizedMap, TransportMap, WallMap,
+    ContinuousMap, MapSettings, Matching, MatchingMethod, SWEEPS, StylizedMap, TransportMap, WallMap,
     mean_square_distance, transport_map, transport_map_with,
 };
 use lightloom_core::project::Project;
@@ -70,10 +70,10 @@ impl Variant {
     /// The variant of a project.
     pub(super) fn of(project: &Project, walls: bool) -> Self {
         match (project.matching, project.method) {
-            (Method::Given, _) => Self::Given,
-            (Method::Transport, Movement::Stylized) => Self::Stylized,
-            (Method::Transport, Movement::Flow) if walls => Self::Around,
-            (Method::Transport, Movement::Flow | Movement::Linear) => Self::Straight,
+            (MatchingMethod::Given, _) => Self::Given,
+            (MatchingMethod::Transport, MotionMethod::Stylized) => Self::Stylized,
+            (MatchingMethod::Transport, MotionMethod::Flow) if walls => Self::Around,
+            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Linear) => Self::Straight,
         }
     }
 

@@ -10,7 +10,7 @@ use crate::number::short;
 use crate::plot::{Axis, Line, Panel, Plot, Style};
 use crate::slope::slope;
 use lightloom_core::export::png::encode;
-use lightloom_core::matching::Method;
+use lightloom_core::matching::MatchingMethod;
 use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 use runs::{PassError, Runs, Series};
@@ -28,7 +28,7 @@ const BLUR: f64 = -0.2;
 const NOISY: f64 = 0.2;
 
 fn same_in_every_pass(project: &Project) -> Option<&'static str> {
-    (project.matching == Method::Given)
+    (project.matching == MatchingMethod::Given)
         .then_some("rows of point files are paired as given, so more passes bring no other photons")
 }
 

@@ -13,9 +13,9 @@ const OVERLAP: f32 = 1e-5;
 /// A wall's own ends meet its other parts only from this many clearances along it; nearer parts are just its bend.
 const OWN_BEND: f32 = 8.0;
 
-/// The bridges, and messages about them.
-pub(super) fn bridges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<String>) {
-    let mut bridges = Vec::new();
+/// The closing_edges, and messages about them.
+pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<String>) {
+    let mut closing_edges = Vec::new();
     let mut notes = Vec::new();
     let coarse: Vec<Vec<Vec2>> =
         walls.iter().map(|wall| stroke::simplify(&wall.points, 0.1 * wall.clearance)).collect();
@@ -33,18 +33,18 @@ pub(super) fn bridges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, V
                 let (i, j) = (i.min(j), i.max(j));
                 notes.push(format!("walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"));
             }
-            bridges.extend(close);
+            closing_edges.extend(close);
         }
-        bridges.extend(own_gaps(wall));
+        closing_edges.extend(own_gaps(wall));
         let outward = border_pieces(wall, extent);
         if outward.len() == 2 {
             notes.push(format!(
                 "wall {i} (in their order) reaches the border at both ends: no way leads around it"
             ));
         }
-        bridges.extend(outward);
+        closing_edges.extend(outward);
     }
-    (bridges, notes)
+    (closing_edges, notes)
 }
 
 /// Between the ends of a wall and its other parts, such as the two ends of a loop that was not quite closed.
