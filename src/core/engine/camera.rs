@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::inputs::ViewInput;
 use super::memo::{Same, Slot};
+use super::memo_keys::ViewInput;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::stages::Stages;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::render::{Output, Rendered};
-use super::{Engine, Summary, active};
+use super::{Engine, Summary, active_constraints};
 use crate::export::{ComparisonSheet, MethodRow, Overlay, OverlayLine, evenly_chosen, write_comparison};
 use crate::flow::MotionMethod;
 use crate::matching::MatchingMethod;
@@ -107,7 +107,7 @@ impl Engine {
         }
         let comparison = Comparison::new(project, &done, stopped);
         let path = out.join("compare.png");
-        comparison.write_sheet(&path, &active::drawn(project), &done)?;
+        comparison.write_sheet(&path, &active_constraints::drawn(project), &done)?;
         saved(&path);
         Ok(comparison)
     }

@@ -8,12 +8,12 @@ use glam::Vec2;
 
 use super::Engine;
 use super::energy_balance::EnergyBalance;
-use super::exposure::Exposures;
 use super::fitted_segment::{FittedFlow, FittedSegment};
 use super::flow;
 use super::frame_times::FrameTimes;
 use super::job::Job;
 use super::meter::Meter;
+use super::passes::Exposures;
 use super::prepare::Prepared;
 use crate::project::Project;
 use crate::render::{PlaneMaterial, ProgressiveRender, ReceiverTexture, TextureLayout, layout_for};

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::active::ActiveConstraints;
+use super::active_constraints::ActiveConstraints;
 use super::flow_numbers::FlowNumbers;
 use super::grouping::{CausticFlux, Grouping};
-use super::matched::{Maps, Matched};
 use super::memo::Same;
 use super::pairing::TransportCost;
+use super::segment_photons::{Maps, Matched};
 use crate::flow::{Fields, FlowReport, FlowSettings, MotionMethod, SegmentFlow};
 
 /// The fitted flow of one segment.

@@ -6,14 +6,14 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active::ActiveConstraints;
+use super::active_constraints::ActiveConstraints;
 use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput, Layer};
 use super::flow_numbers::FlowNumbers;
 use super::job::Job;
 use super::key_photons::KeyPhotons;
-use super::matched::SegmentPhotons;
 use super::memo::Same;
 use super::meter::Meter;
+use super::segment_photons::SegmentPhotons;
 use super::walk::{MapsFrom, Walk};
 use crate::flow::{
     FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots,

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::inputs::GuideInput;
 use super::key_photons::PassLight;
 use super::key_sources::KeySources;
 use super::memo::{Client, Same, Slot};
+use super::memo_keys::GuideInput;
 use super::meter::Meter;
 use super::stages::Stages;
 use super::{Quality, prepare::Prepared};

@@ -12,39 +12,39 @@
 //! as they are. Exposures alone are not remembered. Commands, exports, the live preview, comparisons and reports ask the
 //! same stages; an [`Engine`] that is shared by several users shares its results among them.
 
-mod active;
+mod active_constraints;
 mod camera;
 mod check;
 mod compare;
 mod energy_balance;
-mod exposure;
 mod fitted_project;
 mod fitted_segment;
 mod flow;
 mod flow_numbers;
 mod frame_times;
 mod frame_writer;
-mod gauge;
 mod grouping;
-mod inputs;
 mod job;
 mod key_photons;
 mod key_sources;
-mod matched;
 mod memo;
+mod memo_keys;
 mod meter;
 mod moving_segment;
 mod observer;
 mod output_folder;
 mod pairing;
+mod passes;
 mod plan;
 mod prepare;
 mod preview;
 mod quality;
+mod ray_benchmark;
 mod render;
+mod segment_photons;
 mod stages;
 mod summary;
-mod tracks;
+mod track_files;
 mod trajectories;
 mod walk;
 
@@ -54,7 +54,6 @@ pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
 pub use fitted_project::{FittedProject, PlaneLight, PlanePasses};
 pub use flow_numbers::FlowNumbers;
-pub use gauge::Traced;
 pub use grouping::CausticFlux;
 pub use memo::Client;
 pub use meter::StageCost;
@@ -64,6 +63,7 @@ pub use output_folder::{prepare_folder, write_report};
 pub use plan::{LeftOut, Plan};
 pub use preview::{FieldAt, OrbitView, Preview, PreviewExposure, Shot, covered_area};
 pub use quality::Quality;
+pub use ray_benchmark::Traced;
 pub use summary::{BadValues, Energy, Summary};
 
 use crate::project::{AssetFolder, Project};

@@ -6,12 +6,12 @@ use glam::{Vec2, Vec3};
 
 use super::Engine;
 use super::flow::LayerSamples;
-use super::gauge::Traced;
 use super::job::Job;
 use super::key_photons::{all_flux, count};
-use super::matched::SegmentPhotons;
 use super::meter::Meter;
 use super::pairing::takes_part;
+use super::ray_benchmark::Traced;
+use super::segment_photons::SegmentPhotons;
 use super::walk::{MapsFrom, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::guidance::mean_straight;

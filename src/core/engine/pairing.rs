@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active::active;
+use super::active_constraints::active;
 use super::key_photons::KeyPhotons;
 use crate::constraint::{ActiveWall, VisibilityGraph};
 use crate::flow::MotionMethod;

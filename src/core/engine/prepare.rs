@@ -9,7 +9,7 @@ use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
 use super::plan::{self, Plan};
 use super::stages::Stages;
-use super::{Quality, active, grouping};
+use super::{Quality, active_constraints, grouping};
 use crate::flow::{FlowSettings, GridSize};
 use crate::project::{Project, Shows};
 use crate::render::PlaneMaterial;
@@ -55,7 +55,7 @@ impl Stages {
         notes.extend(sources.notes());
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
         notes.extend(stretch_note(project.flow.grid, extent));
-        notes.extend(active::notes(project, extent));
+        notes.extend(active_constraints::notes(project, extent));
         notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));
         let times = FrameTimes::new(&project.keys, &frames);
         let plan = plan::plan(

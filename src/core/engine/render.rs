@@ -11,7 +11,7 @@ use super::meter::Meter;
 use super::observer::RenderObserver;
 use super::prepare::Prepared;
 use super::summary::{BadValues, Done, Summary};
-use super::{Engine, Quality, active, tracks};
+use super::{Engine, Quality, active_constraints, track_files};
 use crate::project::Project;
 use crate::render::{PlaneView, ProgressiveRender, first_radius};
 use crate::{Error, Progress, Result};
@@ -96,7 +96,7 @@ impl Engine {
             visible: &visible,
             background: &background,
             folder,
-            drawn: &active::drawn(project),
+            drawn: &active_constraints::drawn(project),
             plane: plane.clone(),
             saved,
         };
@@ -121,7 +121,7 @@ impl Engine {
         saved: &(dyn Fn(&Path) + Sync),
     ) -> Result<Summary> {
         let meter = Meter::default();
-        let prepared = self.prepare(&tracks::with_guides_alone(project), &meter, progress)?;
+        let prepared = self.prepare(&track_files::with_guides_alone(project), &meter, progress)?;
         if project.keys.len() < 2 {
             return Err(Error::value(
                 "keys",
@@ -136,7 +136,7 @@ impl Engine {
         let FittedProject { prepared, flow, .. } = &fitted;
         let inner = progress.inner();
         let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
-        let balance = meter.measure("write", || tracks::write(&job, flow, out, progress, saved))?;
+        let balance = meter.measure("write", || track_files::write(&job, flow, out, progress, saved))?;
         let done = Done { command: "fit", passes: 0, flow, balance, bad_values: BadValues::default() };
         Ok(Summary::new(prepared, done, &meter))
     }

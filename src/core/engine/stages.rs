@@ -7,10 +7,10 @@ use glam::Vec2;
 
 use super::Quality;
 use super::fitted_segment::{FittedSegment, FlowInput};
-use super::inputs::{GuideInput, PositionsInput, ViewInput};
 use super::key_sources::{self, KeySource, SourceInput};
-use super::matched::{MatchInput, Matched};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
+use super::memo_keys::{GuideInput, PositionsInput, ViewInput};
+use super::segment_photons::{MatchInput, Matched};
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
 use crate::render::{GatherMatrix, Image};

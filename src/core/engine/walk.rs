@@ -4,12 +4,12 @@
 
 use std::sync::Arc;
 
-use super::active::active;
+use super::active_constraints::active;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, PassLight};
-use super::matched::{FirstKey, Maps, MatchInput, Matched, Origin, SegmentPhotons};
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
+use super::segment_photons::{FirstKey, Maps, MatchInput, Matched, Origin, SegmentPhotons};
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, MatchingMethod, mean_square_distance};
 use crate::{Progress, Result};

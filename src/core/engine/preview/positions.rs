@@ -7,10 +7,10 @@ use glam::Vec2;
 use super::growing::{Composition, Growing};
 use crate::engine::fitted_segment::FittedSegment;
 use crate::engine::flow::{LayerSamples, fit_segment};
-use crate::engine::inputs::PositionsInput;
 use crate::engine::job::Job;
-use crate::engine::matched::SegmentPhotons;
 use crate::engine::memo::Same;
+use crate::engine::memo_keys::PositionsInput;
+use crate::engine::segment_photons::SegmentPhotons;
 use crate::engine::trajectories::SegmentTrajectories;
 use crate::{Error, Result};
 

@@ -3,8 +3,8 @@
 use glam::Vec2;
 
 use super::fitted_segment::FittedSegment;
-use super::matched::Matched;
 use super::memo::Same;
+use super::segment_photons::Matched;
 use crate::render::{RenderSettings, TextureLayout};
 use crate::scene::{Geometry, LightDesc, ReceiverDesc, Scene};
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active::ActiveConstraints;
+use super::active_constraints::ActiveConstraints;
 use super::key_photons::KeyPhotons;
 use super::key_sources::KeySource;
 use super::memo::Same;
