@@ -3,7 +3,8 @@
 use lightloom_core::{Error, Result};
 
 use super::args::CompareArgs;
-use super::{BAD_FRAMES, job};
+use super::exit_code::BAD_FRAMES;
+use super::job;
 
 /// Frames that are rendered where none are asked for: those on the sheet.
 const FRAMES: usize = 6;

@@ -3,6 +3,7 @@
 pub(crate) mod args;
 mod check;
 mod compare;
+mod exit_code;
 mod fit;
 mod job;
 mod progress;
@@ -17,11 +18,7 @@ use lightloom_core::Error;
 use lightloom_core::project::Project;
 
 use args::{Cli, Command};
-
-/// Exit code where all frames are there, but some hold values that had to be replaced.
-const BAD_FRAMES: u8 = 4;
-/// Exit code where there is no screen, or nothing that draws on it.
-const NO_WINDOW: u8 = 1;
+use exit_code::{NO_WINDOW, exit_code};
 
 /// Parses the arguments, runs the command, returns its exit code (listed in the README).
 pub fn main() -> ExitCode {
@@ -70,17 +67,4 @@ fn edit(project: Option<&Path>) -> Result<u8, Error> {
 fn schema() -> Result<u8, Error> {
     progress::Lines::Out.say(&format!("{:#}", Project::json_schema()));
     Ok(0)
-}
-
-/// One code per cause, so that a render farm can tell a bad project from a full disk.
-fn exit_code(error: &Error) -> u8 {
-    match error {
-        Error::Value { place, .. } if place.starts_with("--") => 2,
-        Error::Format { .. } | Error::Value { .. } => 3,
-        Error::Io { action: "read" | "find the folder", .. } => 3,
-        Error::Io { .. } => 5,
-        Error::Limit { .. } => 6,
-        Error::Numeric { .. } => 7,
-        Error::Cancelled => 130,
-    }
 }

@@ -3,7 +3,8 @@
 use lightloom_core::{Error, Result};
 
 use super::args::RenderArgs;
-use super::{BAD_FRAMES, job};
+use super::exit_code::BAD_FRAMES;
+use super::job;
 
 pub(super) fn run(args: &RenderArgs) -> Result<u8> {
     let summary = job::run(&args.project, &args.out, |engine, project, progress, saved| {

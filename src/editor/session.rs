@@ -92,13 +92,13 @@ impl Default for ShotViewport {
 /// A camera that orbits a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    /// The point that it looks at, world [m].
+    /// The point that it looks at, world (m).
     pub target: glam::Vec3,
     /// Rotation about the vertical axis, radians.
     pub azimuth: f32,
     /// Angle above the horizon, radians.
     pub elevation: f32,
-    /// Distance from the target [m].
+    /// Distance from the target (m).
     pub distance: f32,
 }
 

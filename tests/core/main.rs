@@ -8,6 +8,7 @@ mod background;
 mod caustics;
 mod constraints;
 mod crossing;
+mod engine;
 mod export;
 mod field;
 mod figures;

@@ -25,7 +25,7 @@ fn a_new_gamma_fits_anew_but_neither_traces_nor_matches() {
     assert_eq!(stages(&second), ["load", "fit"]);
     assert_ne!(bits(&first), bits(&second));
     // What was remembered is what would have been worked out.
-    assert_eq!(bits(&second), bits(&draft(&mut example("dark_glass").1, &project)));
+    assert_eq!(bits(&second), bits(&draft(&example("dark_glass").1, &project)));
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn a_key_moved_in_time_leaves_the_fields() {
     assert_eq!(stages(&moved), ["load", "carry"]);
     assert_eq!(moved.frames().count(), count + 7);
     // Carried along remembered fields, the photons go where they went while these were fitted.
-    assert_eq!(bits(&moved), bits(&draft(&mut example("loop").1, &project)));
+    assert_eq!(bits(&moved), bits(&draft(&example("loop").1, &project)));
 }
 
 #[test]
@@ -82,23 +82,23 @@ fn a_picture_that_was_painted_over_is_read_again() {
 }
 
 #[test]
-fn every_example_is_sketched_whole() {
+fn every_example_is_previewed_whole() {
     for name in EXAMPLES {
         let (project, engine) = example(name);
         for quality in [Quality::Draft, Quality::Preview] {
-            let sketch = engine.preview(&project, quality, 30, &Progress::new(), &mut |_| ()).unwrap();
-            let frames = sketch.frames();
+            let preview = engine.preview(&project, quality, 30, &Progress::new(), &mut |_| ()).unwrap();
+            let frames = preview.frames();
             let keys = [&project.keys[0], project.keys.last().unwrap()];
             assert_eq!([*frames.start(), *frames.end()], keys.map(|key| key.frame), "{name}");
-            assert_eq!(Some(sketch.photons()), quality.photons());
+            assert_eq!(Some(preview.photons()), quality.photons());
             for frame in frames {
-                let positions = sketch.positions(frame).unwrap();
+                let positions = preview.positions(frame).unwrap();
                 assert!(positions.iter().all(|p| p.is_finite()), "{name}, frame {frame}");
                 // The flux is a sum of f32, each rounded to 6e-8.
-                let energy = sketch.energy(frame).unwrap();
+                let energy = preview.energy(frame).unwrap();
                 assert!((energy - 1.0).abs() < 1e-5, "{name}, frame {frame}: {energy}");
             }
-            let numbers = sketch.numbers().unwrap();
+            let numbers = preview.numbers().unwrap();
             assert_eq!(numbers.flow.wall_crossings, 0, "{name}");
             assert_eq!(numbers.flow.endpoint_error, 0.0, "{name}");
         }
@@ -108,27 +108,27 @@ fn every_example_is_sketched_whole() {
 #[test]
 fn photons_start_at_the_physical_caustic_and_end_at_their_targets() {
     let (project, engine) = example("dark_glass");
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let assets = AssetFolder::new(&example_path("dark_glass"), false).unwrap();
     let desc = project.scene.as_ref().unwrap();
     let scene = Scene::load(desc, &|path, place| assets.resolve(path, place)).unwrap().0;
     let tracer = Tracer::new(&scene, project.seed, &Progress::new()).unwrap();
-    let photons = tracer.trace(0, sketch.photons(), &Progress::new()).unwrap().0;
+    let photons = tracer.trace(0, preview.photons(), &Progress::new()).unwrap().0;
     let sorted = |positions: &[Vec2]| {
         let mut bits: Vec<_> = positions.iter().map(|p| p.to_array().map(f32::to_bits)).collect();
         bits.sort_unstable();
         bits
     };
-    let (first, last) = (*sketch.frames().start(), *sketch.frames().end());
-    assert_eq!(sorted(sketch.positions(first).unwrap()), sorted(&photons.positions));
-    assert_eq!(sketch.positions(last).unwrap(), sketch.targets(first));
+    let (first, last) = (*preview.frames().start(), *preview.frames().end());
+    assert_eq!(sorted(preview.positions(first).unwrap()), sorted(&photons.positions));
+    assert_eq!(preview.positions(last).unwrap(), preview.targets(first));
     // The flower stands at (0.65, 0.31) and is 0.4 wide.
     let inside = |p: &Vec2| (*p - Vec2::new(0.65, 0.31)).abs().max_element() <= 0.2 + 1e-5;
-    assert!(sketch.targets(first).iter().all(inside));
-    let track = sketch.track(17);
-    assert_eq!(track.len(), sketch.frames().count());
-    assert_eq!(track[0].1, sketch.positions(first).unwrap()[17]);
-    let near = sketch.nearest(50, sketch.positions(50).unwrap()[17], 3);
+    assert!(preview.targets(first).iter().all(inside));
+    let track = preview.track(17);
+    assert_eq!(track.len(), preview.frames().count());
+    assert_eq!(track[0].1, preview.positions(first).unwrap()[17]);
+    let near = preview.nearest(50, preview.positions(50).unwrap()[17], 3);
     assert_eq!((near.len(), near[0]), (3, 17));
 }
 
@@ -139,10 +139,10 @@ fn the_segment_under_the_playhead_comes_first() {
     let last = keys[keys.len() - 2]..keys[keys.len() - 1];
     let playhead = (last.start + last.end) / 2;
     let (mut alone, mut grew, mut before) = (None, true, 0);
-    let mut watch = |sketch: &Arc<Preview>| {
-        let ready = |frames: std::ops::Range<i32>| frames.filter(|f| sketch.is_ready(*f)).count();
+    let mut watch = |preview: &Arc<Preview>| {
+        let ready = |frames: std::ops::Range<i32>| frames.filter(|f| preview.is_ready(*f)).count();
         // Nothing but the keys of the other segments was there when the frame came.
-        if sketch.is_ready(playhead) && alone.is_none() {
+        if preview.is_ready(playhead) && alone.is_none() {
             alone = Some(ready(keys[0]..last.start) == keys.len() - 2);
         }
         let now = ready(keys[0]..last.end + 1);
@@ -150,33 +150,33 @@ fn the_segment_under_the_playhead_comes_first() {
         before = now;
     };
     let progress = Progress::new();
-    let sketch = engine.preview(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
+    let preview = engine.preview(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
     assert_eq!(alone, Some(true));
     assert!(grew);
-    assert_eq!(before, sketch.frames().count());
+    assert_eq!(before, preview.frames().count());
 }
 
 #[test]
 fn caustics_keep_their_rows_and_flow_by_themselves() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
-    let names: Vec<_> = sketch.groups().iter().map(|(name, _)| name.as_deref()).collect();
+    let preview = draft(&engine, &project);
+    let names: Vec<_> = preview.groups().iter().map(|(name, _)| name.as_deref()).collect();
     assert_eq!(names, [Some("left"), Some("right"), None]);
-    let rows = |group: usize| sketch.groups()[group].1.clone();
-    assert_eq!(rows(2).end, sketch.photons());
+    let rows = |group: usize| preview.groups()[group].1.clone();
+    assert_eq!(rows(2).end, preview.photons());
     for (group, centre) in [(0, Vec2::new(0.2, 0.8)), (1, Vec2::new(0.8, 0.2))] {
-        let at = &sketch.positions(9).unwrap()[rows(group)];
+        let at = &preview.positions(9).unwrap()[rows(group)];
         assert!(at.iter().all(|p| (*p - centre).abs().max_element() <= 0.1 + 1e-6));
     }
     // In between both caustics are on their way, each by its own field.
-    let fields = sketch.fields(4);
+    let fields = preview.fields(4);
     let moved: Vec<Vec<_>> = fields.iter().map(|field| field.rows().to_vec()).collect();
     assert_eq!(moved, [vec![rows(1)], vec![rows(0)]]);
     assert_eq!(fields[0].grid().cells, [16, 16]);
-    let residuals = sketch.residuals(4, &Progress::new()).unwrap().unwrap();
+    let residuals = preview.residuals(4, &Progress::new()).unwrap().unwrap();
     for field in &fields {
         for row in field.rows()[0].clone().step_by(100) {
-            let (at, b) = (sketch.positions(4).unwrap()[row], sketch.targets(4)[row]);
+            let (at, b) = (preview.positions(4).unwrap()[row], preview.targets(4)[row]);
             // Frame 4 is 3/8 of the way by the smooth ease.
             let t = Ease::Smooth.apply(3.0 / 8.0) as f32;
             let wanted = (b - at) / (1.0 - t) - field.velocity(at);
@@ -186,18 +186,18 @@ fn caustics_keep_their_rows_and_flow_by_themselves() {
     // At gamma 1 alone does u have no curl, at 0 alone no divergence.
     assert!(fields.iter().any(|f| f.curl(Vec2::new(0.4, 0.6)) != 0.0));
     assert!(fields.iter().any(|f| f.divergence(Vec2::new(0.4, 0.6)) != 0.0));
-    assert!(sketch.fields(21).is_empty(), "photons that have arrived are moved by no field");
+    assert!(preview.fields(21).is_empty(), "photons that have arrived are moved by no field");
 }
 
 #[test]
-fn all_methods_and_a_single_key_are_sketched() {
+fn all_methods_and_a_single_key_are_previewed() {
     let (mut project, engine) = example("letters_free");
     for method in Movement::ALL {
         project.method = method;
-        let sketch = draft(&engine, &project);
-        assert!(sketch.frames().all(|frame| sketch.is_ready(frame)), "{method:?}");
-        assert_eq!(sketch.positions(60).unwrap(), sketch.targets(1), "{method:?}");
-        assert_eq!(sketch.fields(20).is_empty(), method != Movement::Flow);
+        let preview = draft(&engine, &project);
+        assert!(preview.frames().all(|frame| preview.is_ready(frame)), "{method:?}");
+        assert_eq!(preview.positions(60).unwrap(), preview.targets(1), "{method:?}");
+        assert_eq!(preview.fields(20).is_empty(), method != Movement::Flow);
     }
     project.keys.truncate(1);
     let still = draft(&engine, &project);
@@ -232,11 +232,11 @@ fn rows_paired_as_given_stay_paired() {
     let project = Project::parse(project.to_string().as_bytes(), &path).unwrap();
     let engine = Engine::new(AssetFolder::new(&path, false).unwrap());
     for (quality, count) in [(Quality::Draft, 4_000), (Quality::Preview, 9_000)] {
-        let sketch = engine.preview(&project, quality, 1, &Progress::new(), &mut |_| ()).unwrap();
-        assert_eq!(sketch.photons(), count);
-        let (a, b) = (sketch.positions(1).unwrap(), sketch.positions(5).unwrap());
+        let preview = engine.preview(&project, quality, 1, &Progress::new(), &mut |_| ()).unwrap();
+        assert_eq!(preview.photons(), count);
+        let (a, b) = (preview.positions(1).unwrap(), preview.positions(5).unwrap());
         assert!(a.iter().zip(b).all(|(a, b)| a.to_array() == [b.y, b.x]));
-        assert!((sketch.energy(5).unwrap() - 1.0).abs() < 1e-5);
+        assert!((preview.energy(5).unwrap() - 1.0).abs() < 1e-5);
     }
 }
 
@@ -244,8 +244,8 @@ fn rows_paired_as_given_stay_paired() {
 fn a_sketch_that_is_cancelled_stops_and_harms_none_after_it() {
     let (mut project, engine) = example("letters");
     let progress = Progress::new();
-    let stop = |sketch: &Arc<Preview>| {
-        if sketch.is_ready(20) {
+    let stop = |preview: &Arc<Preview>| {
+        if preview.is_ready(20) {
             progress.cancel();
         }
     };
@@ -254,7 +254,7 @@ fn a_sketch_that_is_cancelled_stops_and_harms_none_after_it() {
     assert!(matches!(engine.shot(&project, [64, 36], 1, &progress), Err(Error::Cancelled)));
     project.flow.gamma = 0.6;
     let after = draft(&engine, &project);
-    assert_eq!(bits(&after), bits(&draft(&mut example("letters").1, &project)));
+    assert_eq!(bits(&after), bits(&draft(&example("letters").1, &project)));
     let (project, engine) = example("dark_glass");
     let none = engine.preview(&project, Quality::Draft, 1, &progress, &mut |_| ());
     assert!(matches!(none, Err(Error::Cancelled)), "a scene is not even loaded");
@@ -298,10 +298,10 @@ fn any_number_of_threads_gives_the_same_photons() {
 fn long_animations_keep_fewer_photons_and_say_so() {
     let (mut project, engine) = example("letters_free");
     project.keys[1].frame = 10_000;
-    let sketch = draft(&engine, &project);
-    assert_eq!(sketch.photons(), 2_000);
-    assert!(sketch.notes().iter().any(|note| note.contains("fit into memory")), "{:?}", sketch.notes());
-    assert!(sketch.is_ready(5_000));
+    let preview = draft(&engine, &project);
+    assert_eq!(preview.photons(), 2_000);
+    assert!(preview.notes().iter().any(|note| note.contains("fit into memory")), "{:?}", preview.notes());
+    assert!(preview.is_ready(5_000));
 }
 
 #[test]

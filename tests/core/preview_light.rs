@@ -1,4 +1,4 @@
-//! The light of a sketch: on the receiver, in the shot, in a free look, and beside the final flow's.
+//! The light of a preview: on the receiver, in the shot, in an orbit view, and beside the final flow's.
 
 use crate::previews::{draft, example, example_path, flux, two_balls};
 use glam::{Vec2, Vec3, Vec4};
@@ -15,12 +15,12 @@ use lightloom_core::scene::CameraDesc;
 #[test]
 fn hidden_caustics_give_no_light_and_the_others_all_of_theirs() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let mut exposure = PreviewExposure::default();
-    let mut total = |shown: &[bool]| exposure.expose(&sketch, 5, 128, shown).unwrap().total().element_sum();
+    let mut total = |shown: &[bool]| exposure.expose(&preview, 5, 128, shown).unwrap().total().element_sum();
     let all = total(&[]);
     let parts = [[true, false, false], [false, true, false], [false, false, true]].map(|s| total(&s));
-    let watts: f64 = flux(&sketch, 5).iter().map(|f| f.as_dvec3().element_sum()).sum();
+    let watts: f64 = flux(&preview, 5).iter().map(|f| f.as_dvec3().element_sum()).sum();
     // Splatting and filtering keep the flux but for sums in f32; no photon is beyond the margin.
     assert!((all / watts - 1.0).abs() < 1e-4, "{all} of {watts}");
     assert!((parts.iter().sum::<f64>() / all - 1.0).abs() < 1e-4);
@@ -74,10 +74,10 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
 #[test]
 fn a_shot_takes_the_light_of_a_sketch() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let shot = engine.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
     let mut exposure = PreviewExposure::default();
-    let light = exposure.expose(&sketch, 9, shot.resolution(), &[]).unwrap();
+    let light = exposure.expose(&preview, 9, shot.resolution(), &[]).unwrap();
     let picture = shot.picture(light).unwrap();
     assert_eq!([picture.width, picture.height], [64, 36]);
     // Light is added where the square is seen, and none to speak of between the squares; no pixel gets darker.
@@ -90,16 +90,16 @@ fn a_shot_takes_the_light_of_a_sketch() {
     assert!(square > 10.0 * middle && square > 0.0, "{square} {middle}");
     let darker = |(a, b): (&Vec3, &Vec3)| a.cmplt(*b).any();
     assert!(!picture.pixels.iter().zip(&shot.background.pixels).any(darker));
-    let other = exposure.expose(&sketch, 9, shot.resolution() + 8, &[]).unwrap();
+    let other = exposure.expose(&preview, 9, shot.resolution() + 8, &[]).unwrap();
     assert!(shot.picture(other).is_none(), "a texture of another resolution is refused");
 }
 
 #[test]
 fn a_look_shows_glass_receiver_caustic_and_marks() {
     let (_stage, project, engine) = two_balls();
-    let sketch = draft(&engine, &project);
+    let preview = draft(&engine, &project);
     let mut exposure = PreviewExposure::default();
-    let light = exposure.expose(&sketch, 9, 128, &[]).unwrap();
+    let light = exposure.expose(&preview, 9, 128, &[]).unwrap();
     let camera = CameraDesc { position: [0.6, 1.4, 1.5], ..Default::default() };
     let size = [96, 54];
     let look = |light| engine.orbit_view(&project, &camera, size, light, &Progress::new()).unwrap();

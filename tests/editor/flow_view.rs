@@ -106,21 +106,23 @@ fn the_photon_that_is_followed_has_its_way_its_target_and_a_detour_around_walls(
     for walls in [Vec::new(), vec![Constraint::Wall(wall.clone())]] {
         let (_folder, subject) = subject(0.5, walls.clone());
         let session = session(|session| (session.probe, session.overlays.trails) = (Some(7), true));
-        let whole = |flow: &FlowPicture| flow.followed.as_ref().is_some_and(|photon| photon.way.len() == 11);
+        let whole =
+            |flow: &FlowPicture| flow.followed.as_ref().is_some_and(|photon| photon.trajectory.len() == 11);
         let flow = seen(&subject, &session, whole);
         let photon = flow.followed.as_ref().unwrap();
-        assert!(photon.way.contains(&photon.at));
+        assert!(photon.trajectory.contains(&photon.at));
         // The way ends at the next key.
-        assert!(photon.way[10].distance(photon.target) < 1e-6);
-        let (first, last) = (photon.detour[0], photon.detour[photon.detour.len() - 1]);
+        assert!(photon.trajectory[10].distance(photon.target) < 1e-6);
+        let (first, last) =
+            (photon.path_around_walls[0], photon.path_around_walls[photon.path_around_walls.len() - 1]);
         assert_eq!((first, last), (photon.at, photon.target));
         let active = wall.active(Window::ALWAYS).unwrap();
         let barriers = Barriers::new(&[&active], Vec2::ONE);
         if walls.is_empty() {
-            assert_eq!(photon.detour.len(), 2);
+            assert_eq!(photon.path_around_walls.len(), 2);
         } else {
             assert!(barriers.blocks(first, last), "the straight way shall be blocked for this test");
-            assert!(photon.detour.windows(2).all(|piece| !barriers.blocks(piece[0], piece[1])));
+            assert!(photon.path_around_walls.windows(2).all(|piece| !barriers.blocks(piece[0], piece[1])));
         }
         assert!(!flow.trails.is_empty());
     }

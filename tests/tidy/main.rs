@@ -49,9 +49,6 @@ const UNKNOWN_IN: [(&str, &[&str]); 4] = [
     ("src/editor", &["cli", "clap", "indicatif", "ctrlc"]),
 ];
 
-/// Files that import each other in a circle, one circle a paragraph. To be emptied; the list is exact.
-const CIRCLES: &str = include_str!("circles.txt");
-
 const LONGEST_FILE: usize = 500;
 
 fn root() -> PathBuf {
@@ -151,23 +148,18 @@ fn the_core_knows_no_window_and_the_editor_no_command_line() {
 
 #[test]
 fn no_two_files_import_each_other_in_a_circle() {
-    let (mut found, mut edges) = (Vec::new(), String::new());
+    let mut found = Vec::new();
     for package in packages() {
         let imports = package.imports();
-        for mut circle in circles(&imports) {
-            circle.sort_by_key(|file| name(&package.files[*file]));
-            let lines = circle.iter().map(|file| name(&package.files[*file]) + "\n");
-            found.push(lines.collect::<String>());
+        for circle in circles(&imports) {
             for file in &circle {
                 let others = circle.iter().filter(|other| imports[*file].contains(other));
                 let names: Vec<_> = others.map(|other| name(&package.files[*other])).collect();
-                edges += &format!("{} uses {}\n", name(&package.files[*file]), names.join(", "));
+                found.push(format!("{} uses {}", name(&package.files[*file]), names.join(", ")));
             }
         }
     }
-    found.sort();
-    let found = found.join("\n");
-    assert!(found == CIRCLES, "tests/tidy/circles.txt is exact; it should say:\n{found}\nfor\n{edges}");
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 #[test]

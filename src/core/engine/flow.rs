@@ -55,12 +55,15 @@ pub(super) fn fit_segment(
     })
 }
 
+/// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.
+type ShowSample<'a> = dyn FnMut(&[usize], usize, &[Vec2]) + 'a;
+
 /// Times at which photons are shown while fields are fitted to them.
 pub(super) struct LayerSamples<'a> {
     /// Times within 0..=1, rising.
     pub(super) times: &'a [f64],
-    /// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.
-    pub(super) show: &'a mut dyn FnMut(&[usize], usize, &[Vec2]),
+    /// Called with each.
+    pub(super) show: &'a mut ShowSample<'a>,
 }
 
 impl SegmentPhotons {

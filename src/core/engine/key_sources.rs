@@ -49,14 +49,13 @@ pub(super) struct KeySources {
     rows: Option<Vec<usize>>,
 }
 
+/// Opens what a key shows: gets it, its place in the project and a number of its own.
+type OpenSource<'a> = dyn Fn(&Shows, &str, usize) -> Result<Arc<KeySource>> + 'a;
+
 impl KeySources {
     /// Opens the pictures and point files of a project by `open`, which gets the source, its place in the project and a
     /// number of its own, and finds the caustics in the scene.
-    pub(super) fn load(
-        project: &Project,
-        scene: Option<&Scene>,
-        open: &dyn Fn(&Shows, &str, usize) -> Result<Arc<KeySource>>,
-    ) -> Result<Self> {
+    pub(super) fn load(project: &Project, scene: Option<&Scene>, open: &OpenSource<'_>) -> Result<Self> {
         let grouping = Grouping::resolve(project, scene)?;
         let mut notes = Vec::new();
         let mut open = |shows: &Shows, place: String, slot: usize| -> Result<Arc<KeySource>> {

@@ -15,23 +15,8 @@ use exr::prelude::{
 use glam::Vec3;
 use half::f16;
 
-use super::{Frame, RepairedSamples};
+use super::frame::{Frame, Metadata, RepairedSamples};
 use crate::{Error, Result};
-
-/// The metadata of a frame's file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Metadata {
-    /// Frame number.
-    pub frame: i32,
-    /// Frames per second as a fraction, such as (24, 1) or (30000, 1001).
-    pub frames_per_second: (i32, u32),
-    /// Seed of the run.
-    pub seed: u64,
-    /// Passes in this frame.
-    pub passes: u32,
-    /// Further names and values, such as settings; each name is prefixed with `lightloom:`.
-    pub settings: Vec<(String, String)>,
-}
 
 /// Writes a frame; returns the repaired samples, which the metadata counts too.
 pub fn write(path: &Path, frame: &Frame<'_>) -> Result<RepairedSamples> {

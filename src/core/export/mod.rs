@@ -8,6 +8,7 @@ pub mod pattern;
 pub mod png;
 pub mod sheet;
 
+mod frame;
 mod text;
 
 use std::path::Path;
@@ -16,15 +17,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
-pub use exr::Metadata;
 pub use fields::{SegmentFields, load_fields, write_fields};
+pub use frame::{Frame, Metadata, RepairedSamples};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};
 
 use crate::Result;
-use crate::render::image::Image;
 use crate::render::view::View;
 
 /// The kinds of picture files.
@@ -47,33 +47,6 @@ impl FrameFormat {
             Self::Exr => "exr",
             Self::Png => "png",
         }
-    }
-}
-
-/// One finished frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
-    /// Light without caustics, linear.
-    pub background: &'a Image,
-    /// The caustics alone, linear, of the same size.
-    pub caustic: &'a Image,
-    /// Metadata of the file.
-    pub metadata: &'a Metadata,
-}
-
-/// Counts of samples that the file format cannot hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RepairedSamples {
-    /// Samples beyond the largest half float, clamped to it.
-    pub half_clamped: u64,
-    /// Samples that were not finite, replaced by 0.
-    pub nonfinite_replaced: u64,
-}
-
-impl std::ops::AddAssign for RepairedSamples {
-    fn add_assign(&mut self, other: Self) {
-        self.half_clamped += other.half_clamped;
-        self.nonfinite_replaced += other.nonfinite_replaced;
     }
 }
 

@@ -1,17 +1,16 @@
 //! Emission guiding: importance sampling of the rays that lead to caustics. Nearly all light misses the glass, or leaves
 //! it for elsewhere, so candidates are sent mostly where earlier photons reached the receiver.
 //!
-//! The rays from a light to one specular mesh (a caster) are parametrised by the unit square ([`Emission`]), area in
+//! The rays from a light to one specular mesh (a caster) are parametrised by the unit square ([`Emission`](crate::scene::light::Emission)), area in
 //! proportion to flux. A quadtree over the square learns which cells are active: they, or a neighbour, send photons to
 //! the receiver. Active cells get candidates in proportion to their flux, so their photons have equal flux. The others
 //! keep a small share of the candidates with more flux each, so that the estimate stays unbiased; where the pilot run
 //! sees a photon land from one, that cell becomes active.
 
+use super::domain::{Domain, EmissionGuiding, domains};
 use super::guide_learner::{GuideLearner, Leaf};
 use super::path::FluxBalance;
-use crate::math::rng::Stream;
-use crate::scene::light::{Emission, Sphere};
-use crate::scene::{Media, Ray, Scene};
+use crate::scene::Scene;
 use crate::{Progress, Result};
 
 /// Highest rate of candidates in inactive cells, relative to active ones.
@@ -20,46 +19,6 @@ const INACTIVE_RATE: f64 = 1.0 / 16.0;
 const INACTIVE_SHARE: f64 = 0.2;
 /// Most cells to be refined on one level of the quadtree; fewer for scenes of many lights and casters.
 const MAX_OPEN: usize = 16_384;
-/// Most casters with bounding spheres of their own; more of them share one.
-const MAX_CASTERS: usize = 16;
-
-/// How emission is importance-sampled. All have the same expectation; only their cost differs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EmissionGuiding {
-    /// All the light of every source.
-    Unguided,
-    /// Towards the bounding spheres of glass and mirrors.
-    Bounds,
-    /// By the cells from which trial photons reached the receiver; the default.
-    Learned,
-}
-
-/// The rays from one light that meet the bounding sphere of one caster and none of the spheres before it.
-pub(super) struct Domain {
-    pub light: u16,
-    pub emission: Emission,
-    /// Spheres whose rays belong to other domains.
-    before: Vec<Sphere>,
-    /// Whether photons may start inside glass.
-    in_glass: bool,
-}
-
-impl Domain {
-    /// The ray of a point of the square and the glass it starts in; none if no photon leaves there.
-    pub(super) fn sample(&self, scene: &Scene, u: [f32; 2], rng: &mut Stream) -> Option<(Ray, Media)> {
-        let ray = self.emission.sample(u, rng)?;
-        if self.before.iter().any(|sphere| sphere.intersects(&ray)) {
-            return None;
-        }
-        let media = if self.in_glass { scene.media_at(ray.origin) } else { Media::default() };
-        Some((ray, media))
-    }
-
-    fn power(&self) -> f64 {
-        self.emission.flux.as_dvec3().element_sum() / 3.0
-    }
-}
-
 /// A cell of a domain's square with the flux of its candidates.
 pub(super) struct Cell {
     pub domain: u32,
@@ -104,7 +63,7 @@ impl EmissionPlan {
                     leaves.push(Leaf { domain: index as u32, level: 0, at: [0, 0], active: true });
                 }
                 EmissionGuiding::Learned => {
-                    leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?)
+                    leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?);
                 }
             }
             progress.advance(1);
@@ -169,36 +128,6 @@ impl EmissionPlan {
         }
         changed
     }
-}
-
-/// The domains: one for each light and caster.
-fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
-    let (lower, upper) = scene.bounds();
-    let world = Sphere::around_box(lower, upper);
-    let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
-    let mut casters: Vec<Sphere> = specular().map(|mesh| mesh.bounding_sphere()).collect();
-    if casters.len() > MAX_CASTERS {
-        let lower = specular().map(|mesh| mesh.lower).fold(lower, glam::Vec3::min);
-        let upper = specular().map(|mesh| mesh.upper).fold(upper, glam::Vec3::max);
-        casters = vec![Sphere::around_box(lower, upper)];
-    }
-    let mut domains = Vec::new();
-    for (light, desc) in scene.lights().iter().enumerate() {
-        let in_glass = specular().any(|mesh| desc.overlaps_box(mesh.lower, mesh.upper));
-        let domain = |target, before: &[Sphere]| Domain {
-            light: light as u16,
-            emission: desc.emission(target, world),
-            before: before.to_vec(),
-            in_glass,
-        };
-        match guiding {
-            EmissionGuiding::Unguided => domains.push(domain(None, &[])),
-            EmissionGuiding::Bounds | EmissionGuiding::Learned => {
-                domains.extend((0..casters.len()).map(|i| domain(Some(casters[i]), &casters[..i])));
-            }
-        }
-    }
-    domains
 }
 
 /// Interleaves the bits of column and row (Z order).

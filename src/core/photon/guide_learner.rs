@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::emission_plan::Domain;
+use super::domain::Domain;
 use super::path::{FluxBalance, follow};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;

@@ -1,6 +1,7 @@
 //! Caustic photons (Sec. 2): traced from the lights, kept where they land on the receiver after a specular surface.
 
 mod diagnosis;
+mod domain;
 mod emission_plan;
 mod guide_learner;
 mod path;
@@ -8,7 +9,7 @@ mod trace;
 
 use glam::{Vec2, Vec3};
 
-pub use emission_plan::EmissionGuiding;
+pub use domain::EmissionGuiding;
 pub use path::FluxBalance;
 pub use trace::{EmissionGuide, TraceReport, Tracer};
 

@@ -11,7 +11,8 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::emission_plan::{EmissionGuiding, EmissionPlan};
+use super::domain::EmissionGuiding;
+use super::emission_plan::EmissionPlan;
 use super::path::{FluxBalance, follow};
 use super::{Photons, diagnosis};
 use crate::math::rng::{Purpose, Stream};

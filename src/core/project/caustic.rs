@@ -1,19 +1,16 @@
 //! Named caustics: which light through which glass, and their values at a key frame.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt;
 
 use schemars::JsonSchema;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{KeyFrame, Project, Shows};
+use super::shows::Shows;
+use crate::Result;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
-use crate::{Error, Result};
-
-/// Most caustics of a project.
-const MAX_CAUSTICS: usize = 1000;
 
 /// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -80,18 +77,11 @@ impl CausticKey {
         self.colour.map(|channel| channel * self.brightness)
     }
 
-    fn check(&self, place: &str) -> Result<()> {
+    /// Refuses values out of range, naming their place under `place`.
+    pub(super) fn check(&self, place: &str) -> Result<()> {
         Self::COLOUR.check(self.colour, place)?;
         Self::BRIGHTNESS.check(self.brightness, place)?;
         self.shows.as_ref().map_or(Ok(()), |shows| shows.check(&format!("{place}.shows")))
-    }
-}
-
-impl KeyFrame {
-    /// What a caustic shows at this key; without a name, or not mentioned by the key, what the key shows.
-    pub fn shown_by(&self, caustic: Option<&str>) -> &Shows {
-        let own = caustic.and_then(|name| self.caustics.get(name)?.shows.as_ref());
-        own.unwrap_or(&self.shows)
     }
 }
 
@@ -121,42 +111,6 @@ pub(super) fn by_name<'de, D: Deserializer<'de>>(
     deserializer.deserialize_map(ByName)
 }
 
-/// Checks the named caustics and the keys' values of them.
-pub(super) fn check(project: &Project) -> Result<()> {
-    let caustics = &project.caustics;
-    if caustics.len() > MAX_CAUSTICS {
-        let what =
-            format!("names {} caustics, at most {MAX_CAUSTICS} can be told apart; join some", caustics.len());
-        return Err(Error::Limit { place: "caustics".into(), what });
-    }
-    if !caustics.is_empty() && project.scene.is_none() {
-        return Err(Error::value(
-            "caustics",
-            "caustics are cast by the lights of a scene and this project has none; add \"scene\"",
-        ));
-    }
-    let mut names = BTreeSet::new();
-    for (i, CausticDesc { name, .. }) in caustics.iter().enumerate() {
-        let place = || format!("caustics[{i}].name");
-        if name.is_empty() {
-            return Err(Error::value(place(), "is empty; give the caustic a name"));
-        }
-        if !names.insert(name.as_str()) {
-            return Err(Error::value(place(), format!("'{name}' stands twice; give each its own name")));
-        }
-    }
-    for (i, key) in project.keys.iter().enumerate() {
-        for (name, caustic) in &key.caustics {
-            let place = format!("keys[{i}].caustics.{name}");
-            if !names.contains(name.as_str()) {
-                return Err(Error::value(place, unknown_name("caustic", name, names.iter().copied())));
-            }
-            caustic.check(&place)?;
-        }
-    }
-    Ok(())
-}
-
 /// The message on an unknown name.
 pub(crate) fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<_> = known.map(|name| format!("'{name}'")).collect();
@@ -164,28 +118,4 @@ pub(crate) fn unknown_name<'a>(kind: &str, name: &str, known: impl Iterator<Item
         return format!("there is no {kind} '{name}', and no other");
     }
     format!("there is no {kind} '{name}'; there is {}", known.join(", "))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_key_without_a_word_on_a_caustic_shows_the_same_by_all() {
-        let text = r#"{ "frame": 1, "shows": "physical_caustic",
-            "caustics": { "red": { "shows": { "points": { "file": "a.csv" } } }, "blue": { "brightness": 0.5 } } }"#;
-        let key: KeyFrame = serde_json::from_str(text).expect("a good key");
-        assert!(matches!(key.shown_by(Some("red")), Shows::Points(_)));
-        for other in [Some("blue"), Some("green"), None] {
-            assert_eq!(*key.shown_by(other), Shows::PhysicalCaustic);
-        }
-        assert_eq!(key.caustics["blue"].gain(), [0.5; 3]);
-    }
-
-    #[test]
-    fn a_caustic_that_a_key_names_twice_is_refused() {
-        let text = r#"{ "frame": 1, "shows": "physical_caustic", "caustics": { "red": {}, "red": { "brightness": 2 } } }"#;
-        let error = serde_json::from_str::<KeyFrame>(text).expect_err("a name twice").to_string();
-        assert!(error.contains("duplicate caustic `red`"), "{error}");
-    }
 }

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::CausticKey;
+use super::caustic::CausticKey;
+use super::shows::Shows;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
-use crate::targets::{ImageTarget, PointsTarget};
 use crate::{Error, Result};
 
 /// One key frame.
@@ -36,12 +36,7 @@ settings! { KeyFrame {
     /// Frame at which the light shows this. Key frames stand in rising order.
     FRAME = Setting::whole("keys[].frame", [-1e6, 1e6], &[]);
     /// What the light shows at this key frame.
-    SHOWS = Setting::choice("keys[].shows", &[
-        Choice { value: "physical_caustic", help: "what the scene's glass and mirrors really cast" },
-        Choice { value: "image", help: "a picture: its bright parts attract the light" },
-        Choice { value: "points", help: "a file of points, one for each photon or fewer" },
-        Choice { value: "", help: "what the key frame shows by all light" },
-    ]).required();
+    SHOWS = Shows::CHOICE;
     /// How the time runs from this key frame to the next.
     EASE = Setting::choice("keys[].ease", &[
         Choice { value: "smooth", help: "starts and ends at rest" },
@@ -50,19 +45,6 @@ settings! { KeyFrame {
         Choice { value: "out", help: "starts at full pace, comes to rest" },
     ]);
 } }
-
-/// What the light shows at a key frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(transform = Describe(KeyFrame::SHOWS))]
-pub enum Shows {
-    /// The caustic that the scene casts.
-    PhysicalCaustic,
-    /// A picture.
-    Image(ImageTarget),
-    /// A file of points.
-    Points(PointsTarget),
-}
 
 /// How the time runs between two keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -90,6 +72,14 @@ impl Ease {
             Self::In => x * x,
             Self::Out => x * (2.0 - x),
         }
+    }
+}
+
+impl KeyFrame {
+    /// What a caustic shows at this key; without a name, or not mentioned by the key, what the key shows.
+    pub fn shown_by(&self, caustic: Option<&str>) -> &Shows {
+        let own = caustic.and_then(|name| self.caustics.get(name)?.shows.as_ref());
+        own.unwrap_or(&self.shows)
     }
 }
 
@@ -147,17 +137,6 @@ pub(super) fn check(keys: &[KeyFrame], has_scene: bool) -> Result<()> {
     Ok(())
 }
 
-impl Shows {
-    /// Refuses what is out of range, naming its place under `place`.
-    pub(super) fn check(&self, place: &str) -> Result<()> {
-        match self {
-            Self::PhysicalCaustic => Ok(()),
-            Self::Image(image) => image.check(&format!("{place}.image")),
-            Self::Points(points) => points.check(&format!("{place}.points")),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,5 +174,24 @@ mod tests {
         for ease in [Ease::Smooth, Ease::Linear, Ease::In, Ease::Out] {
             assert_eq!((ease.apply(0.0), ease.apply(1.0)), (0.0, 1.0));
         }
+    }
+
+    #[test]
+    fn a_key_without_a_word_on_a_caustic_shows_the_same_by_all() {
+        let text = r#"{ "frame": 1, "shows": "physical_caustic",
+            "caustics": { "red": { "shows": { "points": { "file": "a.csv" } } }, "blue": { "brightness": 0.5 } } }"#;
+        let key: KeyFrame = serde_json::from_str(text).expect("a good key");
+        assert!(matches!(key.shown_by(Some("red")), Shows::Points(_)));
+        for other in [Some("blue"), Some("green"), None] {
+            assert_eq!(*key.shown_by(other), Shows::PhysicalCaustic);
+        }
+        assert_eq!(key.caustics["blue"].gain(), [0.5; 3]);
+    }
+
+    #[test]
+    fn a_caustic_that_a_key_names_twice_is_refused() {
+        let text = r#"{ "frame": 1, "shows": "physical_caustic", "caustics": { "red": {}, "red": { "brightness": 2 } } }"#;
+        let error = serde_json::from_str::<KeyFrame>(text).expect_err("a name twice").to_string();
+        assert!(error.contains("duplicate caustic `red`"), "{error}");
     }
 }

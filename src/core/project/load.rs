@@ -9,10 +9,22 @@ use crate::{Error, Result};
 /// Largest project file; photons and pictures are in separate files.
 pub(super) const MAX_BYTES: u64 = 64 << 20;
 
-pub(super) fn load(path: &Path) -> Result<Project> {
-    parse(&crate::files::read_regular_file(path, MAX_BYTES)?, path)
+impl Project {
+    /// Reads and checks a project file.
+    ///
+    /// # Errors
+    /// A file that is unreadable, malformed or out of range; each names the file and the place in it.
+    pub fn load(path: &Path) -> Result<Self> {
+        Self::parse(&crate::files::read_regular_file(path, MAX_BYTES)?, path)
+    }
+
+    /// Parses and checks a project from text; `path` appears only in errors.
+    pub fn parse(text: &[u8], path: &Path) -> Result<Self> {
+        parse(text, path)
+    }
 }
 
+/// See [`Project::parse`].
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     let text = text(bytes, path)?;
     let mut json = serde_json::Deserializer::from_str(text);

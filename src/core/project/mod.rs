@@ -10,6 +10,7 @@
 
 mod asset_path;
 mod caustic;
+mod check;
 mod file;
 pub mod frames;
 mod keyframe;
@@ -17,6 +18,7 @@ mod load;
 mod output;
 mod schema_docs;
 mod settings;
+mod shows;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -29,9 +31,10 @@ pub use asset_path::AssetFolder;
 pub(crate) use caustic::unknown_name;
 pub use caustic::{CausticDesc, CausticKey};
 pub use file::ProjectFile;
-pub use keyframe::{Ease, KeyFrame, SegmentTime, Shows, segment_time};
+pub use keyframe::{Ease, KeyFrame, SegmentTime, segment_time};
 pub use output::OutputSettings;
 pub use settings::settings;
+pub use shows::Shows;
 
 use crate::constraint::Constraint;
 use crate::flow::{FlowSettings, Movement};
@@ -142,65 +145,6 @@ fn default_seed() -> u64 {
 }
 
 impl Project {
-    /// Reads and checks a project file.
-    ///
-    /// # Errors
-    /// A file that is unreadable, malformed or out of range; each names the file and the place in it.
-    pub fn load(path: &Path) -> Result<Self> {
-        load::load(path)
-    }
-
-    /// Parses and checks a project from text; `path` appears only in errors.
-    pub fn parse(text: &[u8], path: &Path) -> Result<Self> {
-        load::parse(text, path)
-    }
-
-    /// Checks all values, singly and against each other.
-    ///
-    /// # Errors
-    /// The first invalid value, by its path in the project.
-    pub fn check(&self) -> Result<()> {
-        if self.lightloom != VERSION {
-            let what =
-                format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
-            return Err(Error::value("lightloom", what));
-        }
-        Self::SEED.check_at(self.seed, || "seed".to_owned())?;
-        if let Some(scene) = &self.scene {
-            scene.check("scene")?;
-        }
-        self.plane.check("plane")?;
-        keyframe::check(&self.keys, self.scene.is_some())?;
-        caustic::check(self)?;
-        self.check_given()?;
-        for (i, constraint) in self.constraints.iter().enumerate() {
-            constraint.check(&format!("constraints[{i}]"))?;
-        }
-        self.flow.check("flow")?;
-        self.render.check("render")?;
-        self.output.check("output")
-    }
-
-    /// Checks that pairing row by row has point files at every key.
-    fn check_given(&self) -> Result<()> {
-        let all_points = self.shown().all(|shows| matches!(shows, Shows::Points(_)));
-        if self.matching == Method::Given && !all_points {
-            let what =
-                "\"given\" pairs the rows of point files, but a key shows something else; use \"transport\"";
-            return Err(Error::value("matching", what));
-        }
-        if self.matching == Method::Given && !self.caustics.is_empty() {
-            let what = "\"given\" pairs the rows of point files, which know no caustics; use \"transport\"";
-            return Err(Error::value("matching", what));
-        }
-        if self.matching == Method::Given && self.method == Movement::Stylized {
-            let what =
-                "\"stylized\" finds its own pairs, but matching is \"given\"; use \"flow\" or \"linear\"";
-            return Err(Error::value("method", what));
-        }
-        Ok(())
-    }
-
     /// Everything shown, by the keys and by single caustics.
     fn shown(&self) -> impl Iterator<Item = &Shows> {
         self.keys.iter().flat_map(|key| {

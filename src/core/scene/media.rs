@@ -1,6 +1,6 @@
 //! The glass solids that contain a point, and the one that fills it.
 
-use super::Mesh;
+use super::geometry::Mesh;
 use super::material::{Glass, Material};
 
 /// Most overlapping solids; further ones are ignored.

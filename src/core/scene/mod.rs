@@ -12,11 +12,11 @@ pub mod receiver;
 
 mod accel;
 mod check;
+mod geometry;
 mod media;
 mod resolve;
 mod surface;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec3;
@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 pub use camera::CameraDesc;
 pub use environment::EnvironmentDesc;
+pub use geometry::{Geometry, Mesh};
 pub use light::{LightDesc, Sphere};
 pub use material::Material;
 pub use media::Media;
@@ -32,8 +33,7 @@ pub use mesh::MeshDesc;
 pub use receiver::{Receiver, ReceiverDesc};
 pub use surface::{Hit, Primitive, Ray, SurfaceId};
 
-use crate::{Progress, Result};
-use accel::Accel;
+use crate::Result;
 
 /// What is lit, as saved in a project.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -61,32 +61,6 @@ impl SceneDesc {
     }
 }
 
-/// One object of a loaded scene: all triangles of one material of one [`MeshDesc`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// The name in the project; where a file was split by material, "name/material".
-    pub name: String,
-    /// Its resolved material.
-    pub material: Material,
-    /// Lower corner of its bounds, world (m).
-    pub lower: Vec3,
-    /// Upper corner of its bounds, world (m).
-    pub upper: Vec3,
-    /// Radius of the bounding sphere around the middle of its bounds (m).
-    pub radius: f32,
-    /// Where solids of glass overlap, the mesh of the higher priority fills the space; equal priorities: the later mesh.
-    pub priority: i32,
-    /// Triangles after clean-up.
-    pub triangles: usize,
-}
-
-impl Mesh {
-    /// Its bounding sphere, slightly enlarged, so that rounding leaves no vertex outside.
-    pub fn bounding_sphere(&self) -> Sphere {
-        Sphere { centre: (self.lower + self.upper) / 2.0, radius: self.radius * 1.0001 }
-    }
-}
-
 /// A scene resolved from its description: checked, in world space, ready for ray queries.
 pub struct Scene {
     geometry: Arc<Geometry>,
@@ -96,52 +70,7 @@ pub struct Scene {
     environment: EnvironmentDesc,
 }
 
-/// All meshes of a scene with their acceleration structure; independent of lights, camera and receiver.
-pub struct Geometry {
-    meshes: Vec<Mesh>,
-    accel: Accel,
-}
-
-impl Geometry {
-    /// Reads, checks and indexes meshes; with notes for the artist. `assets` as in [`Scene::load`].
-    ///
-    /// # Errors
-    /// The place of the first value or file that cannot be used; `Cancelled`.
-    pub fn load(
-        meshes: &[MeshDesc],
-        assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
-        progress: &Progress,
-    ) -> Result<(Self, Vec<String>)> {
-        resolve::geometry(meshes, assets, progress)
-    }
-}
-
 impl Scene {
-    /// Loads, checks and indexes a scene; with notes for the artist on what was cleaned up, guessed or looks wrong.
-    /// `assets` resolves a path as written to a readable file, or refuses; its second argument is the place to name in the
-    /// error.
-    ///
-    /// # Errors
-    /// The place of the first value or file that cannot be used.
-    pub fn load(
-        desc: &SceneDesc,
-        assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
-    ) -> Result<(Self, Vec<String>)> {
-        desc.check("scene")?;
-        let (geometry, mut notes) = Geometry::load(&desc.meshes, assets, &Progress::new())?;
-        let (scene, more) = Self::with_geometry(desc, Arc::new(geometry))?;
-        notes.extend(more);
-        Ok((scene, notes))
-    }
-
-    /// The scene of a description whose meshes are `geometry`, with notes for the artist.
-    ///
-    /// # Errors
-    /// `Value` names the first value that cannot be used.
-    pub fn with_geometry(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
-        resolve::scene(desc, geometry)
-    }
-
     /// The geometry of its meshes.
     pub fn geometry(&self) -> &Arc<Geometry> {
         &self.geometry

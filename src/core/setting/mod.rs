@@ -1,7 +1,7 @@
 //! Settings: place, range, default, unit and help of each value that an artist decides on, in one constant.
 //!
 //! Checks, defaults, the JSON schema, the editor's controls and the README's table are all made from these constants.
-//! They stand with the types that hold the values (see [`settings!`]); [`crate::project::settings`] lists all of them.
+//! They stand with the types that hold the values (see `settings!`); [`crate::project::settings`] lists all of them.
 
 pub mod format;
 pub mod schema;

@@ -27,6 +27,7 @@ macro_rules! number {
                 value as Self
             }
 
+            #[allow(clippy::cast_lossless, reason = "one macro for all numbers")]
             fn to_f64(self) -> f64 {
                 self as f64
             }

@@ -29,7 +29,7 @@ impl Found {
     }
 }
 
-/// Sketches the newest version of a project.
+/// Previews of the newest version of a project.
 pub(super) struct PreviewWorker {
     worker: Worker<Request>,
     found: Arc<Mutex<Found>>,
@@ -90,7 +90,7 @@ impl PreviewWorker {
     }
 }
 
-/// Sketches at every detail, coarse first, and tells what there is to see.
+/// Makes the previews of all qualities, the coarsest first, and publishes them as they grow.
 fn answer(engine: Result<Engine>, request: &Request, turn: &Turn, found: &Mutex<Found>, seen: &impl Fn()) {
     let tell = |change: &dyn Fn(&mut Found)| {
         let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);

@@ -9,7 +9,7 @@ use crate::editor::session::Orbit;
 const TURN: f32 = 0.006;
 /// Maximum elevation, radians: just below vertical, where "up" is undefined.
 const STEEPEST: f32 = 1.55;
-/// Range of the distance [m].
+/// Range of the distance (m).
 const DISTANCE: [f32; 2] = [0.01, 1e5];
 
 impl Orbit {

@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sketches_go_from_thread_to_thread() {
+    fn previews_go_from_thread_to_thread() {
         fn shared<T: Send + Sync>() {}
         shared::<Preview>();
     }

@@ -174,7 +174,8 @@ fn every_default_is_that_of_a_project_that_says_nothing() {
             Kind::Switch => *value == json!(setting.is_on()),
             Kind::Choice => {
                 let first = setting.choices[0].value;
-                first.is_empty() || *value == json!(first) || value.to_string() == first
+                let written = value.to_string();
+                first.is_empty() || value.as_str() == Some(first) || written == first
             }
             _ => {
                 let numbers: Vec<f32> = match value {

@@ -10,19 +10,17 @@
 //! variance. Long boxes are running sums, whose cost does not depend on the radius (`running_sum`); three short ones are one
 //! short convolution per axis, which skips dark blocks (`short_kernel`).
 
+mod kernel;
 mod running_sum;
 mod short_kernel;
 
 use super::texture::ReceiverTexture;
-use running_sum::{ExtendedBox, RunningSum};
+use kernel::{BOXES, ExtendedBox};
+use running_sum::RunningSum;
 use short_kernel::ShortKernel;
 
 /// Knaus and Zwicker's alpha: the reduction of the squared radius from pass to pass.
 const ALPHA: f64 = 2.0 / 3.0;
-/// Number of boxes.
-const BOXES: usize = 3;
-/// Numbers per texel.
-const LANES: usize = 4;
 /// Reach in texels up to which one short convolution is faster than three running sums: measured on 2.4 M texels, all lit,
 /// 1024 to a row.
 const MAX_SHORT_REACH: usize = 24;

@@ -5,7 +5,7 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
-use super::LANES;
+use super::kernel::LANES;
 use crate::render::texture::ReceiverTexture;
 
 /// Texels per block, the unit that is dark or lit. The kernel reaches no farther than the next block.
@@ -155,7 +155,8 @@ fn weigh(lines: &[&[f32]], weights: &[f32], out: &mut [f32]) {
 mod tests {
     use glam::{Vec2, vec2};
 
-    use super::super::running_sum::{ExtendedBox, RunningSum};
+    use super::super::kernel::ExtendedBox;
+    use super::super::running_sum::RunningSum;
     use super::*;
     use crate::render::TextureLayout;
 

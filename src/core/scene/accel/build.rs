@@ -3,16 +3,15 @@
 
 use glam::Vec3;
 
+use super::node::{Child, MAX_DEPTH, Node};
+use super::triangle::Triangle;
 use super::wide::{Boxes, Triangles};
-use super::{Child, Node, Triangle};
 use crate::{Progress, Result};
 
 /// Bins per axis.
 const BINS: usize = 16;
 /// Depth below which nodes are halved by count, which takes at most 9 levels more.
-const MAX_SAH_DEPTH: usize = 16;
-/// Bound on the depth.
-pub(super) const MAX_DEPTH: usize = MAX_SAH_DEPTH + 10;
+const MAX_SAH_DEPTH: usize = MAX_DEPTH - 10;
 /// Triangles per leaf.
 const LEAF: usize = 8;
 /// Triangles above which children are built as parallel tasks.

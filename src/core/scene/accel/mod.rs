@@ -2,23 +2,18 @@
 //! eight at once (Wald, Benthin, Boulos 2008).
 
 mod build;
+mod node;
+mod triangle;
 mod wide;
 
-use arrayvec::ArrayVec;
 use glam::Vec3;
-use wide::{Boxes, Nearest, Triangles, WideRay};
 
-use super::{Hit, Primitive, Ray, SurfaceId};
+use node::{Child, Node, Stack};
+pub(super) use triangle::Triangle;
+use wide::{Nearest, Triangles, WideRay};
+
+use super::surface::{Hit, Primitive, Ray, SurfaceId};
 use crate::{Progress, Result};
-
-/// One triangle with its shading normals and mesh.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Triangle {
-    pub corners: [Vec3; 3],
-    /// Unit shading normals at the corners, on the side of the geometric normal.
-    pub normals: [Vec3; 3],
-    pub mesh: u16,
-}
 
 /// The bounding volume hierarchy with the triangles in the order of its leaves.
 pub(super) struct Accel {
@@ -33,48 +28,6 @@ struct ShadingData {
     normals: [Vec3; 3],
     mesh: u16,
 }
-
-/// Eight boxes with their children.
-struct Node {
-    boxes: Boxes,
-    children: [Child; 8],
-}
-
-/// A node, or a leaf with the highest bit set.
-#[derive(Clone, Copy)]
-struct Child(u32);
-
-impl Child {
-    const LEAF: u32 = 1 << 31;
-    /// An unused slot; its box is never hit.
-    const EMPTY: Self = Self(u32::MAX);
-
-    fn node(index: u32) -> Self {
-        Self(index)
-    }
-
-    fn leaf(index: u32) -> Self {
-        Self(index | Self::LEAF)
-    }
-
-    fn as_node(self) -> Option<usize> {
-        (self.0 & Self::LEAF == 0).then_some(self.0 as usize)
-    }
-
-    fn as_leaf(self) -> usize {
-        (self.0 & !Self::LEAF) as usize
-    }
-
-    /// Offsets the index by the nodes and leaves now before its own.
-    fn shift(&mut self, nodes: u32, leaves: u32) {
-        if self.0 != Self::EMPTY.0 {
-            self.0 += if self.as_node().is_some() { nodes } else { leaves };
-        }
-    }
-}
-
-/// The traversal stack: each level leaves at most seven children.
-type Stack = ArrayVec<(f32, Child), { 7 * build::MAX_DEPTH + 8 }>;
 
 impl Accel {
     /// Builds the hierarchy over triangles with area.
@@ -178,35 +131,5 @@ impl Accel {
                 }
             };
         }
-    }
-}
-
-impl Node {
-    /// The nearest child hit; the others go onto the stack, the next nearest on top.
-    #[inline(always)]
-    fn enter(&self, ray: &WideRay, limit: f32, stack: &mut Stack) -> Option<Child> {
-        let (mut mask, enter) = self.boxes.intersect(ray, limit);
-        if mask == 0 {
-            return None;
-        }
-        let first = mask.trailing_zeros() as usize;
-        mask &= mask - 1;
-        if mask == 0 {
-            return Some(self.children[first]);
-        }
-        let enter = enter.to_array();
-        let bottom = stack.len();
-        stack.push((enter[first], self.children[first]));
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize;
-            mask &= mask - 1;
-            let mut at = stack.len();
-            stack.push((enter[lane], self.children[lane]));
-            while at > bottom && stack[at - 1].0 < enter[lane] {
-                stack.swap(at - 1, at);
-                at -= 1;
-            }
-        }
-        stack.pop().map(|(_, child)| child)
     }
 }

@@ -1,19 +1,10 @@
 //! Glass: refraction and reflection by Fresnel, absorption by Beer-Lambert, optional dispersion.
-//!
-//! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
-//! the other's surface within it has no effect (Schmidt & Budge 2002). Meshes should be closed; behind an open sheet the
-//! solid never ends.
 
 use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Beam;
-use super::dispersion::sample_wavelength;
-use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use crate::Result;
-use crate::math::rng::Stream;
-use crate::scene::{Hit, Mesh, SurfaceId};
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
 
@@ -77,59 +68,4 @@ impl Glass {
         }
         (Vec3::from(self.absorption) * -distance).exp()
     }
-
-    pub(super) fn scatter(
-        &self,
-        meshes: &[Mesh],
-        hit: &Hit,
-        direction: Vec3,
-        beam: &mut Beam,
-        rng: &mut Stream,
-    ) -> Vec3 {
-        let SurfaceId::Mesh(mesh) = hit.surface else { return direction };
-        let entering = direction.dot(hit.geometric_normal) < 0.0;
-        let (mut before, mut after) = (beam.media, beam.media);
-        if entering {
-            after.enter(mesh);
-        } else if !after.leave(mesh) {
-            before.enter(mesh);
-        }
-        if before.filling(meshes) == after.filling(meshes) {
-            beam.media = after;
-            return direction;
-        }
-        if self.dispersion.is_some() && beam.wavelength.is_none() {
-            let (nm, colour) = sample_wavelength(beam.weight, rng);
-            beam.weight = colour;
-            beam.wavelength = Some(nm);
-        }
-        let index =
-            |media: &super::Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
-        let eta = index(&after) / index(&before);
-        let (next, through) = scatter_at_boundary(hit, direction, eta, rng.f32());
-        beam.media = if through { after } else { before };
-        next
-    }
-}
-
-/// Reflection with the Fresnel probability, else refraction; whether it went through. The geometric normal replaces the
-/// shading normal where that would lead to the wrong side of the surface, so that no energy is lost or gained.
-fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
-    let (geometric, shading) = facing_normals(hit, direction);
-    for normal in [shading, geometric] {
-        let cos_i = -direction.dot(normal);
-        let (reflectance, cos_t) = fresnel(cos_i, eta);
-        if choice < reflectance {
-            let next = reflect(direction, normal);
-            if next.dot(geometric) > 0.0 {
-                return (next, false);
-            }
-        } else {
-            let next = refract(direction, normal, cos_i, cos_t, eta);
-            if next.dot(geometric) < 0.0 {
-                return (next, true);
-            }
-        }
-    }
-    (direction, true) // Exactly along the surface: passes straight on.
 }

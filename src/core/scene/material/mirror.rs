@@ -1,13 +1,9 @@
 //! Polished metal: specular reflection from both sides, coloured by its reflectance.
 
-use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Beam;
-use super::fresnel::{facing_normals, reflect};
 use crate::Result;
-use crate::scene::Hit;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
 
@@ -34,12 +30,5 @@ impl Default for Mirror {
 impl Mirror {
     pub(super) fn check(&self, place: &str) -> Result<()> {
         Self::REFLECTANCE.check(self.reflectance, place)
-    }
-
-    pub(super) fn scatter(&self, hit: &Hit, direction: Vec3, beam: &mut Beam) -> Vec3 {
-        beam.weight *= Vec3::from(self.reflectance);
-        let (geometric, shading) = facing_normals(hit, direction);
-        let reflected = reflect(direction, shading);
-        if reflected.dot(geometric) > 0.0 { reflected } else { reflect(direction, geometric) }
     }
 }

@@ -1,12 +1,12 @@
-//! Materials. One kind, one file: values, `check`, `scatter`.
+//! Materials. One kind, one file: values and `check`. Where light goes from there is in `scatter`, which needs all meshes.
 
 mod diffuse;
 mod dispersion;
 pub mod fresnel;
 mod glass;
 mod mirror;
+mod scatter;
 
-use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,10 +14,9 @@ pub use diffuse::Diffuse;
 pub use dispersion::{VISIBLE_NM, rgb_of_wavelength};
 pub use glass::Glass;
 pub use mirror::Mirror;
+pub use scatter::Beam;
 
-use super::{Hit, Media, Mesh};
 use crate::Result;
-use crate::math::rng::Stream;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
 
@@ -44,54 +43,12 @@ settings! { Material {
     ]);
 } }
 
-/// The light carried along a path: flux for a photon, throughput for a camera path.
-#[derive(Clone, Debug)]
-pub struct Beam {
-    /// RGB, linear Rec.709.
-    pub weight: Vec3,
-    /// The glass solids around it.
-    pub media: Media,
-    /// Its wavelength (nm) after dispersive glass; none while white.
-    pub wavelength: Option<f32>,
-}
-
-impl Beam {
-    /// A beam that starts in the given solids.
-    pub fn new(weight: Vec3, media: Media) -> Self {
-        Self { weight, media, wavelength: None }
-    }
-
-    /// Absorption over `distance` (m) (Beer-Lambert); exactly none in clear glass and air.
-    pub fn travel(&mut self, meshes: &[Mesh], distance: f32) {
-        if let Some(glass) = self.media.glass(meshes) {
-            self.weight *= glass.transmittance(distance);
-        }
-    }
-}
-
 impl Material {
     /// Whether it casts caustics.
     pub fn is_specular(&self) -> bool {
         match self {
             Self::Diffuse(_) => false,
             Self::Mirror(_) | Self::Glass(_) => true,
-        }
-    }
-
-    /// The next direction (unit) of a path along `direction` at `hit`, sampled in proportion to energy; updates colour, media
-    /// and wavelength of the beam. None for a matt surface, where specular paths end.
-    pub fn scatter(
-        &self,
-        meshes: &[Mesh],
-        hit: &Hit,
-        direction: Vec3,
-        beam: &mut Beam,
-        rng: &mut Stream,
-    ) -> Option<Vec3> {
-        match self {
-            Self::Diffuse(_) => None,
-            Self::Mirror(mirror) => Some(mirror.scatter(hit, direction, beam)),
-            Self::Glass(glass) => Some(glass.scatter(meshes, hit, direction, beam, rng)),
         }
     }
 

@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::normals::{self, cross};
 use super::obj::{Face, NONE, ObjFile};
-use super::{cross, normals};
 use crate::scene::accel::Triangle;
 use crate::scene::material::Material;
 

@@ -7,11 +7,11 @@ mod obj;
 
 use std::path::PathBuf;
 
-use glam::{DMat3, DVec3, EulerRot, Vec3};
+use glam::{DMat3, DVec3, EulerRot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub(super) use super::accel::Triangle;
+use super::accel::Triangle;
 use super::material::{Diffuse, Material};
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
@@ -216,9 +216,4 @@ fn materials(
             (label, material)
         })
         .collect()
-}
-
-/// The normal of a counter-clockwise triangle, not normalized; its length is twice the area.
-fn cross([a, b, c]: [Vec3; 3]) -> Vec3 {
-    (b - a).cross(c - a)
 }

@@ -4,7 +4,6 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::cross;
 use super::obj::{Face, NONE, ObjFile};
 use crate::scene::accel::Triangle;
 
@@ -118,4 +117,9 @@ impl<'a> Averages<'a> {
 fn angles(corners: &[Vec3; 3]) -> [f32; 3] {
     let [a, b, c] = *corners;
     [(b - a).angle_between(c - a), (c - b).angle_between(a - b), (a - c).angle_between(b - c)]
+}
+
+/// The normal of a counter-clockwise triangle, not normalized; its length is twice the area.
+pub(super) fn cross([a, b, c]: [Vec3; 3]) -> Vec3 {
+    (b - a).cross(c - a)
 }

@@ -111,11 +111,11 @@ impl Overlay<'_> {
     /// The followed photon: its path over all frames, its target, and the path there around walls.
     pub(super) fn followed(&self, photon: &Followed) {
         let dark = Stroke::new(4.0, Color32::from_black_alpha(130));
-        self.polyline(&photon.way, dark, false);
-        self.polyline(&photon.way, Stroke::new(1.8, Color32::WHITE), false);
-        self.polyline(&photon.detour, dark, false);
-        self.polyline(&photon.detour, Stroke::new(1.8, theme::TARGET), true);
-        let corners = photon.detour.iter().skip(1).rev().skip(1);
+        self.polyline(&photon.trajectory, dark, false);
+        self.polyline(&photon.trajectory, Stroke::new(1.8, Color32::WHITE), false);
+        self.polyline(&photon.path_around_walls, dark, false);
+        self.polyline(&photon.path_around_walls, Stroke::new(1.8, theme::TARGET), true);
+        let corners = photon.path_around_walls.iter().skip(1).rev().skip(1);
         for corner in corners.filter_map(|&p| (self.screen)(p)) {
             self.painter.circle_filled(corner, 2.5, theme::TARGET);
         }

@@ -1,4 +1,4 @@
-//! The photon that is followed: its way, its target, its detour.
+//! The followed photon: its trajectory, its target, its shortest path around walls.
 
 use std::sync::Arc;
 
@@ -11,26 +11,26 @@ use lightloom_core::project::Project;
 use super::picture::{Followed, Request};
 use super::sample;
 
-/// Most corners of a way that are drawn: more than the table of ways has.
+/// Most corners of a path that are drawn: more than any path has.
 const MOST_CORNERS: usize = 10_000;
 
-/// The ways around the walls of one moment, remembered.
+/// The visibility graph of the walls of one moment, remembered.
 #[derive(Default)]
-pub(super) struct Roads {
+pub(super) struct WallGraph {
     last: Option<(Vec<ActiveWall>, VisibilityGraph)>,
 }
 
-impl Roads {
+impl WallGraph {
     /// Follows the photon of a row; none where there is no such photon now.
     pub(super) fn follow(&mut self, request: &Request, row: usize, progress: &Progress) -> Option<Followed> {
         let at = *request.preview.positions(request.frame)?.get(row)?;
         let target = *request.preview.targets(request.frame).get(row)?;
-        let detour = self.detour(request, at, target, progress)?;
-        Some(Followed { way: sample::way(request, row), at, target, detour })
+        let path_around_walls = self.path_around_walls(request, at, target, progress)?;
+        Some(Followed { trajectory: sample::trajectory(request, row), at, target, path_around_walls })
     }
 
     /// None when cancelled.
-    fn detour(
+    fn path_around_walls(
         &mut self,
         request: &Request,
         at: Vec2,
@@ -44,20 +44,20 @@ impl Roads {
         if self.last.as_ref().is_none_or(|(of, _)| *of != walls) {
             let all: Vec<&ActiveWall> = walls.iter().collect();
             match VisibilityGraph::new(&all, request.preview.extent(), progress) {
-                Ok(detour) => self.last = Some((walls, detour)),
+                Ok(graph) => self.last = Some((walls, graph)),
                 Err(_) if progress.is_cancelled() => return None,
-                // More walls than ways are made for: what is wrong is told by the animation.
+                // Too many walls; the preview worker reports it.
                 Err(_) => return Some(Vec::new()),
             }
         }
-        let (_, detour) = self.last.as_ref()?;
-        let Some(mut way) = detour.path(at, target, &mut SearchBuffers::default()) else {
+        let (_, graph) = self.last.as_ref()?;
+        let Some(mut path) = graph.path(at, target, &mut SearchBuffers::default()) else {
             return Some(Vec::new());
         };
         let mut corners = vec![at];
-        while !way.is_straight() && corners.len() < MOST_CORNERS {
-            corners.push(detour.next_point(way, target));
-            way = detour.after_corner(way);
+        while !path.is_straight() && corners.len() < MOST_CORNERS {
+            corners.push(graph.next_point(path, target));
+            path = graph.after_corner(path);
         }
         corners.push(target);
         Some(corners)

@@ -11,7 +11,7 @@ use lightloom_core::project::Project;
 
 use super::worker::{Share, Turn, Worker};
 use crate::editor::session::{FieldMap, Overlays, Session};
-use followed::Roads;
+use followed::WallGraph;
 use picture::Request;
 pub use picture::{FlowPicture, Followed, HeatMap};
 
@@ -30,13 +30,13 @@ impl FlowViewer {
         let seen = wake.clone();
         let worker = Worker::new("flow view", Share::Half, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
-            let mut roads = Roads::default();
+            let mut graph = WallGraph::default();
             move |request: Request, turn: &Turn| {
                 let publish = |picture: &FlowPicture| {
                     *found.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(picture.clone());
                     seen();
                 };
-                answer(&request, turn, &mut roads, &publish);
+                answer(&request, turn, &mut graph, &publish);
             }
         });
         Self { worker, asked: None, found }
@@ -84,13 +84,13 @@ impl FlowViewer {
     }
 }
 
-fn answer(request: &Request, turn: &Turn, roads: &mut Roads, publish: &dyn Fn(&FlowPicture)) {
+fn answer(request: &Request, turn: &Turn, graph: &mut WallGraph, publish: &dyn Fn(&FlowPicture)) {
     let mut picture = turn.shielded(|_| sample::quickly(request));
     publish(&picture);
     // Around walls these take their time.
     let map = request.show.map.filter(|map| *map == FieldMap::Residual);
     let map = map.and_then(|_| sample::residual(request, &turn.progress));
-    let followed = request.probe.and_then(|row| roads.follow(request, row, &turn.progress));
+    let followed = request.probe.and_then(|row| graph.follow(request, row, &turn.progress));
     if turn.progress.is_cancelled() || (map.is_none() && followed.is_none()) {
         return;
     }

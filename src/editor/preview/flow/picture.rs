@@ -42,14 +42,14 @@ pub struct HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
     /// Its path over all computed frames.
-    pub way: Vec<Vec2>,
+    pub trajectory: Vec<Vec2>,
     /// Its position at this frame.
     pub at: Vec2,
     /// Its target at the next key frame.
     pub target: Vec2,
     /// Shortest path there around the active walls; straight where none is between, empty where there is no
     /// path.
-    pub detour: Vec<Vec2>,
+    pub path_around_walls: Vec<Vec2>,
 }
 
 /// A request to the flow worker.

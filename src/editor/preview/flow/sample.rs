@@ -55,13 +55,13 @@ pub(super) fn quickly(request: &Request) -> FlowPicture {
     if show.trails && preview.is_ready(*frame) {
         let count = preview.photons();
         let rows = (0..TRAILS.min(count)).map(|i| i * count / TRAILS.min(count));
-        picture.trails = rows.map(|row| way(request, row)).collect();
+        picture.trails = rows.map(|row| trajectory(request, row)).collect();
     }
     picture
 }
 
-/// The way of a photon over the frames that are worked out.
-pub(super) fn way(request: &Request, row: usize) -> Vec<Vec2> {
+/// The trajectory of a photon over the known frames.
+pub(super) fn trajectory(request: &Request, row: usize) -> Vec<Vec2> {
     request.preview.track(row).into_iter().map(|(_, p)| p).collect()
 }
 
@@ -90,18 +90,18 @@ fn streamlines(field: &FieldAt, extent: Vec2, fast: f32) -> Vec<Vec<Vec2>> {
     let stream = |i: usize| {
         let mut p = vec2(0.754_877_7, 0.569_840_3) * (i as f32 + 0.5);
         p = p.fract() * extent;
-        let mut way = vec![p];
+        let mut line = vec![p];
         for _ in 0..STREAMS.1 {
             let middle = p + field.velocity(p) * (0.5 * dt);
             p += field.velocity(middle) * dt;
             if !p.is_finite() || !inside(p) {
                 break;
             }
-            way.push(p);
+            line.push(p);
         }
-        way
+        line
     };
-    (0..STREAMS.0).map(stream).filter(|way| way.len() > 2).collect()
+    (0..STREAMS.0).map(stream).filter(|line| line.len() > 2).collect()
 }
 
 fn map(of: FieldMap, extent: Vec2, value: impl Fn(Vec2) -> f32) -> HeatMap {

@@ -8,7 +8,7 @@ use lightloom_core::render::{ViewSettings, ViewTransform};
 /// The photons of one frame, in the layout of the graphics card.
 #[derive(Debug, Default)]
 pub struct PhotonColumns {
-    /// Plane x, plane y, red, green and blue flux [W] of each photon.
+    /// Plane x, plane y, red, green and blue flux (W) of each photon.
     pub columns: Vec<[f32; 5]>,
     /// Radius of the kernel, plane units.
     pub radius: f32,

@@ -126,9 +126,9 @@ impl<'a> Variants<'a> {
         let walls = photons.matched_walls();
         let around = || {
             fastest(2, AGAIN, || {
-                let detour = Arc::new(VisibilityGraph::new(&walls, *extent, &progress)?);
-                let map = WallMap::new(source, target, &detour, &progress)?;
-                Ok(ContinuousMap::Walls(map, detour))
+                let graph = Arc::new(VisibilityGraph::new(&walls, *extent, &progress)?);
+                let map = WallMap::new(source, target, &graph, &progress)?;
+                Ok(ContinuousMap::Walls(map, graph))
             })
         };
         let around = if walls.is_empty() { None } else { Some(around()?) };

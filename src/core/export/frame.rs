@@ -1,0 +1,45 @@
+//! What is written for one frame, and what had to be repaired in it.
+
+use crate::render::image::Image;
+
+/// One finished frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// Light without caustics, linear.
+    pub background: &'a Image,
+    /// The caustics alone, linear, of the same size.
+    pub caustic: &'a Image,
+    /// Metadata of the file.
+    pub metadata: &'a Metadata,
+}
+
+/// The metadata of a frame's file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metadata {
+    /// Frame number.
+    pub frame: i32,
+    /// Frames per second as a fraction, such as (24, 1) or (30000, 1001).
+    pub frames_per_second: (i32, u32),
+    /// Seed of the run.
+    pub seed: u64,
+    /// Passes in this frame.
+    pub passes: u32,
+    /// Further names and values, such as settings; each name is prefixed with `lightloom:`.
+    pub settings: Vec<(String, String)>,
+}
+
+/// Counts of samples that the file format cannot hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RepairedSamples {
+    /// Samples beyond the largest half float, clamped to it.
+    pub half_clamped: u64,
+    /// Samples that were not finite, replaced by 0.
+    pub nonfinite_replaced: u64,
+}
+
+impl std::ops::AddAssign for RepairedSamples {
+    fn add_assign(&mut self, other: Self) {
+        self.half_clamped += other.half_clamped;
+        self.nonfinite_replaced += other.nonfinite_replaced;
+    }
+}

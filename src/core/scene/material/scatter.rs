@@ -1,0 +1,122 @@
+//! Scattering: the light of a path and where it goes from a surface.
+//!
+//! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
+//! the other's surface within it has no effect (Schmidt & Budge 2002). Meshes should be closed; behind an open sheet the
+//! solid never ends.
+
+use glam::Vec3;
+
+use super::dispersion::sample_wavelength;
+use super::fresnel::{facing_normals, fresnel, reflect, refract};
+use super::{Glass, Material, Mirror};
+use crate::math::rng::Stream;
+use crate::scene::{Hit, Media, Mesh, SurfaceId};
+
+/// The light carried along a path: flux for a photon, throughput for a camera path.
+#[derive(Clone, Debug)]
+pub struct Beam {
+    /// RGB, linear Rec.709.
+    pub weight: Vec3,
+    /// The glass solids around it.
+    pub media: Media,
+    /// Its wavelength (nm) after dispersive glass; none while white.
+    pub wavelength: Option<f32>,
+}
+
+impl Beam {
+    /// A beam that starts in the given solids.
+    pub fn new(weight: Vec3, media: Media) -> Self {
+        Self { weight, media, wavelength: None }
+    }
+
+    /// Absorption over `distance` (m) (Beer-Lambert); exactly none in clear glass and air.
+    pub fn travel(&mut self, meshes: &[Mesh], distance: f32) {
+        if let Some(glass) = self.media.glass(meshes) {
+            self.weight *= glass.transmittance(distance);
+        }
+    }
+}
+
+impl Material {
+    /// The next direction (unit) of a path along `direction` at `hit`, sampled in proportion to energy; updates colour, media
+    /// and wavelength of the beam. None for a matt surface, where specular paths end.
+    pub fn scatter(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Option<Vec3> {
+        match self {
+            Self::Diffuse(_) => None,
+            Self::Mirror(mirror) => Some(mirror.scatter(hit, direction, beam)),
+            Self::Glass(glass) => Some(glass.scatter(meshes, hit, direction, beam, rng)),
+        }
+    }
+}
+
+impl Mirror {
+    fn scatter(&self, hit: &Hit, direction: Vec3, beam: &mut Beam) -> Vec3 {
+        beam.weight *= Vec3::from(self.reflectance);
+        let (geometric, shading) = facing_normals(hit, direction);
+        let reflected = reflect(direction, shading);
+        if reflected.dot(geometric) > 0.0 { reflected } else { reflect(direction, geometric) }
+    }
+}
+
+impl Glass {
+    fn scatter(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Vec3 {
+        let SurfaceId::Mesh(mesh) = hit.surface else { return direction };
+        let entering = direction.dot(hit.geometric_normal) < 0.0;
+        let (mut before, mut after) = (beam.media, beam.media);
+        if entering {
+            after.enter(mesh);
+        } else if !after.leave(mesh) {
+            before.enter(mesh);
+        }
+        if before.filling(meshes) == after.filling(meshes) {
+            beam.media = after;
+            return direction;
+        }
+        if self.dispersion.is_some() && beam.wavelength.is_none() {
+            let (nm, colour) = sample_wavelength(beam.weight, rng);
+            beam.weight = colour;
+            beam.wavelength = Some(nm);
+        }
+        let index = |media: &Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
+        let eta = index(&after) / index(&before);
+        let (next, through) = scatter_at_boundary(hit, direction, eta, rng.f32());
+        beam.media = if through { after } else { before };
+        next
+    }
+}
+
+/// Reflection with the Fresnel probability, else refraction; whether it went through. The geometric normal replaces the
+/// shading normal where that would lead to the wrong side of the surface, so that no energy is lost or gained.
+fn scatter_at_boundary(hit: &Hit, direction: Vec3, eta: f32, choice: f32) -> (Vec3, bool) {
+    let (geometric, shading) = facing_normals(hit, direction);
+    for normal in [shading, geometric] {
+        let cos_i = -direction.dot(normal);
+        let (reflectance, cos_t) = fresnel(cos_i, eta);
+        if choice < reflectance {
+            let next = reflect(direction, normal);
+            if next.dot(geometric) > 0.0 {
+                return (next, false);
+            }
+        } else {
+            let next = refract(direction, normal, cos_i, cos_t, eta);
+            if next.dot(geometric) < 0.0 {
+                return (next, true);
+            }
+        }
+    }
+    (direction, true) // Exactly along the surface: passes straight on.
+}
