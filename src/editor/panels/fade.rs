@@ -1,4 +1,4 @@
-//! The fade: how the photons leave the field to arrive.
+//! The fade: the transition from the field to the targets.
 
 use egui::Ui;
 use lightloom_core::flow::Fade;
@@ -14,10 +14,10 @@ const TAU: Control = Control::new("Tau", Fade::TAU);
 /// The settings of this part.
 pub(super) const CONTROLS: &[Control] = &[KIND, START, END, LIMIT, TAU];
 
-/// A hair more than the core asks for, so that rounding does no harm.
+/// Slightly more than the core requires, so that rounding does no harm.
 const APART: f32 = 1.01 * Fade::APART;
 
-/// How the photons leave the field.
+/// Kind and values of the fade.
 pub(super) fn show(ui: &mut Ui, fade: &mut Fade) {
     let kinds = [Fade::default(), Fade::paper()];
     let now = usize::from(matches!(fade, Fade::Paper { .. }));

@@ -1,4 +1,4 @@
-//! The flow: its kind, its smoothness, its lines; what is seldom touched is folded.
+//! The flow: kind, smoothness, lines, turbulence, fade; the rest under Advanced.
 
 use egui::Ui;
 use lightloom_core::flow::{FitKind, FlowSettings, GridSize, MotionMethod};
@@ -74,7 +74,7 @@ fn grid(ui: &mut Ui, flow: &mut FlowSettings) {
     };
 }
 
-/// What alpha means on this plane: the length over which the field is smooth.
+/// The length over which alpha smooths the field on this plane.
 fn smoothing(ui: &mut Ui, editor: &EditorContext, flow: &FlowSettings) {
     let share = flow.alpha.sqrt();
     let cells = flow.grid.cells(editor.document.project().extent()).into_iter().max().unwrap_or(0);
@@ -83,7 +83,7 @@ fn smoothing(ui: &mut Ui, editor: &EditorContext, flow: &FlowSettings) {
     aside(ui, &format!("smooth over {percent} %, {in_cells} cells"));
 }
 
-/// To two digits that count.
+/// Rounded to two significant digits.
 fn round(value: f64) -> f64 {
     let unit = 10_f64.powf(value.abs().max(1e-12).log10().floor() - 1.0);
     (value / unit).round() * unit

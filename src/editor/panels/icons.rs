@@ -1,10 +1,10 @@
-//! The small pictures of the panels, drawn so that they are sharp at every scale.
+//! Vector icons of the panels, sharp at every scale.
 
 use std::f32::consts::PI;
 
 use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-/// A picture for a button.
+/// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Icon {
     Add,
@@ -22,14 +22,14 @@ pub(super) enum Icon {
 /// Side of a button, points.
 pub(super) const SIDE: f32 = 22.0;
 
-/// A button with a picture; `name` is what it does, in the tooltip and for a screen reader. `strong` for what is on.
+/// A button with an icon; `name` is its tooltip and accessible name. `strong` where it is on.
 pub(super) fn button(ui: &mut Ui, icon: Icon, name: &str, strong: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click());
     paint_button(ui, rect, &response, icon, strong);
     named(ui, response, name)
 }
 
-/// The same at a place.
+/// As [`button`], in a given rectangle.
 pub(super) fn button_at(ui: &mut Ui, rect: Rect, icon: Icon, name: &str, strong: bool) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(name), Sense::click());
     paint_button(ui, rect, &response, icon, strong);

@@ -18,7 +18,7 @@ const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "L
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] = &[FRAME, EASE];
 
-/// The key that the panels show: the one that was chosen, or the last at or before the playhead.
+/// The key frame that the panels show: the selected one, or the last at or before the playhead.
 pub(super) fn shown(editor: &EditorContext) -> usize {
     let keys = &editor.document.project().keys;
     let chosen = editor.session.focus.key.filter(|key| *key < keys.len());
@@ -26,7 +26,7 @@ pub(super) fn shown(editor: &EditorContext) -> usize {
         .unwrap_or_else(|| keys.partition_point(|key| key.frame <= editor.session.playhead).saturating_sub(1))
 }
 
-/// Buttons with the frames of the keys; a click goes there.
+/// Buttons that select a key frame and move the playhead there.
 pub(super) fn choose(ui: &mut Ui, editor: &mut EditorContext) -> usize {
     let now = shown(editor);
     let keys = &editor.document.project().keys;
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     let index = choose(ui, editor);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        if ui.button("Add here").on_hover_text("A key frame where the playhead stands").clicked() {
+        if ui.button("Add here").on_hover_text("Adds a key frame at the playhead").clicked() {
             editor.ask(Command::AddKey);
         }
         ui.add_enabled_ui(keys.len() > 1, |ui| {
@@ -81,7 +81,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     }
 }
 
-/// Puts another key in place of one.
+/// Replaces a key frame.
 pub(super) fn replace(editor: &mut EditorContext, index: usize, key: KeyFrame) {
     let mut keys = editor.document.project().keys.clone();
     if let Some(old) = keys.get_mut(index) {
@@ -90,7 +90,7 @@ pub(super) fn replace(editor: &mut EditorContext, index: usize, key: KeyFrame) {
     }
 }
 
-/// The frame of a key, between its neighbours.
+/// The frame number of a key, between its neighbours.
 fn frame(ui: &mut Ui, keys: &[KeyFrame], index: usize, key: &mut KeyFrame) {
     let mut control = FRAME;
     if let Some(before) = index.checked_sub(1).and_then(|i| keys.get(i)) {

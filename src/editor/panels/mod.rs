@@ -1,4 +1,4 @@
-//! The panels: they read the document and answer with actions. One panel, one file, one line in [`PANELS`].
+//! The panels: they read the document and return actions. One panel, one file, one line in [`PANELS`].
 
 mod caustics;
 pub mod control;
@@ -29,11 +29,11 @@ use super::session::Panel;
 /// A panel on the right of the window.
 #[derive(Clone, Copy)]
 pub struct PanelInfo {
-    /// Which.
+    /// Its identifier.
     pub panel: Panel,
-    /// What it is called.
+    /// Its label.
     pub name: &'static str,
-    /// What stands in it.
+    /// Its tooltip.
     pub help: &'static str,
     show: fn(&mut Ui, &mut EditorContext),
     controls: &'static [&'static [Control]],
@@ -51,12 +51,12 @@ pub const PANELS: &[PanelInfo] = &[
     PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, controls: &[] },
 ];
 
-/// All settings of the panels.
+/// The controls of all panels.
 pub fn controls() -> impl Iterator<Item = &'static Control> {
     PANELS.iter().flat_map(|entry| entry.controls).copied().flatten()
 }
 
-/// The tabs, and the panel that is chosen.
+/// The tabs, and the selected panel.
 pub fn show(ui: &mut Ui, editor: &mut EditorContext) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = egui::vec2(2.0, 2.0);

@@ -1,15 +1,15 @@
-//! Small pictures of what a value does, rendered by `assets/generate/tooltips.rs` from one of the examples.
+//! Example pictures of settings in tooltips, rendered by `assets/generate/tooltips.rs` from one of the examples.
 
 use egui::{Color32, ColorImage, Id, Image, Rect, TextureHandle, TextureOptions, Ui, pos2, vec2};
 
-/// A small picture that is part of the program.
+/// An embedded picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Picture {
     name: &'static str,
     bytes: &'static [u8],
 }
 
-/// Pictures of a low, a middle and a high value, with what stands below them.
+/// Pictures of a low, a middle and a high value, with captions.
 #[derive(Clone, Copy, Debug)]
 pub struct Trio {
     pictures: [Picture; 3],
@@ -81,7 +81,7 @@ pub(super) fn paint(ui: &Ui, picture: &Picture, rect: Rect) {
     }
 }
 
-/// The picture on the graphics card; decoded when it is first shown.
+/// The texture, decoded and uploaded at first use.
 fn texture(ui: &Ui, picture: &Picture) -> Option<TextureHandle> {
     let id = Id::unique(("picture", picture.name));
     if let Some(texture) = ui.data(|data| data.get_temp::<TextureHandle>(id)) {

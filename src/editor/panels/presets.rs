@@ -1,4 +1,4 @@
-//! Ready flows: one line each.
+//! Presets of the flow, one line each.
 
 use egui::{Align2, CornerRadius, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, vec2};
 use lightloom_core::flow::{FlowSettings, TurbulenceSettings};
@@ -6,17 +6,17 @@ use lightloom_core::flow::{FlowSettings, TurbulenceSettings};
 use super::pictures::{self, Picture};
 use crate::editor::theme;
 
-/// A ready flow.
+/// A preset of the flow.
 pub struct Preset {
-    /// What it is called.
+    /// Its label.
     pub name: &'static str,
-    /// What it sets, and how that looks.
+    /// The values it sets, and how that looks.
     pub help: &'static str,
     picture: &'static Picture,
     set: fn(&mut FlowSettings),
 }
 
-/// All presets, in the order in which they stand.
+/// All presets, in the order of their buttons.
 #[rustfmt::skip]
 pub const PRESETS: &[Preset] = &[
     Preset { name: "Liquid", help: "Sets gamma 0: light swirls around itself like water.", picture: &pictures::LIQUID, set: |f| f.gamma = 0.0 },
@@ -36,7 +36,7 @@ fn storm(flow: &mut FlowSettings) {
 }
 
 impl Preset {
-    /// The flow with what this preset sets; the rest stays.
+    /// The flow with the values of this preset; the rest stays.
     pub fn apply(&self, flow: &FlowSettings) -> FlowSettings {
         let mut flow = flow.clone();
         (self.set)(&mut flow);
@@ -44,7 +44,7 @@ impl Preset {
     }
 }
 
-/// The presets side by side; a click sets what they stand for.
+/// The presets side by side; a click applies one.
 pub(super) fn show(ui: &mut Ui, flow: &mut FlowSettings) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;

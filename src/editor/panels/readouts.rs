@@ -1,4 +1,4 @@
-//! Readouts: what the numbers say of the moment that is shown.
+//! Readouts: the numbers of the frame that is shown.
 
 use egui::{Color32, RichText, Ui};
 use lightloom_core::engine::{Preview, Quality};
@@ -10,23 +10,23 @@ use super::widgets::{fold, section};
 use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
-/// Energy farther than this from what is asked for is to be looked at.
+/// Deviation of the energy above which it is marked.
 const ENERGY: f64 = 0.01;
 
-/// A number with its name.
+/// A number with name and help.
 #[derive(Clone, Debug, PartialEq)]
 struct Readout {
-    /// What is told.
+    /// Its label.
     pub name: &'static str,
     /// The number with its unit.
     pub value: String,
-    /// What it means, and what to do where it is bad.
+    /// Its meaning, and what to do where it is bad.
     pub help: &'static str,
-    /// Whether it is to be looked at.
+    /// Whether it is marked as bad.
     pub is_bad: bool,
 }
 
-/// What there is to tell of a preview at a frame; `tolerance` is that of the solver.
+/// The readouts of a preview at a frame; `tolerance` is that of the solver.
 fn of(preview: &Preview, frame: i32, tolerance: f32) -> Vec<Readout> {
     let detail = match preview.quality() {
         Quality::Draft => "draft",
@@ -78,17 +78,17 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         count(
             "Wall crossings",
             flow.wall_crossings,
-            "Photons that crossed a wall though a way leads around it. It should be 0.",
+            "Photons that crossed a wall though a path leads around it. It should be 0.",
         ),
         count(
             "Unreachable",
             flow.unreachable,
-            "Photons whose target lies behind walls with no way around: they go straight through. Open the walls, or move the target.",
+            "Photons whose target lies behind walls without a path around them: they go straight through. Open the walls, or move the target.",
         ),
         plain(
             "Crossing index",
             format!("{early}, {middle}, {late}"),
-            "Share of the motion that neighbours do not have in common, at a quarter, half and three quarters of the way. High values look like noise.",
+            "Share of the motion that neighbours do not have in common, at a quarter, half and three quarters of the time. High values look like noise.",
         ),
         plain(
             "Dispersion",
@@ -103,23 +103,23 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
         plain(
             "Fit residual",
             percent(flow.fit_residual),
-            "What the field leaves undone of the way to the targets; the fade does that.",
+            "Share of the motion to the targets that the field does not represent; the fade corrects it.",
         ),
         plain(
             "Solver",
             format!("{} iterations", flow.solver_iterations),
-            "Iterations of the solver in a fit, the most.",
+            "Most iterations of the solver in a fit.",
         ),
         Readout {
             name: "Solver residual",
             value: number(digits(flow.solver_residual), false),
-            help: "Relative residual of the solver, the worst. Above the tolerance the fit did not end.",
+            help: "Largest relative residual of the solver. Above the tolerance the fit did not converge.",
             is_bad: flow.solver_residual > f64::from(tolerance),
         },
     ]
 }
 
-/// To three digits that count.
+/// Rounded to three significant digits.
 fn digits(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
@@ -135,13 +135,13 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         ui.add_space(4.0);
     }
     let Some(preview) = editor.preview.preview() else {
-        ui.weak("Nothing is worked out yet.");
+        ui.weak("Nothing is computed yet.");
         return;
     };
     let frame = editor.session.playhead;
     section(ui, &format!("Frame {frame}"));
     if !editor.preview.is_current() {
-        ui.weak("Of the version before the last change.");
+        ui.weak("From before the last change.");
     }
     for readout in of(preview, frame, editor.document.project().flow.tolerance) {
         let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
@@ -150,7 +150,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     section(ui, "Seconds of each stage");
     for stage in preview.stages() {
         let seconds = number(digits(stage.seconds), false);
-        let help = "Wall-clock time; what was remembered does not run again.";
+        let help = "Wall-clock time; cached results do not run again.";
         line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
     }
     if !preview.notes().is_empty() {
@@ -206,8 +206,8 @@ fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
     let crossed = preview.numbers().map_or(0, |numbers| numbers.flow.wall_crossings);
     let unreachable = preview.numbers().map_or(0, |numbers| numbers.flow.unreachable);
     for (count, words, help) in [
-        (crossed, "through walls", "Photons that crossed a wall though a way leads around it."),
-        (unreachable, "unreachable", "Photons whose target no way around the walls reaches."),
+        (crossed, "through walls", "Photons that crossed a wall though a path leads around it."),
+        (unreachable, "unreachable", "Photons whose target no path around the walls reaches."),
     ] {
         if count > 0 {
             let value = format!("{} {words}", number(count as f64, true));

@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     }
 }
 
-/// The plane alone, and the way to a scene.
+/// The plane of a project without scene, and a button that adds one.
 fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
     ui.label("This project has no scene: the plane is seen straight on.");
     let mut plane = project.plane.clone();
@@ -53,7 +53,7 @@ fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
     }
 }
 
-/// A part that is open at first.
+/// A collapsible part that is open at first.
 fn fold_open(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, add);

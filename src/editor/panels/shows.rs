@@ -25,10 +25,10 @@ const TURN: Control = Control::new("Turn", Placement::ROTATE).slider(-180.0, 180
 pub(super) const CONTROLS: &[Control] =
     &[SHOWS, FILE, POINTS, CHANNEL, COLOUR, INVERT, THRESHOLD, CENTRE, WIDTH, TURN];
 
-/// What is chosen where a caustic has nothing of its own.
+/// The choice where a caustic shows what all light shows.
 const AS_ALL: usize = 3;
 
-/// What is shown `at` a key; none of its own only where `may_be_none`. Gives what it is now where that changed.
+/// What is shown `at` a key; none where a caustic has nothing of its own. The new value, where it changed.
 pub(super) fn show(
     ui: &mut Ui,
     editor: &mut EditorContext,
@@ -71,13 +71,13 @@ pub(super) fn show(
     new
 }
 
-/// A target without a file is none: what it shows changes when one is picked.
+/// Asks for a file; the target changes once one is picked.
 fn pick(editor: &mut EditorContext, pick: AssetUse) -> Option<Option<Shows>> {
     editor.ask(Action::PickFile(pick));
     None
 }
 
-/// The file's name, and a button that picks another; whether it was pressed.
+/// A button with the file's name that picks another file. Whether it was clicked.
 pub(super) fn file(ui: &mut Ui, control: &Control, file: &str) -> bool {
     control.line(ui, true, |ui| {
         let name = file.rsplit('/').next().unwrap_or(file);

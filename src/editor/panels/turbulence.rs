@@ -1,4 +1,4 @@
-//! Turbulence: swirls on top of the field.
+//! Turbulence: swirls added to the field.
 
 use egui::Ui;
 use lightloom_core::flow::{FlowSettings, TurbulenceSettings};
@@ -22,7 +22,7 @@ const SEED: Control = Control::new("Swirl seed", TurbulenceSettings::SEED).slide
 /// The settings of this part.
 pub(super) const CONTROLS: &[Control] = &[ON, STRENGTH, GRIDS, CELLS, SHARES, WEIGHT, SLOPE, RATE, SEED];
 
-/// Off, or on with its values.
+/// The switch, and the values where it is on.
 pub(super) fn show(ui: &mut Ui, turbulence: &mut Option<TurbulenceSettings>) {
     if let Some(on) = ON.pick(ui, usize::from(turbulence.is_some())) {
         *turbulence = (on == 1).then(TurbulenceSettings::default);
@@ -91,7 +91,7 @@ fn by_hand(ui: &mut Ui, weights: &mut [f32]) {
     }
 }
 
-/// Weights that are all 0 share nothing out: then all are alike.
+/// Equal weights in place of weights that are all 0, which the core refuses.
 fn no_nothing(weights: &mut [f32]) {
     if weights.iter().all(|weight| *weight == 0.0) {
         weights.fill(1.0);

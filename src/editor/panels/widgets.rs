@@ -1,11 +1,11 @@
-//! Small parts that several panels have.
+//! Widgets that several panels share.
 
 use egui::{CollapsingHeader, Ui};
 
 use super::control::row::LABELS;
 use super::icons::{self, Icon};
 
-/// A part that is folded until it is opened.
+/// A collapsible part that is closed at first.
 pub(super) fn fold(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     // Not indented: names and values stay aligned with those above.
@@ -18,7 +18,7 @@ pub(super) fn section(ui: &mut Ui, name: &str) {
     ui.strong(name);
 }
 
-/// A word on the value above, below its widgets.
+/// A small note below the value above.
 pub(super) fn aside(ui: &mut Ui, words: &str) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
@@ -28,22 +28,22 @@ pub(super) fn aside(ui: &mut Ui, words: &str) {
     });
 }
 
-/// A button with a picture; whether it was pressed.
+/// A button with an icon. Whether it was clicked.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> bool {
     icons::button(ui, icon, name, true).clicked()
 }
 
-/// A button that adds something.
+/// A button with a plus sign.
 pub(super) fn add_button(ui: &mut Ui, name: &str) -> bool {
     icon_button(ui, Icon::Add, name)
 }
 
-/// A button that removes something.
+/// A button with a cross.
 pub(super) fn remove_button(ui: &mut Ui, name: &str) -> bool {
     icon_button(ui, Icon::Remove, name)
 }
 
-/// A button that opens a list; gives the number of the one that was taken.
+/// A menu button: the index of the item that was picked.
 pub(super) fn menu<'a>(
     ui: &mut Ui,
     name: &str,
@@ -68,7 +68,7 @@ pub(super) fn menu<'a>(
 /// Names of the components of a position.
 pub(super) const XYZ: [&str; 3] = ["x", "y", "z"];
 
-/// A list of names of which one can be chosen; a click on the chosen one closes it.
+/// A list with one selected name; a click on it clears the selection.
 pub(super) fn list<'a>(
     ui: &mut Ui,
     kind: &str,

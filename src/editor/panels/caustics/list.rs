@@ -9,7 +9,7 @@ use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::panels::icons::{self, Icon, SIDE};
 
-/// One caustic, or the rest.
+/// The row of a caustic, or of the rest of the light.
 pub(super) fn row(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
     let project = editor.document.project();
     let caustic = project.caustics.get(group);
@@ -27,7 +27,7 @@ pub(super) fn row(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &
         let size = vec2(ui.available_width(), SIDE);
         let button = Button::selectable(chosen, text).right_text(light).truncate();
         let button = ui.add_enabled_ui(caustic.is_some(), |ui| ui.add_sized(size, button)).inner;
-        let help = "What its light and mesh cast, as far as it is worked out. A click shows its values.";
+        let help = "Flux and photons of its light and mesh, once they are traced. Click for its values.";
         if button.accessible_name(name).on_hover_text(help).clicked() {
             editor.session.focus.caustic = (!chosen).then_some(group);
         }
@@ -47,7 +47,7 @@ fn solo(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
     let on = editor.session.solo.contains(&group);
     let button = ui.add(Button::selectable(on, "S").frame(true).min_size(vec2(SIDE, SIDE)));
     let button = button.accessible_name(format!("Solo: {name}"));
-    if button.on_hover_text("Show this alone; several can be alone").clicked() {
+    if button.on_hover_text("Show only this; several can be soloed together").clicked() {
         let mut alone = editor.session.solo.clone();
         if !alone.remove(&group) {
             alone.insert(group);
@@ -56,7 +56,7 @@ fn solo(ui: &mut Ui, editor: &mut EditorContext, group: usize, name: &str) {
     }
 }
 
-/// The colour of its light as a screen shows it, at full brightness; grey where any light may cast it.
+/// The display colour of its light at full brightness; grey where any light may cast it.
 fn colour(project: &Project, caustic: Option<&CausticDesc>) -> Color32 {
     let name = caustic.and_then(|caustic| caustic.light.as_deref());
     let mut lights = project.scene.iter().flat_map(|scene| &scene.lights);
@@ -76,7 +76,7 @@ fn tint(light: &LightDesc) -> [f32; 3] {
     }
 }
 
-/// Flux and photons of a group: "0.12 W, 6 500 photons". None before its light was traced.
+/// Flux and photons of a group, such as "0.12 W, 6 500 photons"; none before its light is traced.
 fn cast(editor: &EditorContext, group: usize) -> Option<String> {
     let preview = editor.preview.preview()?;
     let light = preview.caustics().get(group)?;

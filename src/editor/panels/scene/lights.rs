@@ -12,7 +12,7 @@ use crate::editor::panels::control::Control;
 use crate::editor::panels::widgets::{XYZ, list, menu, remove_button, section};
 use crate::editor::unique_name::unique_name;
 
-/// A kind of light, as it begins.
+/// The kinds of light, each with its defaults.
 const KINDS: &[fn() -> LightDesc] = &[
     || LightDesc::Point(PointLight::default()),
     || LightDesc::Spot(SpotLight::default()),
@@ -57,7 +57,7 @@ fn kind(light: &LightDesc) -> usize {
     }
 }
 
-/// The list, and the values of the light that is chosen. Caustics follow a name.
+/// The list of lights, and the values of the selected one. Caustics follow a renamed light.
 pub(super) fn show(
     ui: &mut Ui,
     editor: &mut EditorContext,
@@ -112,7 +112,7 @@ fn name_of(light: &mut LightDesc) -> &mut String {
     }
 }
 
-/// A light of the kind of `new` with all that `old` has in common with it. Angles are not: a cone is no disk.
+/// The light `new` with the values of `old` that both kinds have. Angles differ in meaning: a cone is no disk.
 fn changed(old: &LightDesc, new: LightDesc) -> LightDesc {
     let (Ok(old), Ok(mut values)) = (serde_json::to_value(old), serde_json::to_value(&new)) else {
         return new;

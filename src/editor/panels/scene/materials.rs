@@ -1,4 +1,4 @@
-//! Materials: a kind is one line in [`KINDS`], a ready glass one in [`GLASSES`].
+//! Materials: a kind is one line in [`KINDS`], a glass one in [`GLASSES`].
 
 use egui::Ui;
 use lightloom_core::scene::Material;
@@ -7,7 +7,7 @@ use lightloom_core::scene::material::{Diffuse, Glass, Mirror};
 use crate::editor::panels::control::Control;
 use crate::editor::panels::control::choice::preset_menu;
 
-/// A kind of material, as it begins; the first is none: as the file says.
+/// The kinds of material, each with its defaults; the first is that of the mesh file.
 const KINDS: &[fn() -> Option<Material>] = &[
     || None,
     || Some(Material::Diffuse(Diffuse::default())),
@@ -15,7 +15,7 @@ const KINDS: &[fn() -> Option<Material>] = &[
     || Some(Material::Glass(crown())),
 ];
 
-/// Ready glasses: name, index of refraction at 587.6 nm, Abbe number (from the usual tables).
+/// Glasses: name, index of refraction at 587.6 nm, Abbe number (textbook values).
 #[rustfmt::skip]
 const GLASSES: &[(&str, f32, Option<f32>)] = &[
     ("Water", 1.333, Some(55.8)),
@@ -50,7 +50,7 @@ fn kind(material: &Material) -> usize {
     }
 }
 
-/// What the window calls its kind.
+/// The label of its kind.
 pub(super) fn name(material: &Material) -> &'static str {
     KIND.labels[kind(material)]
 }

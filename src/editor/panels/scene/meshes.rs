@@ -25,7 +25,7 @@ const PRIORITY: Control = Control::new("Priority", MeshDesc::PRIORITY).slider(-1
 /// The settings of a mesh.
 pub(super) const CONTROLS: &[Control] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
-/// The list, and the values of the mesh that is chosen. Caustics follow a name.
+/// The list of meshes, and the values of the selected one. Caustics follow a renamed mesh.
 pub(super) fn show(
     ui: &mut Ui,
     editor: &mut EditorContext,
@@ -78,7 +78,7 @@ pub(super) fn show(
     materials::show(ui, &mut mesh.material);
 }
 
-/// Caustics of a mesh, or of one of its materials, go with its name.
+/// Renames a mesh in the caustics that refer to it or to one of its materials.
 fn follow(caustics: &mut [CausticDesc], old: &str, new: &str) {
     for mesh in caustics.iter_mut().filter_map(|caustic| caustic.mesh.as_mut()) {
         let material = mesh.strip_prefix(old).filter(|rest| rest.is_empty() || rest.starts_with('/'));

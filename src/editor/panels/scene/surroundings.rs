@@ -29,7 +29,7 @@ pub(super) const CONTROLS: &[Control] = &[
     POSITION, LOOK_AT, UP, FOV, CENTRE, SIZE, TURN, ALBEDO, SURROUND, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
 ];
 
-/// From where the picture is taken.
+/// The camera.
 pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDesc) {
     POSITION.numbers(ui, &mut camera.position, XYZ);
     LOOK_AT.numbers(ui, &mut camera.look_at, XYZ);
@@ -45,7 +45,7 @@ pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDes
     });
 }
 
-/// The rectangle of the caustics.
+/// The receiver.
 pub(super) fn receiver(ui: &mut Ui, receiver: &mut ReceiverDesc) {
     SIZE.numbers(ui, &mut receiver.size, ["width", "height"]);
     CENTRE.numbers(ui, &mut receiver.centre, XYZ);
@@ -54,7 +54,7 @@ pub(super) fn receiver(ui: &mut Ui, receiver: &mut ReceiverDesc) {
     SURROUND.number(ui, &mut receiver.surround);
 }
 
-/// The light of the sky.
+/// The sky.
 pub(super) fn sky(ui: &mut Ui, sky: &mut EnvironmentDesc) {
     ZENITH.colour(ui, &mut sky.zenith);
     HORIZON.colour(ui, &mut sky.horizon);
