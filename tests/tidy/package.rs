@@ -110,3 +110,15 @@ impl Package {
         paths.iter().find_map(|path| self.resolve(module, path, depth + 1))
     }
 }
+
+#[test]
+fn names_are_followed_through_re_exports_to_the_file_that_declares_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("lib.rs", "mod a; mod b; pub use a::One; pub use b::{self, Two as Other};");
+    write("a.rs", "use crate::Other; pub struct One(Other);");
+    write("b.rs", "pub struct Two; pub fn one() { super::One::new() }");
+    let package = Package::read(&folder.path().join("lib.rs"));
+    // lib.rs names nothing of the two: it passes them on.
+    assert_eq!(package.imports(), [vec![], vec![2], vec![1]].map(BTreeSet::from_iter));
+}
