@@ -6,7 +6,7 @@ use crate::scenes::{Stage, box_obj, glass, obj, point, sphere_obj};
 use glam::{Vec3, vec2};
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::photon::{Photons, TraceReport, Tracer};
+use lightloom_core::photon::{FluxBalance, Photons, TraceReport, Tracer};
 use lightloom_core::scene::light::DirectionalLight;
 use lightloom_core::scene::material::fresnel::{fresnel, reflect, refract};
 use lightloom_core::scene::material::{Beam, Glass, Material, Mirror, VISIBLE_NM, rgb_of_wavelength};
@@ -136,16 +136,16 @@ fn a_glass_sphere_focuses_as_calculated() {
     println!("{report:?}");
 }
 
+/// The light that was not absorbed, wherever it went.
+fn unabsorbed(balance: &FluxBalance) -> glam::DVec3 {
+    balance.landed + balance.surround + balance.escaped + balance.blocked + balance.capped + balance.direct
+}
+
 #[test]
 fn lossless_glass_loses_nothing() {
     let (_, report) = trace(&glass_sphere(), 200_000);
     let balance = report.balance;
-    let out = balance.landed
-        + balance.surround
-        + balance.escaped
-        + balance.blocked
-        + balance.capped
-        + balance.direct;
+    let out = unabsorbed(&balance);
     // f32 photons summed in f64.
     assert!((out / balance.emitted - 1.0).abs().max_element() < 1e-6, "{balance:?}");
     assert_eq!(balance.absorbed, glam::DVec3::ZERO);
@@ -177,12 +177,7 @@ fn coloured_glass_absorbs_by_distance() {
         assert!((total[channel] / want - 1.0).abs() < 1e-2, "{channel}: {total} against {want}");
     }
     let balance = report.balance;
-    let out = balance.landed
-        + balance.surround
-        + balance.escaped
-        + balance.blocked
-        + balance.capped
-        + balance.direct;
+    let out = unabsorbed(&balance);
     assert!(((out + balance.absorbed) / balance.emitted - 1.0).abs().max_element() < 1e-6, "{balance:?}");
     let mean = |flux: &Vec3| flux.element_sum() / 3.0;
     let first = mean(&photons.flux[0]);

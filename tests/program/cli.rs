@@ -1,8 +1,7 @@
 //! The command line as a farm or a script meets it.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use glam::Vec2;
 use lightloom_core::Progress;
@@ -11,33 +10,8 @@ use lightloom_core::files::npy;
 use lightloom_core::files::npz::NpzReader;
 use lightloom_core::flow::{FieldTrajectories, Trajectories as _};
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
-/// A folder with a small letters project: C becomes S over frames 1 to 9, no scene.
-fn letters() -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
-    for name in ["letter_c.png", "letter_s.png"] {
-        fs::copy(targets.join(name), folder.path().join(name)).unwrap();
-    }
-    let project = json!({
-        "lightloom": 1,
-        "name": "Small letters",
-        "keys": [
-            { "frame": 1, "shows": { "image": { "file": "letter_c.png" } } },
-            { "frame": 9, "shows": { "image": { "file": "letter_s.png" } } }
-        ],
-        "flow": { "grid": 32, "steps": 8, "guides": 4000 },
-        "render": { "width": 96, "height": 96, "photons": 6000, "passes": 2 }
-    });
-    let path = folder.path().join("letters.json");
-    fs::write(&path, project.to_string()).unwrap();
-    (folder, path)
-}
-
-fn lightloom(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).output().unwrap()
-}
+use crate::small::{letters, lightloom};
 
 /// Runs the program, which must succeed, and returns what it printed.
 fn run(args: &[&str]) -> String {
@@ -69,7 +43,7 @@ fn frames_of(dir: &Path) -> Vec<String> {
 
 #[test]
 fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let printed = run(&["render", text(&project), "--out", text(&out), "--frames", "1-9x4"]);
     let expected = [
@@ -113,7 +87,7 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
 
 #[test]
 fn the_same_seed_gives_the_same_bytes_for_any_threads_and_any_choice_of_frames() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let render = |name: &str, extra: &[&str]| {
         let out = folder.path().join(name);
         run(&[&["render", text(&project), "--out", text(&out)], extra].concat());
@@ -130,7 +104,7 @@ fn the_same_seed_gives_the_same_bytes_for_any_threads_and_any_choice_of_frames()
 
 #[test]
 fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("fit");
     run(&["fit", text(&project), "--out", text(&out)]);
     assert_eq!(frames_of(&out), ["fields.npz", "flux.npy", "summary.json", "tracks.npy"]);
@@ -148,7 +122,7 @@ fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
 
 #[test]
 fn fields_that_are_read_back_carry_the_photons_of_the_tracks() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let plain = fs::read_to_string(&project).unwrap();
     let swirls = r#""turbulence":{"strength":20,"grids":[20,30],"rate":2.5},"grid":32"#;
     for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
@@ -171,7 +145,7 @@ fn fields_that_are_read_back_carry_the_photons_of_the_tracks() {
 
 #[test]
 fn fields_fitted_between_walls_are_read_back_without_the_walls() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let mut drawn: Value = serde_json::from_str(&fs::read_to_string(&project).unwrap()).unwrap();
     drawn["constraints"] = json!([{ "type": "wall", "points": [[0.45, 0.4], [0.55, 0.6]] }]);
     fs::write(&project, drawn.to_string()).unwrap();
@@ -192,7 +166,7 @@ fn fields_fitted_between_walls_are_read_back_without_the_walls() {
 
 #[test]
 fn check_says_what_is_left_out_and_what_it_would_cost() {
-    let (_folder, project) = letters();
+    let (_folder, project) = letters("flow");
     let printed = run(&["check", text(&project)]);
     for word in ["left out", "tracing", "memory", "seconds"] {
         assert!(printed.contains(word), "no '{word}' in {printed}");
@@ -203,7 +177,7 @@ fn check_says_what_is_left_out_and_what_it_would_cost() {
 
 #[test]
 fn check_notes_a_stretched_grid() {
-    let (_folder, project) = letters();
+    let (_folder, project) = letters("flow");
     let text_of = fs::read_to_string(&project).unwrap();
     fs::write(&project, text_of.replace("\"grid\":32", "\"grid\":[4096,8]")).unwrap();
     assert!(run(&["check", text(&project)]).contains("stretched 512 : 1"));
@@ -211,7 +185,7 @@ fn check_notes_a_stretched_grid() {
 
 #[test]
 fn turbulence_is_left_out_or_told_of_and_exported() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let none = run(&["check", text(&project)]);
     assert!(none.contains("left out: turbulence") && !none.contains("note"), "{none}");
     let text_of = fs::read_to_string(&project).unwrap();
@@ -240,7 +214,7 @@ fn schema_is_json_and_knows_the_fields() {
 
 #[test]
 fn exit_codes_tell_causes_apart() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let render = |project: &Path, extra: &[&str]| {
         [&["render", text(project), "--out", text(&out)], extra]
@@ -264,7 +238,7 @@ fn exit_codes_tell_causes_apart() {
 
 #[test]
 fn an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let file = folder.path().join("taken");
     fs::write(&file, b"mine").unwrap();
     let message = fail(2, &["render", text(&project), "--out", text(&file)]);
@@ -277,7 +251,7 @@ fn an_output_folder_that_cannot_be_written_is_refused_before_the_work() {
 
 #[test]
 fn a_run_never_overwrites_what_it_is_made_from() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let own = folder.path().join("summary.json");
     fs::rename(&project, &own).unwrap();
     let before = fs::read(&own).unwrap();
@@ -296,7 +270,7 @@ fn a_run_never_overwrites_what_it_is_made_from() {
 
 #[test]
 fn with_json_the_output_is_json_and_nothing_else() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let printed = run(&["fit", text(&project), "--out", text(&out), "--json", "--photons", "500"]);
     let summary: Value = serde_json::from_str(&printed).unwrap();
@@ -305,7 +279,7 @@ fn with_json_the_output_is_json_and_nothing_else() {
 
 #[test]
 fn what_is_asked_for_by_name_outweighs_the_quality() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let extra = ["--quality", "preview", "--passes", "3", "--frames", "5", "--format", "png", "--json"];
     let printed = run(&[&["render", text(&project), "--out", text(&out)], &extra[..]].concat());
@@ -315,7 +289,7 @@ fn what_is_asked_for_by_name_outweighs_the_quality() {
 
 #[test]
 fn work_that_does_not_fit_into_memory_is_refused_beforehand() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let huge = ["--size", "16384x16384", "--photons", "100000000"];
     let message = fail(6, &[&["render", text(&project), "--out", text(&out)], &huge[..]].concat());
@@ -355,7 +329,7 @@ fn rows_of_two_point_files_are_paired_as_given() {
 
 #[test]
 fn one_photon_runs() {
-    let (folder, project) = letters();
+    let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     run(&[
         "render",

@@ -1,40 +1,15 @@
 //! `lightloom compare` and the methods in projects, as a script meets them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use glam::{Vec2, vec2};
 use lightloom_core::files::npy;
 use lightloom_core::render::PlaneView;
 use lightloom_core::scene::SurfaceId;
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
-/// A folder with a small letters project: C becomes S over frames 1 to 9, no scene.
-fn letters(method: &str) -> (TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
-    let targets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/targets");
-    for name in ["letter_c.png", "letter_s.png"] {
-        fs::copy(targets.join(name), folder.path().join(name)).unwrap();
-    }
-    let key = |frame: i32, file: &str| json!({ "frame": frame, "shows": { "image": { "file": file } } });
-    let project = json!({
-        "lightloom": 1,
-        "name": "Small letters",
-        "keys": [key(1, "letter_c.png"), key(9, "letter_s.png")],
-        "method": method,
-        "flow": { "grid": 32, "steps": 8, "guides": 4000 },
-        "render": { "width": 96, "height": 96, "photons": 6000, "passes": 2 }
-    });
-    let path = folder.path().join("letters.json");
-    fs::write(&path, project.to_string()).unwrap();
-    (folder, path)
-}
-
-fn lightloom(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_lightloom")).args(args).output().unwrap()
-}
+use crate::small::{letters, lightloom};
 
 /// Runs the program, which must succeed, and returns the JSON that it printed.
 fn run(args: &[&str]) -> Value {

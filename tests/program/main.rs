@@ -11,6 +11,7 @@ mod real_window;
 mod report;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod small;
 #[path = "../window/mod.rs"]
 mod window;
 

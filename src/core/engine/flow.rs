@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active_constraints::ActiveConstraints;
+use super::active_constraints::{ActiveConstraints, active};
 use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput, Layer};
 use super::flow_numbers::FlowNumbers;
 use super::job::Job;
@@ -15,6 +15,7 @@ use super::memo::Same;
 use super::meter::Meter;
 use super::segment_photons::SegmentPhotons;
 use super::walk::{MapsFrom, Walk};
+use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::{
     FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots,
     fit_with_snapshots, path_report,
@@ -52,10 +53,12 @@ pub(super) fn fit_segment(
         }
     };
     let matched = &photons.matched;
-    let input =
-        FlowInput { matched: Same::of(matched), active: photons.active.clone(), method: *method, settings };
-    job.stages.flows.get(job.slot(photons.number), input, job.progress, |_| {
-        let (layers, reports) = photons.fit(job.project, job.extent, samples, job.meter, job.progress)?;
+    let active = active(job.project, photons.number, job.extent);
+    let input = FlowInput { matched: Same::of(matched), active, method: *method, settings };
+    job.stages.flows.get(job.slot(photons.number), input, job.progress, |FlowInput { active, .. }| {
+        let ActiveConstraints { lines, walls } = active;
+        let (layers, reports) =
+            photons.fit(job.project, job.extent, (lines, walls), samples, job.meter, job.progress)?;
         let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
         Ok(Arc::new(fitted))
     })
@@ -73,11 +76,12 @@ pub(super) struct LayerSamples<'a> {
 }
 
 impl SegmentPhotons {
-    /// Fits the flow of each layer of groups, and reports on it.
+    /// Fits the flow of each layer of groups between these lines and walls, and reports on it.
     pub(super) fn fit(
         &self,
         project: &Project,
         extent: Vec2,
+        (lines, walls): (&[ActiveLine], &[ActiveWall]),
         mut samples: Option<LayerSamples>,
         meter: &Meter,
         progress: &Progress,
@@ -86,7 +90,6 @@ impl SegmentPhotons {
         for groups in &self.layers {
             let [source, target] = self.columns(groups);
             let midpoint_offsets = &*column(&self.to, groups, |to| &to.midpoint_offsets);
-            let ActiveConstraints { lines, walls } = &self.active;
             let number = self.number;
             let segment = Segment {
                 source: &source,

@@ -5,6 +5,7 @@ use std::time::Instant;
 use glam::{Vec2, Vec3};
 
 use super::Engine;
+use super::active_constraints::{ActiveConstraints, active};
 use super::flow::LayerSamples;
 use super::job::Job;
 use super::key_photons::{all_flux, count};
@@ -90,13 +91,14 @@ impl Engine {
             for groups in &photons.layers {
                 let [source, target] = photons.columns(groups);
                 if mean_straight(&source, &target) > 0.0 {
+                    let ActiveConstraints { lines, walls } = active(project, photons.number, prepared.extent);
                     return Ok(MovingSegment {
                         source: source.into_owned(),
                         target: target.into_owned(),
                         extent: prepared.extent,
                         number: photons.number,
-                        lines: photons.active.lines.clone(),
-                        walls: photons.active.walls.clone(),
+                        lines,
+                        walls,
                         traced,
                         match_seconds,
                         plane_material: prepared.plane_material(),
@@ -150,8 +152,10 @@ impl MovingSegment {
             }
         };
         let samples = Some(LayerSamples { times: &[0.5], show });
+        let drawn = (&*self.lines, &*self.walls);
         let (start, meter) = (Instant::now(), Meter::quick());
-        let (_, reports) = self.photons.fit(&project, self.extent, samples, &meter, &progress.inner())?;
+        let (_, reports) =
+            self.photons.fit(&project, self.extent, drawn, samples, &meter, &progress.inner())?;
         let seconds = start.elapsed().as_secs_f64();
         let report = reports.into_iter().next();
         let report = report.ok_or(Error::Numeric { stage: "fit", what: "nothing flows".to_owned() })?;

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active_constraints::ActiveConstraints;
 use super::key_photons::KeyPhotons;
 use super::key_sources::KeySource;
 use super::memo::Same;
@@ -30,8 +29,6 @@ pub(super) struct SegmentPhotons {
     /// The groups that move; those together that share a field.
     pub(super) layers: Vec<Vec<usize>>,
     pub(super) matched: Arc<Matched>,
-    /// The lines and walls that act between the two.
-    pub(super) active: ActiveConstraints,
 }
 
 /// The matching of one segment.

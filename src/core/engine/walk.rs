@@ -4,7 +4,6 @@
 
 use std::sync::Arc;
 
-use super::active_constraints::active;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, PassLight};
 use super::memo::Same;
@@ -97,8 +96,7 @@ impl<'a> Walk<'a> {
         self.key += 1;
         self.origin = Origin::Matched(Same::of(&matched));
         let requested = [before, self.requested()];
-        let active = active(job.project, number, job.extent);
-        Ok(Some(SegmentPhotons { number, from, to, requested, layers, matched, active }))
+        Ok(Some(SegmentPhotons { number, from, to, requested, layers, matched }))
     }
 
     /// The groups that have photons to move until the next key frame; those together that share a field.
