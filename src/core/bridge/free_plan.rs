@@ -113,7 +113,13 @@ impl FreePlan {
 
     /// ln of the blurred density in each cell over the mean over its light of that at the key frame; zero before any photon has
     /// moved.
-    fn relative_density(&mut self, side: usize, cells: &Cells, density: &[f64], photons: &[Vec2]) -> Vec<f64> {
+    fn relative_density(
+        &mut self,
+        side: usize,
+        cells: &Cells,
+        density: &[f64],
+        photons: &[Vec2],
+    ) -> Vec<f64> {
         let mut light = vec![0.0; cells.count()];
         self.blur.spread(density, &mut light);
         if self.birth[side].is_empty() {
@@ -128,7 +134,8 @@ impl FreePlan {
         let mut born = vec![0.0; cells.count()];
         self.blur.spread(&sums, &mut born);
         let floor = floor(photons.len());
-        let relative = |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
+        let relative =
+            |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
         light.iter().zip(&born).map(relative).collect()
     }
 }
@@ -149,7 +156,8 @@ impl SelfTransport {
             kernel.spread(&self.scale, &mut self.reached);
             let columns = self.scale.iter_mut().zip(density).zip(&self.reached);
             // The square root damps the swing of the symmetric iteration.
-            columns.for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
+            columns
+                .for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
         }
         kernel.spread(&self.scale, &mut self.reached);
     }
@@ -181,7 +189,10 @@ fn start(
 }
 
 /// The factor of a density on finer cells, from what reached it on coarser ones.
-pub(super) fn finer_scale((coarse, reached): (&Cells, &[f64]), (fine, density): (&Cells, &[f64])) -> Vec<f64> {
+pub(super) fn finer_scale(
+    (coarse, reached): (&Cells, &[f64]),
+    (fine, density): (&Cells, &[f64]),
+) -> Vec<f64> {
     let logarithms: Vec<f64> = reached.iter().map(|reached| reached.max(LEAST).ln()).collect();
     let scale = |cell: usize| over(density[cell], coarse.value(&logarithms, fine.centre(cell)).exp());
     (0..fine.count()).into_par_iter().with_min_len(1024).map(scale).collect()

@@ -133,7 +133,8 @@ impl<'a> Bridge<'a> {
 
     fn mean_speed_of(&self, photons: [&[Vec2]; 2]) -> f32 {
         let sum_of = |side: usize| {
-            let speeds = photons[side].par_iter().with_min_len(4096).map(|&p| self.velocity(side, p).length());
+            let speeds =
+                photons[side].par_iter().with_min_len(4096).map(|&p| self.velocity(side, p).length());
             speeds.collect::<Vec<_>>().into_iter().map(f64::from).sum::<f64>()
         };
         let count = photons.iter().map(|photons| photons.len()).sum::<usize>().max(1);

@@ -88,8 +88,7 @@ impl Made {
         progress: &Progress,
     ) -> Result<Self> {
         let steps = settings.steps;
-        let mut ends =
-            [0, 1].map(|side| End::new(gather(cells, walls.of(side, 0), photons[side])));
+        let mut ends = [0, 1].map(|side| End::new(gather(cells, walls.of(side, 0), photons[side])));
         let regions = Regions::new(cells, walls, [&ends[0].density, &ends[1].density]);
         let [a, b] = &mut ends;
         regions.balance(&a.density, &mut b.density);
@@ -97,7 +96,8 @@ impl Made {
         let step = (whole / steps as f64).max(LEAST_VARIANCE);
         let kernels = walls.runs().map(|walls| StepKernel::new(cells, walls, step)).collect();
         let of_step = (0..steps).map(|step| walls.run_of(step)).collect();
-        let mut kernel = WallKernel::new(kernels, of_step, cap(settings, [&ends[0].density, &ends[1].density]));
+        let mut kernel =
+            WallKernel::new(kernels, of_step, cap(settings, [&ends[0].density, &ends[1].density]));
         ends[1].scale = match coarse {
             Some(coarse) => finer_scale(coarse, (cells, &ends[1].density)),
             None if settings.cells <= COARSEST => {
@@ -143,8 +143,11 @@ impl Made {
         let [light, planned] = &blurred;
         let per_time = self.variance * steps as f64;
         let diffusion = 0.5 * FEEDBACK * per_time;
-        let excess: Vec<f64> =
-            light.iter().zip(planned).map(|(light, planned)| ((light + floor) / (planned + floor)).ln()).collect();
+        let excess: Vec<f64> = light
+            .iter()
+            .zip(planned)
+            .map(|(light, planned)| ((light + floor) / (planned + floor)).ln())
+            .collect();
         let per_step = if side == 0 { steps as f32 } else { -(steps as f32) };
         let back = gradients(cells, here, &excess);
         let planned = self.kernel.velocity(step, cells);

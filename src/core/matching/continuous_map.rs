@@ -97,7 +97,9 @@ impl ContinuousMap {
     /// `Cancelled`.
     pub fn lower_bound(&self, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<Option<f64>> {
         match self {
-            Self::Transport(map) | Self::Beside(map, _) => dual_bound(map, source, target, progress).map(Some),
+            Self::Transport(map) | Self::Beside(map, _) => {
+                dual_bound(map, source, target, progress).map(Some)
+            }
             Self::Walls(_, graph) => {
                 let map = transport_map(source, target, graph.extent(), progress)?;
                 dual_bound(&map, source, target, progress).map(Some)

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use super::fields::MeetingFields;
 use super::tracks::HalfTracks;
 use super::wall_motion::WallMotion;
+use crate::Progress;
+use crate::Result;
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{VisibilityGraph, WallPath};
 use crate::flow::fade::smoothstep;
 use crate::flow::walls::{SUBSTEPS, WallViolations};
-use crate::Progress;
-use crate::Result;
 
 /// Part of a half after which photons beside walls make up for their gap.
 const LATE: f64 = 0.8;
@@ -101,21 +101,23 @@ impl Detours {
                 let h = if half == 0 { 1.0 } else { -1.0 } / fields.steps() as f32;
                 let begins = halves[half].after(done);
                 let each = (at.par_iter_mut(), blocked.par_iter_mut(), begins.par_iter());
-                each.into_par_iter().enumerate().with_min_len(1024).for_each(|(row, (at, blocked, begin))| {
-                    if *blocked || !self.beside[half][row] || walls.is_far(*begin) {
-                        *at = halves[half].after(done + 1)[row];
-                        return;
-                    }
-                    let gap = if half == 0 { y[row] - x[row] } else { x[row] - y[row] };
-                    let mut place = *begin;
-                    for part in 0..SUBSTEPS {
-                        place = walls.substep(&stages, h / SUBSTEPS as f32, place, part);
-                        let since = (done as f64 + (part + 1) as f64 / SUBSTEPS as f64) / count as f64;
-                        let next = place + self.share(half, row, since, 0.0) * gap;
-                        *blocked |= walls.blocks(*at, next);
-                        *at = next;
-                    }
-                });
+                each.into_par_iter().enumerate().with_min_len(1024).for_each(
+                    |(row, (at, blocked, begin))| {
+                        if *blocked || !self.beside[half][row] || walls.is_far(*begin) {
+                            *at = halves[half].after(done + 1)[row];
+                            return;
+                        }
+                        let gap = if half == 0 { y[row] - x[row] } else { x[row] - y[row] };
+                        let mut place = *begin;
+                        for part in 0..SUBSTEPS {
+                            place = walls.substep(&stages, h / SUBSTEPS as f32, place, part);
+                            let since = (done as f64 + (part + 1) as f64 / SUBSTEPS as f64) / count as f64;
+                            let next = place + self.share(half, row, since, 0.0) * gap;
+                            *blocked |= walls.blocks(*at, next);
+                            *at = next;
+                        }
+                    },
+                );
             }
         }
         Ok((0u32..).zip(blocked).filter_map(|(row, blocked)| blocked.then_some(row)).collect())
@@ -188,7 +190,8 @@ fn around(graph: &VisibilityGraph, a: Vec2, b: Vec2, points: usize) -> Option<Ve
     let all: f32 = lengths.iter().sum::<f32>().max(f32::MIN_POSITIVE);
     // Whole moves for each leg, at least one, by its share of the length.
     let spare = points.checked_sub(legs)?;
-    let mut moves: Vec<usize> = lengths.iter().map(|length| 1 + (spare as f32 * length / all) as usize).collect();
+    let mut moves: Vec<usize> =
+        lengths.iter().map(|length| 1 + (spare as f32 * length / all) as usize).collect();
     let missing = points - moves.iter().sum::<usize>().min(points);
     let longest = (0..legs).max_by(|&i, &k| lengths[i].total_cmp(&lengths[k]))?;
     moves[longest] += missing;

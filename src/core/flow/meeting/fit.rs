@@ -108,7 +108,8 @@ impl<'a> MeetingFitter<'a> {
         let longer = fit.grid.cells.into_iter().max().unwrap_or(COARSEST);
         let plan = BridgeSettings {
             extent,
-            cells: ((longer as f32 * PLAN_CELLS) as usize).clamp(COARSEST, if standing.is_empty() { FINEST } else { FINEST_WITH_WALLS }),
+            cells: ((longer as f32 * PLAN_CELLS) as usize)
+                .clamp(COARSEST, if standing.is_empty() { FINEST } else { FINEST_WITH_WALLS }),
             steps: fields.steps(),
             hold: settings.hold,
             density: settings.density,

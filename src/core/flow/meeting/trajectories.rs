@@ -92,7 +92,8 @@ impl<'a> MeetingTrajectories<'a> {
     /// Root mean square gap at the meeting, plane units; 0 before the tracks are known.
     pub fn gap(&self) -> f64 {
         let Some([forward, backward]) = &self.halves else { return 0.0 };
-        let squares = forward.end().iter().zip(backward.end()).map(|(a, b)| f64::from(a.distance_squared(*b)));
+        let squares =
+            forward.end().iter().zip(backward.end()).map(|(a, b)| f64::from(a.distance_squared(*b)));
         (squares.sum::<f64>() / self.source.len().max(1) as f64).sqrt()
     }
 
@@ -196,7 +197,8 @@ impl Kinematics for MeetingTrajectories<'_> {
         let sign = if second == 0 { 1.0 } else { -1.0 };
         self.each(t, out, |row, curve, gap, [early, _]| {
             let [_, begin, ..] = curve.points;
-            let share = detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
+            let share =
+                detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
             let at = match walls.is_far(begin) {
                 true => curve.position(),
                 false => walls.advance(&stages, h, begin, curve.x),

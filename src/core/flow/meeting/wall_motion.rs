@@ -57,7 +57,13 @@ impl<'a> WallMotion<'a> {
     }
 
     /// Substep `i` of a step, by the midpoint method.
-    pub(super) fn substep(&self, [begin, middle, end]: &[StageVelocity; 3], part: f32, at: Vec2, i: usize) -> Vec2 {
+    pub(super) fn substep(
+        &self,
+        [begin, middle, end]: &[StageVelocity; 3],
+        part: f32,
+        at: Vec2,
+        i: usize,
+    ) -> Vec2 {
         let x = (i as f32 + 0.5) / SUBSTEPS as f32;
         let (a, b, share) = if x < 0.5 { (begin, middle, 2.0 * x) } else { (middle, end, 2.0 * x - 1.0) };
         let velocity = |p: Vec2| self.velocity([a, b], share, p);

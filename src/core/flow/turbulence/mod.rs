@@ -45,7 +45,8 @@ fn envelope(t: f64) -> f64 {
     smoothstep(t / GROWN) * (1.0 - smoothstep((t - FADES) / (GONE - FADES)))
 }
 
-/// The turbulence of one segment. Turbulence {
+/// The turbulence of one segment.
+pub struct Turbulence {
     /// Key noises in order, of each one field per grid.
     keys: Vec<Vec<Field>>,
     /// Number of the first of them.
