@@ -16,17 +16,21 @@
 //! Grey closing: Serra 1982, *Image Analysis and Mathematical Morphology*, ch. XII.
 
 mod closing;
+mod figure;
 mod measure;
 mod neighbourhoods;
 mod pace;
 mod picture;
 mod seams;
+mod table;
 
 use serde::Serialize;
 
+pub use figure::{FIGURES, Figure};
 pub use measure::measure;
 pub use neighbourhoods::{Neighbourhoods, TORN};
 pub use seams::Seams;
+pub use table::{Row, Table};
 
 /// Photons that are looked at: enough for 1/256 cells, few enough for a tenth of a second.
 pub const PHOTONS: usize = 20_000;
