@@ -6,6 +6,8 @@ use super::picture::Picture;
 
 /// Cells per plane unit.
 const CELLS: f32 = 256.0;
+/// Density below which darkness tells nothing, over the mean where there is light.
+const FAINT: f32 = 0.3;
 
 /// The dark seams of some photons: what a closing of their density fills in.
 pub struct Seams {
@@ -30,11 +32,6 @@ impl Seams {
         [self.columns, self.rows]
     }
 
-    /// Side of a cell, plane units.
-    pub fn cell() -> f32 {
-        1.0 / CELLS
-    }
-
     /// What the closing fills in, over all light; 0 where there is none.
     pub fn share(&self) -> f64 {
         let pairs = self.closed.iter().zip(&self.density);
@@ -42,8 +39,13 @@ impl Seams {
         if self.total > 0.0 { filled / self.total } else { 0.0 }
     }
 
-    /// For each cell, row by row: how much of the density around it is missing, photons per cell.
-    pub fn missing(&self) -> impl Iterator<Item = f32> {
-        self.closed.iter().zip(&self.density).map(|(closed, density)| closed - density)
+    /// For each cell, row by row: the share of the light around it that is missing there, 0..=1; 0 in faint light.
+    pub fn darkness(&self) -> impl Iterator<Item = f32> {
+        let lit = self.density.iter().filter(|density| **density > 0.0).count();
+        let faint = FAINT * self.total as f32 / lit.max(1) as f32;
+        let dark = move |(closed, density): (&f32, &f32)| {
+            if *closed > faint { (closed - density) / closed } else { 0.0 }
+        };
+        self.closed.iter().zip(&self.density).map(dark)
     }
 }

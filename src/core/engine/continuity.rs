@@ -38,17 +38,29 @@ impl FittedProject {
         let inner = progress.inner();
         let job = engine.job(prepared, &meter, &inner)?;
         progress.begin("measure", flow.segments.len() as u64);
-        let mut photons = Ahead { job: &job, walk: None, walked: 0 };
+        let mut ahead = Ahead { job: &job, walk: None, walked: 0 };
         let mut segments = Vec::new();
         for (number, fitted) in flow.segments.iter().enumerate() {
             let figures = job.stages.continuity.get(job.slot(number), Same::of(fitted), &inner, |_| {
-                Figures::of(fitted, &photons.of_segment(number)?, prepared.extent, &inner).map(Arc::new)
+                let photons = ahead.of_segment(number)?;
+                Figures::of(fitted, [&photons.from, &photons.to], prepared.extent, &inner).map(Arc::new)
             })?;
             let frames = [number, number + 1].map(|key| prepared.project.keys[key].frame);
-            segments.extend(figures.named(frames, job.sources.grouping()));
+            let name = |group| job.sources.grouping().name(group).map(str::to_owned);
+            segments.extend(figures.named(frames, name));
             progress.advance(1);
         }
         Ok(segments)
+    }
+}
+
+impl FittedProject {
+    /// As [`Self::continuity`], after all else: none in a run that was stopped, whose results are kept all the same.
+    pub(super) fn continuity_if_not_stopped(&self, progress: &Progress) -> Result<Vec<SegmentContinuity>> {
+        match progress.check().and_then(|()| self.continuity(progress)) {
+            Err(Error::Cancelled) => Ok(Vec::new()),
+            measured => measured,
+        }
     }
 }
 

@@ -4,9 +4,7 @@ use glam::Vec2;
 use serde::Serialize;
 
 use super::fitted_segment::FittedSegment;
-use super::grouping::Grouping;
 use super::key_photons::{KeyPhotons, count};
-use super::segment_photons::SegmentPhotons;
 use super::trajectories::SegmentTrajectories;
 use crate::continuity::{Continuity, chosen_rows, measure};
 use crate::{Progress, Result};
@@ -38,6 +36,17 @@ pub struct LayerContinuity {
 }
 
 impl SegmentContinuity {
+    /// The figures of all light and of each layer, with names for people.
+    pub fn named_figures(&self) -> impl Iterator<Item = (String, &Continuity)> {
+        let [from, to] = self.frames;
+        let layer = move |layer: &'_ LayerContinuity| {
+            let names = layer.caustics.iter().map(|name| name.as_deref().unwrap_or("the rest"));
+            format!("frames {from}-{to}, {}", names.collect::<Vec<_>>().join(" and "))
+        };
+        let layers = self.layers.iter().map(move |of| (layer(of), &of.figures));
+        [(format!("frames {from}-{to}"), &self.all)].into_iter().chain(layers)
+    }
+
     /// The worst of all segments in each figure; none where nothing moves.
     pub fn worst(segments: &[Self]) -> Option<Continuity> {
         segments.iter().map(|segment| segment.all.clone()).reduce(|a, b| a.worst(&b))
@@ -53,32 +62,40 @@ pub(super) struct Figures {
 }
 
 impl Figures {
-    /// The figures of the photons that move in a segment.
+    /// The figures of the photons that move in a segment, at its ends group by group and row by row.
     pub(super) fn of(
         fitted: &FittedSegment,
-        photons: &SegmentPhotons,
+        ends: [&[KeyPhotons]; 2],
         extent: Vec2,
         progress: &Progress,
     ) -> Result<Self> {
-        let rows = rows_of(&photons.from, &photons.layers);
-        let [from, to] = [&photons.from, &photons.to].map(|at| {
+        let layers: Vec<&Vec<usize>> = fitted.layers.iter().map(|layer| &layer.groups).collect();
+        if layers.is_empty() {
+            return Ok(Self { all: None, layers: Vec::new() });
+        }
+        let rows = rows_of(ends[0], &layers);
+        let [from, to] = ends.map(|at| {
             let groups = at.iter().zip(&rows);
             groups.map(|(group, rows)| group.selected(rows)).collect::<Vec<_>>()
         });
         let frames = frames(SegmentTrajectories::new(fitted, &from, &to), progress)?;
-        let of_layer = |groups: &Vec<usize>| {
-            Ok((groups.clone(), measure(&columns(&frames, &from, groups), extent, progress)?))
+        let of_layer = |groups: &&Vec<usize>| {
+            let figures = measure(&columns(&frames, &from, groups), extent, progress)?;
+            Ok(((*groups).clone(), figures))
         };
-        let all = if photons.layers.is_empty() { None } else { Some(measure(&frames, extent, progress)?) };
-        let several = if photons.layers.len() > 1 { &photons.layers[..] } else { &[] };
-        Ok(Self { all, layers: several.iter().map(of_layer).collect::<Result<_>>()? })
+        let several = if layers.len() > 1 { &layers[..] } else { &[] };
+        let layers = several.iter().map(of_layer).collect::<Result<_>>()?;
+        Ok(Self { all: Some(measure(&frames, extent, progress)?), layers })
     }
 
-    /// With the numbers of the key frames and the names of the caustics; none where nothing moves.
-    pub(super) fn named(&self, frames: [i32; 2], grouping: &Grouping) -> Option<SegmentContinuity> {
-        let name = |group: &usize| grouping.name(*group).map(str::to_owned);
+    /// With the numbers of the key frames and the names of the caustics by group; none where nothing moves.
+    pub(super) fn named(
+        &self,
+        frames: [i32; 2],
+        name: impl Fn(usize) -> Option<String>,
+    ) -> Option<SegmentContinuity> {
         let layer = |(groups, figures): &(Vec<usize>, Continuity)| LayerContinuity {
-            caustics: groups.iter().map(name).collect(),
+            caustics: groups.iter().map(|&group| name(group)).collect(),
             figures: figures.clone(),
         };
         let all = self.all.clone()?;
@@ -87,10 +104,10 @@ impl Figures {
 }
 
 /// The rows of each group that are looked at; none of those that rest.
-fn rows_of(groups: &[KeyPhotons], layers: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let moves = |group: usize| layers.iter().any(|layer| layer.contains(&group));
-    let counts: Vec<usize> =
-        (0..groups.len()).map(|i| if moves(i) { groups[i].positions.len() } else { 0 }).collect();
+fn rows_of(groups: &[KeyPhotons], layers: &[&Vec<usize>]) -> Vec<Vec<usize>> {
+    let moves = |group| layers.iter().any(|layer| layer.contains(&group));
+    let count = |(i, group): (usize, &KeyPhotons)| if moves(i) { group.positions.len() } else { 0 };
+    let counts: Vec<usize> = groups.iter().enumerate().map(count).collect();
     let mut chosen = chosen_rows(counts.iter().sum()).into_iter().peekable();
     let mut start = 0;
     let of_group = |count: usize| {
@@ -113,15 +130,13 @@ fn frames(mut trajectories: SegmentTrajectories, progress: &Progress) -> Result<
     Ok(frames)
 }
 
-/// The photons of some groups alone.
+/// The photons of some of all groups alone.
 fn columns(frames: &[Vec<Vec2>], all: &[KeyPhotons], groups: &[usize]) -> Vec<Vec<Vec2>> {
-    let rows: Vec<_> = groups
-        .iter()
-        .map(|&group| {
-            let start = count(&all[..group]);
-            start..start + all[group].positions.len()
-        })
-        .collect();
+    let rows = |&group: &usize| {
+        let start = count(&all[..group]);
+        start..start + all[group].positions.len()
+    };
+    let rows: Vec<_> = groups.iter().map(rows).collect();
     let of = |frame: &Vec<Vec2>| rows.iter().flat_map(|rows| &frame[rows.clone()]).copied().collect();
     frames.iter().map(of).collect()
 }
