@@ -73,6 +73,7 @@ fn parse_method(name: &str) -> Result<MotionMethod> {
 }
 
 fn measure(variants: &[Variant], progress: &Progress) -> Result<Table> {
+    progress.set_stages(vec![("measure", 1.0)]);
     progress.begin("measure", variants.len() as u64);
     let mut table = Table::default();
     for Variant { engine, project, differs } in variants {
