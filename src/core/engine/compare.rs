@@ -13,7 +13,6 @@ use super::{Engine, Summary, active_constraints};
 use crate::continuity::Continuity;
 use crate::export::{ComparisonSheet, MethodRow, Overlay, OverlayLine, evenly_chosen, write_comparison};
 use crate::flow::MotionMethod;
-use crate::matching::MatchingMethod;
 use crate::project::Project;
 use crate::render::Image;
 use crate::{Error, Progress, Result};
@@ -122,16 +121,12 @@ fn variants(project: &Project, most: Option<usize>) -> Result<Vec<(MotionMethod,
     let frames = project.frames()?;
     let chosen = evenly_chosen(&frames, most.unwrap_or(frames.len()));
     let list = chosen.iter().map(i32::to_string).collect::<Vec<_>>().join(",");
-    // The method of 2016 finds its own pairs.
-    let able = |method: &MotionMethod| {
-        project.matching == MatchingMethod::Transport || *method != MotionMethod::Stylized
-    };
     let variant = |method| {
         let mut variant = Project { method, ..project.clone() };
         variant.output.frames = Some(list.clone());
         (method, variant)
     };
-    Ok(MotionMethod::ALL.into_iter().filter(able).map(variant).collect())
+    Ok(project.able_methods().map(variant).collect())
 }
 
 /// The stages ahead; camera and background are looked at once.
