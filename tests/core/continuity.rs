@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use lightloom_core::Progress;
-use lightloom_core::continuity::{Continuity, Neighbourhoods, measure};
+use lightloom_core::continuity::{Continuity, Neighbourhoods, Seams, measure};
 use lightloom_core::glam::{DVec2, Mat2, Vec2, dvec2, vec2};
 
 /// Side of the cells in which seams are looked for.
@@ -56,6 +56,22 @@ fn two_halves_that_drift_apart_lack_the_light_of_the_gap_between_them() {
     let whole = figures(&cut(0.0));
     // Single precision shifts photons over the borders of cells.
     assert!(whole.cracks < 1e-3 && whole.torn_source == 0.0, "{whole:?}");
+}
+
+#[test]
+fn seams_that_were_there_before_have_not_opened() {
+    let opened = |key: &[Vec2], now: &[Vec2]| {
+        let [before, after] = [key, now].map(|positions| Seams::new(positions, Vec2::ONE));
+        let missing: f32 = after.opened(now, &before, key).iter().sum();
+        assert_eq!(after.cells(), [256, 256]);
+        missing
+    };
+    let (whole, gaping) = (slab(), cut(5.0).swap_remove(20));
+    let elsewhere: Vec<Vec2> = gaping.iter().map(|p| *p + CELL * vec2(31.0, -17.0)).collect();
+    // Five cells of darkness along 100 cells, less what their blurred flanks hold.
+    assert!((250.0..500.0).contains(&opened(&whole, &gaping)), "{}", opened(&whole, &gaping));
+    assert!(opened(&gaping, &elsewhere) < 5.0, "{}", opened(&gaping, &elsewhere));
+    assert!(opened(&whole, &whole) == 0.0);
 }
 
 #[test]

@@ -33,34 +33,42 @@ impl FittedProject {
     /// # Errors
     /// Photons that are not finite; cancelled.
     pub fn continuity(&self, progress: &Progress) -> Result<Vec<SegmentContinuity>> {
+        self.measured(&Meter::quick(), progress)
+    }
+
+    /// The same after all else: none in a run that was stopped, whose results are kept all the same.
+    pub(super) fn measured_unless_stopped(
+        &self,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Vec<SegmentContinuity>> {
+        match progress.check().and_then(|()| self.measured(meter, progress)) {
+            Err(Error::Cancelled) => Ok(Vec::new()),
+            measured => measured,
+        }
+    }
+
+    fn measured(&self, meter: &Meter, progress: &Progress) -> Result<Vec<SegmentContinuity>> {
         let Self { engine, prepared, flow } = self;
-        let meter = Meter::quick();
         let inner = progress.inner();
-        let job = engine.job(prepared, &meter, &inner)?;
+        let job = engine.job(prepared, meter, &inner)?;
         progress.begin("measure", flow.segments.len() as u64);
         let mut ahead = Ahead { job: &job, walk: None, walked: 0 };
         let mut segments = Vec::new();
         for (number, fitted) in flow.segments.iter().enumerate() {
-            let figures = job.stages.continuity.get(job.slot(number), Same::of(fitted), &inner, |_| {
+            let make = |_: &_| {
                 let photons = ahead.of_segment(number)?;
-                Figures::of(fitted, [&photons.from, &photons.to], prepared.extent, &inner).map(Arc::new)
-            })?;
+                let ends: [&[_]; 2] = [&photons.from, &photons.to];
+                let figures = || Figures::of(fitted, ends, prepared.extent, &inner);
+                meter.measure("measure", figures).map(Arc::new)
+            };
+            let figures = job.stages.continuity.get(job.slot(number), Same::of(fitted), &inner, make)?;
             let frames = [number, number + 1].map(|key| prepared.project.keys[key].frame);
             let name = |group| job.sources.grouping().name(group).map(str::to_owned);
             segments.extend(figures.named(frames, name));
             progress.advance(1);
         }
         Ok(segments)
-    }
-}
-
-impl FittedProject {
-    /// As [`Self::continuity`], after all else: none in a run that was stopped, whose results are kept all the same.
-    pub(super) fn continuity_if_not_stopped(&self, progress: &Progress) -> Result<Vec<SegmentContinuity>> {
-        match progress.check().and_then(|()| self.continuity(progress)) {
-            Err(Error::Cancelled) => Ok(Vec::new()),
-            measured => measured,
-        }
     }
 }
 

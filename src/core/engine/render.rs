@@ -104,7 +104,7 @@ impl Engine {
         let (passes, balance) =
             meter.measure("render", || fitted.render_passes(&render, progress, &passed))?;
         let (bad_values, thumbnails) = meter.measure("write", || writer.run(times, progress))?;
-        let continuity = meter.measure("measure", || fitted.continuity_if_not_stopped(progress))?;
+        let continuity = fitted.measured_unless_stopped(meter, progress)?;
         let done = Done { command: "render", passes, flow, continuity, balance, bad_values };
         let summary = Summary::new(prepared, done, meter);
         Ok(Rendered { summary, fitted, thumbnails, plane })
@@ -138,7 +138,7 @@ impl Engine {
         let inner = progress.inner();
         let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
         let balance = meter.measure("write", || track_files::write(&job, flow, out, progress, saved))?;
-        let continuity = meter.measure("measure", || fitted.continuity_if_not_stopped(progress))?;
+        let continuity = fitted.measured_unless_stopped(&meter, progress)?;
         let bad_values = BadValues::default();
         let done = Done { command: "fit", passes: 0, flow, continuity, balance, bad_values };
         Ok(Summary::new(prepared, done, &meter))

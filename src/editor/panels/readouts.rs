@@ -182,9 +182,15 @@ fn show_continuity(ui: &mut Ui, segments: &[SegmentContinuity], frame: i32) {
         section(ui, &format!("Holding together, {name}"));
         for readout in of_continuity(figures) {
             let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
-            line(ui, readout.name, &readout.value, colour, readout.help);
+            line(ui, &capitalised(readout.name), &readout.value, colour, readout.help);
         }
     }
+}
+
+/// With a capital first letter, as labels have it.
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn of_continuity(figures: &Continuity) -> Vec<Readout> {

@@ -16,10 +16,37 @@ const CELLS: f32 = 128.0;
 /// Missing shares of light between which cracks are drawn ever stronger: below, photons are scattered by chance.
 const DARK: [f32; 2] = [0.25, 0.75];
 
-/// The neighbourhoods of one key, remembered from frame to frame.
+/// Remembers the key that is seen from frame to frame.
 #[derive(Default)]
 pub(super) struct TearFinder {
-    last: Option<(Arc<Preview>, usize, Neighbourhoods)>,
+    last: Option<SeenKey>,
+}
+
+/// The light of one key.
+struct SeenKey {
+    preview: Arc<Preview>,
+    number: usize,
+    positions: Vec<Vec2>,
+    neighbourhoods: Neighbourhoods,
+    seams: Seams,
+}
+
+impl SeenKey {
+    fn new(preview: &Arc<Preview>, number: usize, rows: &[usize]) -> Self {
+        let positions = chosen(preview.at_key(number), rows);
+        let all: Vec<usize> = (0..rows.len()).collect();
+        Self {
+            neighbourhoods: Neighbourhoods::new(&positions, &all),
+            seams: Seams::new(&positions, preview.extent()),
+            preview: preview.clone(),
+            positions,
+            number,
+        }
+    }
+}
+
+fn chosen(all: &[Vec2], rows: &[usize]) -> Vec<Vec2> {
+    rows.iter().map(|&row| all[row]).collect()
 }
 
 impl TearFinder {
@@ -28,19 +55,20 @@ impl TearFinder {
     pub(super) fn map(&mut self, request: &Request, progress: &Progress) -> Option<HeatMap> {
         let Request { preview, frame, .. } = request;
         let rows = chosen_rows(preview.photons());
-        let chosen = |all: &[Vec2]| rows.iter().map(|&row| all[row]).collect::<Vec<_>>();
-        let positions = chosen(preview.positions(*frame)?);
-        let key = preview.seen_key(*frame);
-        if self.last.as_ref().is_none_or(|(of, at, _)| !Arc::ptr_eq(of, preview) || *at != key) {
-            let all: Vec<usize> = (0..rows.len()).collect();
-            let neighbourhoods = Neighbourhoods::new(&chosen(preview.at_key(key)), &all);
-            self.last = Some((preview.clone(), key, neighbourhoods));
-        }
+        let positions = chosen(preview.positions(*frame)?, &rows);
+        let number = preview.seen_key(*frame);
+        let is_seen = |key: &SeenKey| Arc::ptr_eq(&key.preview, preview) && key.number == number;
+        let key = match self.last.take().filter(is_seen) {
+            Some(key) => key,
+            None => SeenKey::new(preview, number, &rows),
+        };
+        let key = self.last.insert(key);
         progress.check().ok()?;
-        let residuals = self.last.as_ref()?.2.residuals(&positions);
-        let mut map = torn(&positions, &residuals, preview.extent());
+        let mut map = torn(&positions, &key.neighbourhoods.residuals(&positions), preview.extent());
         progress.check().ok()?;
-        crack(&mut map, &Seams::new(&positions, preview.extent()), preview.extent());
+        let seams = Seams::new(&positions, preview.extent());
+        let opened = seams.opened(&positions, &key.seams, &key.positions);
+        crack(&mut map, &opened, seams.cells(), preview.extent());
         Some(map)
     }
 }
@@ -60,15 +88,14 @@ fn torn(positions: &[Vec2], residuals: &[f64], extent: Vec2) -> HeatMap {
     HeatMap { of: FieldMap::Tears, cells, values, most: 1.0 }
 }
 
-/// Draws the cracks of `seams` into a map.
-fn crack(map: &mut HeatMap, seams: &Seams, extent: Vec2) {
-    let [columns, rows] = seams.cells();
+/// Draws cracks into a map: `opened` says how dark each of their own cells has become.
+fn crack(map: &mut HeatMap, opened: &[f32], [columns, rows]: [usize; 2], extent: Vec2) {
     let last = vec2(map.cells[0] as f32, map.cells[1] as f32);
-    let plane = extent.max_element() / columns.max(rows) as f32;
-    for (i, dark) in seams.darkness().enumerate() {
+    let side = extent.max_element() / columns.max(rows) as f32;
+    for (i, dark) in opened.iter().enumerate() {
         let strength = (dark - DARK[0]) / (DARK[1] - DARK[0]);
         if strength > 0.0 {
-            let centre = vec2((i % columns) as f32 + 0.5, (i / columns) as f32 + 0.5) * plane;
+            let centre = vec2((i % columns) as f32 + 0.5, (i / columns) as f32 + 0.5) * side;
             let node = (centre / extent * last).round().clamp(Vec2::ZERO, last);
             let value = &mut map.values[node.y as usize * (map.cells[0] + 1) + node.x as usize];
             *value = value.min(-strength.min(1.0));
