@@ -172,6 +172,8 @@ pub mod constraint;
 
 pub mod matching;
 
+pub mod bridge;
+
 pub mod flow;
 
 pub mod render;
