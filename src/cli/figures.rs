@@ -47,7 +47,7 @@ fn variants_of(path: &Path, args: &FiguresArgs) -> Result<Vec<Variant>> {
     let mut variants = Vec::new();
     for (method, named) in methods {
         // The others heed no gamma: one row is enough.
-        let gammas = if method == MotionMethod::Flow { &args.gamma[..] } else { &[] };
+        let gammas = if method.fits() { &args.gamma[..] } else { &[] };
         let own = (project.flow.gamma, named.clone());
         let of = |&gamma: &f32| (gamma, format!("{named}, gamma {gamma}"));
         let gammas = if gammas.is_empty() { vec![own] } else { gammas.iter().map(of).collect() };

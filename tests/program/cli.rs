@@ -367,6 +367,8 @@ fn figures_prints_a_row_for_each_project_method_and_gamma() {
     let json: Value = serde_json::from_str(&run(&["figures", text(&project), "--json"])).unwrap();
     assert_eq!(json[0]["name"], "Small letters, 1-9");
     assert!(json[0]["cracks"].as_f64().is_some());
-    assert!(fail(2, &["figures", text(&project), "--method", "magic"]).contains("flow,stylized,linear"));
+    assert!(
+        fail(2, &["figures", text(&project), "--method", "magic"]).contains("flow,guided,stylized,linear")
+    );
     assert!(fail(2, &["figures", text(&project), "--gamma", "7"]).contains("--gamma"));
 }

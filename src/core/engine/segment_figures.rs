@@ -79,13 +79,19 @@ impl Figures {
             groups.map(|(group, rows)| group.selected(rows)).collect::<Vec<_>>()
         });
         let frames = frames(SegmentTrajectories::new(fitted, &from, &to), progress)?;
-        let of_layer = |groups: &&Vec<usize>| {
-            let figures = measure(&columns(&frames, &from, groups), extent, progress)?;
-            Ok(((*groups).clone(), figures))
+        // Only where key frames meet half way do they miss each other.
+        let gaps = fitted.reports.iter().map(|report| Some(report.gap).filter(|gap| *gap > 0.0));
+        let all = Continuity {
+            gap: gaps.clone().flatten().reduce(f64::max),
+            ..measure(&frames, extent, progress)?
         };
-        let several = if layers.len() > 1 { &layers[..] } else { &[] };
-        let layers = several.iter().map(of_layer).collect::<Result<_>>()?;
-        Ok(Self { all: Some(measure(&frames, extent, progress)?), layers })
+        let of_layer = |(groups, gap): (&Vec<usize>, Option<f64>)| {
+            let figures = measure(&columns(&frames, &from, groups), extent, progress)?;
+            Ok((groups.clone(), Continuity { gap, ..figures }))
+        };
+        let several = if layers.len() > 1 { layers } else { Vec::new() };
+        let layers = several.into_iter().zip(gaps).map(of_layer).collect::<Result<_>>()?;
+        Ok(Self { all: Some(all), layers })
     }
 
     /// With the numbers of the key frames and the names of the caustics by group; none where nothing moves.
