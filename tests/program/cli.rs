@@ -79,6 +79,13 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
         assert!(!summary[name].is_null(), "no {name} in {summary}");
     }
     assert!(summary["endpoint_error"].as_f64().unwrap() < 1e-6);
+    let continuity = &summary["continuity"][0];
+    assert_eq!(continuity["frames"], json!([1, 9]));
+    for name in
+        ["cracks", "torn_source", "torn_target", "torn_target_late", "bunch", "fastest", "fastest_999"]
+    {
+        assert!(continuity[name].as_f64().is_some_and(|figure| figure >= 0.0), "no {name} in {summary}");
+    }
     assert!((summary["flux_ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6);
     assert!(
         summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0)
@@ -344,4 +351,24 @@ fn one_photon_runs() {
         "png",
     ]);
     assert!(out.join("frame.0005.png").exists());
+}
+
+#[test]
+fn figures_prints_a_row_for_each_project_method_and_gamma() {
+    let (_folder, project) = letters("flow");
+    let printed =
+        run(&["figures", text(&project), text(&project), "--method", "flow,linear", "--gamma", "0,1"]);
+    let rows: Vec<&str> = printed.lines().skip(2).collect();
+    let named = |row: &str| row.split('|').nth(1).unwrap().trim().to_owned();
+    let of_one = ["flow, gamma 0, 1-9", "flow, gamma 1, 1-9", "linear, 1-9"]
+        .map(|row| format!("Small letters, {row}"));
+    assert_eq!(rows.iter().map(|row| named(row)).collect::<Vec<_>>(), [&of_one[..], &of_one[..]].concat());
+    assert_eq!(rows[0], rows[3], "the same project has the same figures");
+    let json: Value = serde_json::from_str(&run(&["figures", text(&project), "--json"])).unwrap();
+    assert_eq!(json[0]["name"], "Small letters, 1-9");
+    assert!(json[0]["cracks"].as_f64().is_some());
+    assert!(
+        fail(2, &["figures", text(&project), "--method", "magic"]).contains("flow,guided,stylized,linear")
+    );
+    assert!(fail(2, &["figures", text(&project), "--gamma", "7"]).contains("--gamma"));
 }
