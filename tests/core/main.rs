@@ -13,6 +13,7 @@ mod export;
 mod field;
 mod figures;
 mod fit;
+mod layers;
 mod lines;
 mod matching;
 mod matching_walls;

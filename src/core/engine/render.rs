@@ -88,13 +88,19 @@ impl Engine {
         let FittedProject { prepared, flow, .. } = &fitted;
         let (project, times) = (&prepared.project, &prepared.times);
         let first = first_radius(&project.render, prepared.extent);
-        let render = ProgressiveRender::new(*visible.layout(), first, times.moments.len(), folder)?;
+        let textures = prepared.textures();
+        let render =
+            ProgressiveRender::new(*visible.layout(), first, times.moments.len() * textures, folder)?;
+        let first_hits = prepared.first_hits(meter, progress)?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
             render: &render,
             visible: &visible,
             background: &background,
+            first_hits: first_hits.as_ref(),
+            caustic_names: &prepared.caustic_layer_names(),
+            camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
             folder,
             drawn: &active_constraints::drawn(project),
             plane: plane.clone(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lightloom_core::Error;
 use lightloom_core::Result;
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 
 /// The options that a user can set for an export; all else is taken from the project.
@@ -20,6 +20,8 @@ pub struct ExportOptions {
     pub photons: u64,
     /// Picture formats.
     pub formats: Vec<FrameFormat>,
+    /// Layers of EXR files.
+    pub layers: Vec<FrameLayer>,
     /// The folder for the frames.
     pub folder: PathBuf,
 }
@@ -36,6 +38,7 @@ impl ExportOptions {
             passes: render.passes,
             photons: render.photons,
             formats: project.output.formats.clone(),
+            layers: project.output.layers.clone(),
             folder: folder(project, file),
         }
     }
@@ -52,6 +55,7 @@ impl ExportOptions {
         take(&mut self.passes, &before.passes, &now.passes);
         take(&mut self.photons, &before.photons, &now.photons);
         take(&mut self.formats, &before.formats, &now.formats);
+        take(&mut self.layers, &before.layers, &now.layers);
         take(&mut self.folder, &before.folder, &now.folder);
     }
 
@@ -67,6 +71,7 @@ impl ExportOptions {
         let mut project = project.clone();
         project.output.frames = Some(self.frames.clone());
         project.output.formats.clone_from(&self.formats);
+        project.output.layers.clone_from(&self.layers);
         [project.render.width, project.render.height] = self.size;
         project.render.passes = self.passes;
         project.render.photons = self.photons;
@@ -95,6 +100,10 @@ impl ExportOptions {
         if self.formats != own.formats {
             let names: Vec<_> = self.formats.iter().map(|format| format.extension()).collect();
             line += &format!(" --format {}", names.join(","));
+        }
+        if self.layers != own.layers {
+            let names: Vec<_> = self.layers.iter().map(|layer| layer.name()).collect();
+            line += &format!(" --layers {}", names.join(","));
         }
         line
     }
@@ -166,6 +175,7 @@ mod tests {
             passes: 3,
             photons: 1234,
             formats: vec![FrameFormat::Png],
+            layers: vec![FrameLayer::Caustic, FrameLayer::Depth],
             folder: folder.path().join("two words $HOME \"and\" quotes'"),
         };
         for options in [own, other] {
