@@ -42,6 +42,10 @@ pub(crate) struct RenderArgs {
     /// Folder for the frames, the contact sheet and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// A film of all frames, too, by its ending: .gif, .apng or .mp4 (by ffmpeg, where it is installed). It runs at the frame
+    /// rate of the project, over and over.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) film: Option<PathBuf>,
 }
 
 #[derive(Args)]

@@ -12,6 +12,7 @@ mod engine;
 mod export;
 mod field;
 mod figures;
+mod film;
 mod fit;
 mod layers;
 mod lines;

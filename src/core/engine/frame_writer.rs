@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
+use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
@@ -46,9 +47,14 @@ pub(super) struct FrameWriter<'a> {
 }
 
 impl FrameWriter<'_> {
-    /// Writes all frames and the contact sheet; returns the replaced values, and the pictures on the sheet with their
+    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on the sheet with their
     /// numbers.
-    pub(super) fn run(&self, times: &FrameTimes, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
+    pub(super) fn run(
+        &self,
+        times: &FrameTimes,
+        film: Option<&FilmWriter>,
+        progress: &Progress,
+    ) -> Result<(BadValues, Thumbnails)> {
         progress.begin("write", times.frames.len() as u64);
         let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
@@ -57,11 +63,15 @@ impl FrameWriter<'_> {
         let repairs: Vec<(i32, RepairedSamples)> = times
             .frames
             .par_iter()
-            .map(|&(frame, slot)| {
+            .enumerate()
+            .map(|(index, &(frame, slot))| {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
                 let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                if let Some(film) = film {
+                    film.keep(index, &view.apply(&beauty))?;
+                }
                 if on_sheet.contains(&frame) {
                     let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
                     let small = view.apply(&beauty.resized(SHEET_WIDTH, height));

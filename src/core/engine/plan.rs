@@ -7,6 +7,7 @@ use crate::constraint::Constraint;
 use crate::flow::{MotionMethod, TurbulenceSettings};
 use crate::matching::MatchingMethod;
 use crate::project::{Project, Shows};
+use crate::render::RenderSettings;
 use crate::render::frames::FrameStore;
 use crate::{Error, Result};
 
@@ -62,6 +63,8 @@ mod pace {
     pub(super) const PATHS: f64 = 0.3e6;
     /// Pixels gathered, encoded and written per second.
     pub(super) const WRITE: f64 = 4.7e6;
+    /// Pixels of a film encoded per second.
+    pub(super) const FILM: f64 = 8e6;
 }
 
 /// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given;
@@ -271,6 +274,11 @@ impl Plan {
             free / 1024.0
         );
         Err(Error::Limit { place: "render".into(), what })
+    }
+
+    /// Seconds that a film of all frames takes, about.
+    pub(super) fn film_seconds(&self, render: &RenderSettings) -> f64 {
+        self.frames as f64 * f64::from(render.width) * f64::from(render.height) / pace::FILM
     }
 
     /// Seconds of all stages.

@@ -3,6 +3,7 @@
 pub mod comparison;
 pub mod exr;
 pub mod fields;
+pub mod film;
 pub mod layer;
 pub mod overlay;
 pub mod pattern;
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use fields::{SegmentFields, load_fields, write_fields};
+pub use film::{FilmFormat, Reel, write_film};
 pub use frame::{Frame, Metadata, RepairedSamples};
 pub use layer::{FrameLayer, caustic_layer_names};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};

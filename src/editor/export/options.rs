@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lightloom_core::Error;
 use lightloom_core::Result;
-use lightloom_core::export::{FrameFormat, FrameLayer};
+use lightloom_core::export::{FilmFormat, FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 
 /// The options that a user can set for an export; all else is taken from the project.
@@ -22,6 +22,8 @@ pub struct ExportOptions {
     pub formats: Vec<FrameFormat>,
     /// Layers of EXR files.
     pub layers: Vec<FrameLayer>,
+    /// The kind of film of all frames, where one is wanted.
+    pub film: Option<FilmFormat>,
     /// The folder for the frames.
     pub folder: PathBuf,
 }
@@ -39,6 +41,7 @@ impl ExportOptions {
             photons: render.photons,
             formats: project.output.formats.clone(),
             layers: project.output.layers.clone(),
+            film: None,
             folder: folder(project, file),
         }
     }
@@ -56,6 +59,7 @@ impl ExportOptions {
         take(&mut self.photons, &before.photons, &now.photons);
         take(&mut self.formats, &before.formats, &now.formats);
         take(&mut self.layers, &before.layers, &now.layers);
+        take(&mut self.film, &before.film, &now.film);
         take(&mut self.folder, &before.folder, &now.folder);
     }
 
@@ -79,6 +83,11 @@ impl ExportOptions {
         Ok(project)
     }
 
+    /// The file of the film, in the folder of the frames.
+    pub fn film_file(&self) -> Option<PathBuf> {
+        self.film.map(|format| self.folder.join(format!("film.{}", format.extension())))
+    }
+
     /// The command line that renders the same frames of the project file `file`, without the project's own values.
     pub fn command_line(&self, project: &Project, file: &Path) -> String {
         let own = Self::of(project, Some(file));
@@ -100,6 +109,9 @@ impl ExportOptions {
         if self.formats != own.formats {
             let names: Vec<_> = self.formats.iter().map(|format| format.extension()).collect();
             line += &format!(" --format {}", names.join(","));
+        }
+        if let Some(film) = self.film_file() {
+            line += &format!(" --film {}", path(&film));
         }
         if self.layers != own.layers {
             let names: Vec<_> = self.layers.iter().map(|layer| layer.name()).collect();
@@ -176,6 +188,7 @@ mod tests {
             photons: 1234,
             formats: vec![FrameFormat::Png],
             layers: vec![FrameLayer::Caustic, FrameLayer::Depth],
+            film: Some(FilmFormat::Gif),
             folder: folder.path().join("two words $HOME \"and\" quotes'"),
         };
         for options in [own, other] {
@@ -188,6 +201,7 @@ mod tests {
             // All frames by default are those that the window lists.
             assert_eq!(run.frames().unwrap(), wanted.frames().unwrap(), "{line}");
             (run.output.frames, wanted.output.frames) = (None, None);
+            assert_eq!(args.film, options.film_file(), "{line}");
             assert_eq!((run, args.out), (wanted, options.folder), "{line}");
         }
     }
