@@ -53,6 +53,8 @@ pub struct Summary {
     pub passes_planned: usize,
     /// Frames that were written.
     pub frames: usize,
+    /// Frames per second of the project, as a fraction.
+    pub frames_per_second: [u32; 2],
     /// The flow; absent where nothing moves.
     #[serde(flatten)]
     pub flow: Option<FlowNumbers>,
@@ -123,6 +125,7 @@ impl Summary {
             passes: done.passes,
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
+            frames_per_second: project.output.fps,
             flow,
             caustics: done.flow.caustics.clone(),
             walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),

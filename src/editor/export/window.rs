@@ -79,7 +79,7 @@ impl ExportWindow {
                 ui.separator();
                 ui.vertical(|ui| {
                     ui.set_min_width(380.0);
-                    self.jobs.show(ui, editor.session.playhead, exports);
+                    self.jobs.show(ui, editor.session.playhead, exports, editor.actions);
                 });
             });
         });
