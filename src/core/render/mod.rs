@@ -20,6 +20,7 @@ pub mod splat;
 pub mod texture;
 pub mod view;
 
+mod adaptive;
 mod sampler;
 
 pub use background::{background, rough_background};
