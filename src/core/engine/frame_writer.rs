@@ -11,7 +11,6 @@ use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
-use crate::flow::MotionMethod;
 use crate::project::Project;
 use crate::render::{FirstHits, GatherMatrix, Image, PlaneView, ProgressiveRender, View};
 use crate::scene::camera::Camera;
@@ -152,7 +151,7 @@ impl FrameWriter<'_> {
             ("flow".into(), json(serde_json::to_string(flow))),
             ("render".into(), json(serde_json::to_string(render))),
         ];
-        if *method != MotionMethod::Flow {
+        if !method.fits() {
             settings.push(("method".into(), method.name().into()));
         }
         Metadata {
