@@ -79,6 +79,26 @@ fn a_gif_shows_every_frame_at_the_pace_of_the_project_over_and_over() {
 }
 
 #[test]
+fn a_dark_film_has_colours_enough() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("dark.gif");
+    let mut dark = Image::new(SIZE[0], SIZE[1]);
+    for (i, pixel) in dark.pixels.iter_mut().enumerate() {
+        *pixel = Vec3::new(0.12, 0.11, 0.10) * ((i % SIZE[0]) as f32 / 60.0) + 0.02;
+    }
+    let reel = Reel::new(folder.path(), SIZE, 1).unwrap();
+    reel.put(0, &dark).unwrap();
+    write_film(&path, FilmFormat::Gif, &reel, &[1], [24, 1], &Progress::new()).unwrap();
+    let (pictures, _) = read_gif(&path);
+    let step = |(a, b): (&[u8; 3], &Vec3)| (f32::from(a[1]) - 255.0 * b.y).abs();
+    // At most the step of the dither to 8 bits, and one more to a colour of the palette.
+    assert!(pictures[0].iter().zip(&dark.pixels).map(step).fold(0.0, f32::max) <= 2.0);
+    // Every index that a frame uses is one of the table.
+    let read = gif::DecodeOptions::new().read_info(File::open(&path).unwrap()).unwrap();
+    assert!(read.global_palette().unwrap().len() >= 3 * 20);
+}
+
+#[test]
 fn what_stands_still_in_a_film_does_not_flicker() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.gif");

@@ -67,8 +67,8 @@ pub use self::cells::Cells;
 use self::kernel::Kernel;
 use self::regions::Regions;
 pub use self::settings::{BridgeSettings, WallsFrom};
-pub use self::velocities::CellVelocities;
 use self::side::{LEAST, Side};
+pub use self::velocities::CellVelocities;
 use self::wall_cells::WallCells;
 use self::wall_kernel::{StepKernel, WallKernel};
 use crate::{Progress, Result};
@@ -121,7 +121,8 @@ impl<'a> Bridge<'a> {
         let (kernel, regions) = if standing {
             let regions = Regions::new(&cells, &walls, [&sides[0].density, &sides[1].density]);
             let step = (variance / settings.steps as f64).max(LEAST_VARIANCE);
-            let kernels = walls.iter().map(|(_, walls)| StepKernel::new(&cells, walls.as_ref(), step)).collect();
+            let kernels =
+                walls.iter().map(|(_, walls)| StepKernel::new(&cells, walls.as_ref(), step)).collect();
             let index = |step: usize| walls.partition_point(|(from, _)| *from <= step).saturating_sub(1);
             let of_step = (0..settings.steps).map(index).collect();
             let cap = cap(&settings, &sides);
@@ -164,7 +165,11 @@ impl<'a> Bridge<'a> {
         if first {
             let speeds = |side: usize| photons[side].par_iter().map(move |&p| (side, p));
             let all = speeds(0).chain(speeds(1));
-            let sum: f64 = all.map(|(side, p)| f64::from(self.velocity(side, p).length())).collect::<Vec<_>>().iter().sum();
+            let sum: f64 = all
+                .map(|(side, p)| f64::from(self.velocity(side, p).length()))
+                .collect::<Vec<_>>()
+                .iter()
+                .sum();
             let count = photons.iter().map(|photons| photons.len()).sum::<usize>().max(1);
             self.limit = SPEED_LIMIT * (sum / count as f64) as f32;
         }
@@ -183,7 +188,8 @@ impl<'a> Bridge<'a> {
     /// The first factors: those of a plan on half as many cells.
     fn start(&mut self, photons: [&[Vec2]; 2], progress: &Progress) -> Result<()> {
         if self.settings.cells <= COARSEST {
-            self.sides[1].scale = self.sides[1].density.iter().map(|d| f64::from(u8::from(*d > 0.0))).collect();
+            self.sides[1].scale =
+                self.sides[1].density.iter().map(|d| f64::from(u8::from(*d > 0.0))).collect();
             for _ in 0..COLD_SWEEPS {
                 progress.check()?;
                 self.sweep();

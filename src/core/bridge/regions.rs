@@ -17,17 +17,23 @@ impl Regions {
     pub(super) fn new(cells: &Cells, walls: &[(usize, Option<WallCells>)], densities: [&[f64]; 2]) -> Self {
         // A node for each connected part of each run of steps; runs join where they share a cell.
         let parts: Vec<Vec<u32>> = walls.iter().map(|(_, walls)| connected(cells, walls.as_ref())).collect();
-        let counts: Vec<usize> = parts.iter().map(|part| 1 + part.iter().copied().max().unwrap_or(0) as usize).collect();
-        let starts: Vec<usize> = counts.iter().scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect();
+        let counts: Vec<usize> =
+            parts.iter().map(|part| 1 + part.iter().copied().max().unwrap_or(0) as usize).collect();
+        let starts: Vec<usize> =
+            counts.iter().scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect();
         let mut join = Join::new(counts.iter().sum());
         for run in 1..parts.len() {
             for cell in 0..cells.count() {
-                join.join(starts[run - 1] + parts[run - 1][cell] as usize, starts[run] + parts[run][cell] as usize);
+                join.join(
+                    starts[run - 1] + parts[run - 1][cell] as usize,
+                    starts[run] + parts[run][cell] as usize,
+                );
             }
         }
         let last = parts.len() - 1;
-        let mut groups =
-            [0, last].map(|run| parts[run].iter().map(|&part| join.root(starts[run] + part as usize) as u32).collect::<Vec<_>>());
+        let mut groups = [0, last].map(|run| {
+            parts[run].iter().map(|&part| join.root(starts[run] + part as usize) as u32).collect::<Vec<_>>()
+        });
         let mut roots: Vec<u32> = groups.iter().flatten().copied().collect();
         roots.sort_unstable();
         roots.dedup();

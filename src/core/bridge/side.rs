@@ -77,7 +77,8 @@ impl Side {
             kernel.spread_freely(side, &self.own_scale, &mut self.own_reached);
             let columns = self.own_scale.iter_mut().zip(&self.density).zip(&self.own_reached);
             // The square root damps the swing of the symmetric iteration.
-            columns.for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
+            columns
+                .for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
         }
         kernel.spread_freely(side, &self.own_scale, &mut self.own_reached);
     }
@@ -123,7 +124,8 @@ impl Side {
         }
         let birth = &self.birth;
         let per_photon = 1.0 / photons.len().max(1) as f32;
-        let weigh = |i: usize, around: [(usize, f32); 4]| around.map(|(cell, w)| (cell, w * birth[i] * per_photon));
+        let weigh =
+            |i: usize, around: [(usize, f32); 4]| around.map(|(cell, w)| (cell, w * birth[i] * per_photon));
         let sums = match walls {
             None => cells.sum(photons, |i, p| weigh(i, cells.around(p))),
             Some(walls) => cells.sum(photons, |i, p| weigh(i, walls.around(p))),
@@ -131,7 +133,8 @@ impl Side {
         let mut born = vec![0.0; cells.count()];
         kernel.blur(side, &sums, &mut born);
         let floor = FLOOR * ONE_PHOTON * f64::from(per_photon);
-        let relative = |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
+        let relative =
+            |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
         light.iter().zip(&born).map(relative).collect()
     }
 }

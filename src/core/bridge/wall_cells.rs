@@ -31,10 +31,7 @@ impl<'a> WallCells<'a> {
             .collect();
         let sees = |i: usize, j: usize| !near[i] || !barriers.blocks(centre(i), centre(j));
         let faces = |i: usize| {
-            [
-                i % width + 1 < width && sees(i, i + 1),
-                i / width + 1 < height && sees(i, i + width),
-            ]
+            [i % width + 1 < width && sees(i, i + 1), i / width + 1 < height && sees(i, i + width)]
         };
         let open = (0..cells.count()).into_par_iter().map(faces).collect();
         Self { cells: cells.clone(), barriers, near, open }
@@ -76,7 +73,12 @@ impl<'a> WallCells<'a> {
             return around;
         }
         let nearest = self.nearest_visible(p);
-        [(nearest.unwrap_or(around[0].0), if nearest.is_some() { 1.0 } else { 0.0 }), around[1], around[2], around[3]]
+        [
+            (nearest.unwrap_or(around[0].0), if nearest.is_some() { 1.0 } else { 0.0 }),
+            around[1],
+            around[2],
+            around[3],
+        ]
     }
 
     /// The nearest cell that a point sees, among 6 x 6 around it.
@@ -85,7 +87,8 @@ impl<'a> WallCells<'a> {
         let corner = self.cells.place(p).index;
         let (column, row) = (corner % width, corner / width);
         let rows = row.saturating_sub(2)..(row + 4).min(height);
-        let all = rows.flat_map(|y| (column.saturating_sub(2)..(column + 4).min(width)).map(move |x| y * width + x));
+        let all = rows
+            .flat_map(|y| (column.saturating_sub(2)..(column + 4).min(width)).map(move |x| y * width + x));
         let distance = |&cell: &usize| self.cells.centre(cell).distance_squared(p);
         all.filter(|&cell| !self.barriers.blocks(p, self.cells.centre(cell)))
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))

@@ -96,12 +96,8 @@ impl StepKernel {
             let values = density[y * width..].iter().zip(&self.scale[y * width..]);
             scaled.iter_mut().zip(values).for_each(|(out, (value, scale))| *out = value * scale);
         };
-        scaled
-            .par_chunks_mut(width)
-            .zip(rows.par_chunks_mut(width))
-            .enumerate()
-            .with_min_len(24)
-            .for_each(|(y, (scaled, row))| {
+        scaled.par_chunks_mut(width).zip(rows.par_chunks_mut(width)).enumerate().with_min_len(24).for_each(
+            |(y, (scaled, row))| {
                 scaled_row(y, scaled);
                 row.iter_mut().zip(&*scaled).for_each(|(out, value)| *out = self.taps[0] * value);
                 for k in 1..=REACH.min(width - 1) {
@@ -109,7 +105,8 @@ impl StepKernel {
                     row[k..].iter_mut().zip(&*scaled).for_each(|(out, value)| *out += tap * value);
                     row.iter_mut().zip(&scaled[k..]).for_each(|(out, value)| *out += tap * value);
                 }
-            });
+            },
+        );
         let (scaled, rows) = (&*scaled, &*rows);
         out.par_chunks_mut(width).enumerate().with_min_len(24).for_each(|(y, out)| {
             let first = self.rows.partition_point(|&cell| (cell as usize) < y * width);
@@ -122,7 +119,8 @@ impl StepKernel {
                 let Some(x) = (cell as usize).checked_sub(y * width).filter(|x| *x < width) else { break };
                 let entries = self.starts[i] as usize..self.starts[i + 1] as usize;
                 let columns = &self.columns[entries.clone()];
-                out[x] = columns.iter().zip(&self.weights[entries]).map(|(&j, w)| w * scaled[j as usize]).sum();
+                out[x] =
+                    columns.iter().zip(&self.weights[entries]).map(|(&j, w)| w * scaled[j as usize]).sum();
             }
             out.iter_mut().zip(&self.scale[y * width..]).for_each(|(out, scale)| *out *= scale);
         });

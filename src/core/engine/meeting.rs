@@ -9,8 +9,8 @@ use super::job::Job;
 use super::pairing::MeetingInput;
 use super::segment_photons::MeetingFlow;
 use crate::Result;
-use crate::flow::meeting::{MeetingFields, MeetingFit, MeetingSegment, fit_meeting};
 use crate::flow::SegmentFlow;
+use crate::flow::meeting::{MeetingFields, MeetingFit, MeetingSegment, fit_meeting};
 
 /// Plans and fits the flow of segment `number` for each of the `layers` of groups; `groups` are the photons of every group at
 /// both key frames.

@@ -72,7 +72,9 @@ impl PairingMethod {
     ) -> Result<Option<ContinuousMap>> {
         Ok(match self {
             Self::Given => None,
-            Self::Transport | Self::Meeting(_) => Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?)),
+            Self::Transport | Self::Meeting(_) => {
+                Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?))
+            }
             Self::AroundWalls(walls) => {
                 let walls: Vec<&ActiveWall> = walls.iter().collect();
                 let graph = Arc::new(VisibilityGraph::new(&walls, extent, progress)?);

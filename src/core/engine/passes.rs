@@ -75,7 +75,8 @@ impl<'a> Exposures<'a> {
                 _ => MapsFrom::Others(&fitted.maps),
             };
             let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
-            let trajectories = SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
+            let trajectories =
+                SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
             let moments = times.of_segment(i);
             let rows = self.rows(&photons.from);
             self.carry((trajectories, &rows), photons.requested, kernel, moments, progress)?;

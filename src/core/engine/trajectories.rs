@@ -42,9 +42,8 @@ impl<'a> SegmentTrajectories<'a> {
             end = rows.end;
             let flow = segment.flow_of(group).filter(|_| !rows.is_empty());
             let tracks = tracks.get(group).and_then(Option::as_ref);
-            let trajectories = flow.map(|flow| {
-                flow.trajectories(&from.positions, &to.positions, &to.midpoint_offsets, tracks)
-            });
+            let trajectories = flow
+                .map(|flow| flow.trajectories(&from.positions, &to.positions, &to.midpoint_offsets, tracks));
             Group { from, to, rows, trajectories }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }

@@ -148,8 +148,8 @@ impl<'a> Walk<'a> {
             Ok(matched)
         })?;
         let arrange = |(group, pairing): (usize, &Pairing)| pairing.arrange(self.next_points(group));
-        let (to, tracks) = fresh
-            .unwrap_or_else(|| (matched.pairings.iter().enumerate().map(arrange).collect(), Vec::new()));
+        let (to, tracks) =
+            fresh.unwrap_or_else(|| (matched.pairings.iter().enumerate().map(arrange).collect(), Vec::new()));
         Ok((matched, to, tracks))
     }
 
@@ -182,7 +182,8 @@ impl<'a> Walk<'a> {
         all_points: Vec<KeyPhotons>,
         progress: &Progress,
     ) -> Result<Paired> {
-        let (mut own, mut pairings, mut arranged, mut all_tracks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut own, mut pairings, mut arranged, mut all_tracks) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut cost = TransportCost::default();
         for (group, (at, points)) in self.at.iter().zip(all_points).enumerate() {
             let fields = meeting.as_ref().and_then(|meeting| meeting.fields_of(group));
@@ -207,7 +208,9 @@ impl<'a> Walk<'a> {
                 MapsFrom::Others(maps) => maps.by_group[group].as_ref(),
             };
             let bound = match (map, maps, &tracks) {
-                (Some(map), MapsFrom::Own { bounded: true }, None) => map.lower_bound(ends[0], ends[1], progress)?,
+                (Some(map), MapsFrom::Own { bounded: true }, None) => {
+                    map.lower_bound(ends[0], ends[1], progress)?
+                }
                 _ => None,
             };
             let pairing = self.pairing(group, ends, map, &progress.inner())?;

@@ -209,9 +209,9 @@ impl Fields {
         let (start, end) = (self.time(n), self.time(n + 1));
         let time = |x: f32| start + f64::from(x) * (end - start);
         let stages = [0.0, 0.5, 1.0];
-        let velocities = self.acts_in(n).then(|| {
-            stages.map(|x| StageVelocity { field: self.field(n, x), noise: self.noise(time(x)) })
-        });
+        let velocities = self
+            .acts_in(n)
+            .then(|| stages.map(|x| StageVelocity { field: self.field(n, x), noise: self.noise(time(x)) }));
         let rates = stages.map(|x| self.fade.rate(time(x)));
         Step { number: n, left: self.steps - 1 - n, start, length: end - start, velocities, rates }
     }

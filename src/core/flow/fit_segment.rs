@@ -134,8 +134,7 @@ fn fit(
     if let Some(show) = &mut show_step {
         show(steps, &positions);
     }
-    let report =
-        observer.finish(&positions, fields.turbulence(), photons.wall_violations(), fits.report());
+    let report = observer.finish(&positions, fields.turbulence(), photons.wall_violations(), fits.report());
     Ok((fields, report))
 }
 

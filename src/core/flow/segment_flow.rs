@@ -2,8 +2,8 @@
 
 use glam::Vec2;
 
-use super::field_trajectories::FieldTrajectories;
 use super::field::Field;
+use super::field_trajectories::FieldTrajectories;
 use super::fields::Fields;
 use super::meeting::{HalfTracks, MeetingFields, MeetingTrajectories};
 use super::path_trajectories::PathTrajectories;
@@ -34,7 +34,9 @@ impl SegmentFlow {
     ) -> Box<dyn Trajectories + 'a> {
         match self {
             Self::Meeting(fields) => Box::new(match tracks {
-                Some(tracks) => MeetingTrajectories::with_tracks(fields, (source, targets), tracks.each_ref()),
+                Some(tracks) => {
+                    MeetingTrajectories::with_tracks(fields, (source, targets), tracks.each_ref())
+                }
                 None => MeetingTrajectories::new(fields, source, targets),
             }),
             Self::Fields(fields) => Box::new(FieldTrajectories::new(fields, source, targets)),

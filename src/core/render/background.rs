@@ -5,13 +5,13 @@
 //! a mirror to a light are left out, because that light is the caustic photons'. The sky emits no photons, so its light
 //! does pass through glass.
 //!
-//! Sampling is adaptive: noisy pixels and their neighbours get more samples. A few samples can miss what is rare and
-//! bright, but hardly in a whole neighbourhood.
+//! Sampling is adaptive (`adaptive`): pixels get more samples where their neighbours are noisy. A few samples can miss what is
+//! rare and bright, but hardly in a whole neighbourhood.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
-use super::adaptive::{self, Estimate};
+use super::adaptive::{Estimate, noisy};
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
@@ -61,12 +61,12 @@ fn render(
     let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
     let brightness = tracer.brightness(seed);
     tracer.firefly_limit = FIREFLY_LIMIT * brightness;
-    let base = settings.background_samples;
-    progress.begin("background", 2 * height as u64);
-    let base = base.div_ceil(2);
+    let first = settings.background_samples;
+    progress.begin("background", height as u64 * u64::from(if adaptive { 2 + ROUNDS } else { 2 }));
     let mut pixels: Vec<Pixel> = (0..width * height)
         .map(|i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64)))
         .collect();
+    // Until each pixel has as many samples as wanted.
     let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(usize) -> u32 + Sync)| {
         pixels.par_chunks_mut(width).enumerate().try_for_each(|(y, row)| -> Result<()> {
             for (x, pixel) in row.iter_mut().enumerate() {
@@ -81,27 +81,18 @@ fn render(
             Ok(())
         })
     };
-    trace(&mut pixels, &|_| base)?;
-    trace(&mut pixels, &|_| 2 * base)?;
-    let mean = |pixels: &[Pixel]| Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
-    if !adaptive {
-        return Ok(mean(&pixels));
-    }
+    // Halves, so that there are two to compare.
+    trace(&mut pixels, &|_| first.div_ceil(2))?;
+    trace(&mut pixels, &|_| first)?;
     let floor = 0.5 * brightness;
-    let mut open = vec![true; pixels.len()];
-    for round in 1..=ROUNDS {
+    let mut open = vec![adaptive; pixels.len()];
+    for _ in 0..if adaptive { ROUNDS } else { 0 } {
         let estimates: Vec<Estimate> = pixels.iter().map(Pixel::estimate).collect();
-        let noisy = adaptive::noisy(&estimates, width, floor, base);
+        let noisy = noisy(&estimates, width, floor, first);
         open.iter_mut().zip(noisy).for_each(|(open, noisy)| *open &= noisy);
-        let total: u64 = pixels.iter().map(|p| 2 * u64::from(p.halves[0].count)).sum();
-        eprintln!(
-            "round {round}: {:.2} samples per pixel, open {:.4}",
-            total as f64 / pixels.len() as f64,
-            open.iter().filter(|o| **o).count() as f64 / pixels.len() as f64
-        );
-        trace(&mut pixels, &|i| if open[i] { base << (round + 1) } else { 0 })?;
+        trace(&mut pixels, &|i| if open[i] { 2 * estimates[i].count } else { 0 })?;
     }
-    Ok(mean(&pixels))
+    Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
 }
 
 /// The accumulated samples of a pixel.
@@ -135,8 +126,12 @@ impl Pixel {
 
     /// Of a pixel whose samples were doubled last.
     fn estimate(&self) -> Estimate {
-        let luminance_of_half = luminance(self.half / (self.count / 2).max(1) as f32);
-        Estimate { luminance: self.luminance(), change: luminance_of_half - self.luminance(), count: self.count }
+        let luminance_of_half = luminance(self.half / self.count.div_ceil(2).max(1) as f32);
+        Estimate {
+            luminance: self.luminance(),
+            change: luminance_of_half - self.luminance(),
+            count: self.count,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::Film;
 use super::delta::Window;
-use super::palette::{Palette, TRANSPARENT};
+use super::palette::Palette;
 use super::timing::gif_delays;
 use crate::Result;
 
@@ -29,7 +29,7 @@ pub(super) fn write(film: &Film, file: &mut dyn Write) -> Result<()> {
         let pictures = batch.par_iter().map(indices).collect::<Result<Vec<_>>>()?;
         let encode = |(i, (_, delay)): (usize, &(usize, u16))| {
             let before = if i == 0 { before.as_ref() } else { Some(&pictures[i - 1]) };
-            changed(&pictures[i], before, size, *delay)
+            changed((&pictures[i], before), size, palette.transparent(), *delay)
         };
         let frames: Vec<Frame> = batch.par_iter().enumerate().map(encode).collect();
         for frame in &frames {
@@ -42,18 +42,23 @@ pub(super) fn write(film: &Film, file: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// The frame that turns the picture `before` into `picture`, both of indices.
-fn changed(picture: &[u8], before: Option<&Vec<u8>>, size: [usize; 2], delay: u16) -> Frame<'static> {
+/// The frame that turns the picture `before` into `picture`, both of indices, where `transparent` leaves a pixel as it is.
+fn changed(
+    (picture, before): (&[u8], Option<&Vec<u8>>),
+    size: [usize; 2],
+    transparent: u8,
+    delay: u16,
+) -> Frame<'static> {
     let same = |i: usize| before.is_some_and(|before| before[i] == picture[i]);
     let window = match before {
         None => Window::whole(size),
         Some(_) => Window::around(size, |i| !same(i)),
     };
-    let pixels = window.pixels(size[0]).map(|i| if same(i) { TRANSPARENT } else { picture[i] });
+    let pixels = window.pixels(size[0]).map(|i| if same(i) { transparent } else { picture[i] });
     let mut frame = Frame {
         delay,
         dispose: DisposalMethod::Keep,
-        transparent: before.map(|_| TRANSPARENT),
+        transparent: before.map(|_| transparent),
         left: window.left as u16,
         top: window.top as u16,
         width: window.width as u16,

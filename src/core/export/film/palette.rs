@@ -2,18 +2,20 @@
 
 use std::collections::HashMap;
 
-use quantette::color_space::srgb8_to_oklab;
+use quantette::PaletteSize;
+use quantette::color_space::{oklab_to_srgb8, srgb8_to_oklab};
 use quantette::deps::palette::{Oklab, Srgb, cast};
-use quantette::{PaletteSize, Pipeline, QuantizeMethod};
+use quantette::wu::{BinnerF32x3, WuF32x3};
 
 use super::{CHANNELS, Reel};
 use crate::Result;
 use crate::export::png;
 
-/// Colours of a palette; one index of the 256 is left for transparency.
+/// Most colours of a palette; one index of the 256 is left for transparency.
 const COLOURS: u8 = 255;
-/// The index of transparent pixels.
-pub(super) const TRANSPARENT: u8 = COLOURS;
+/// Bins of the histogram along each axis of the box around all colours: films of caustics are dark and nearly grey, and bins
+/// over all that a screen shows would leave them a few dozen colours.
+const BINS: usize = 80;
 /// Most frames and pixels that a palette is chosen from.
 const SAMPLES: (usize, usize) = (24, 2_000_000);
 
@@ -40,19 +42,24 @@ impl Palette {
             let bytes = reel.get(i * reel.count() / frames)?;
             pixels.extend(bytes.as_chunks::<CHANNELS>().0.iter().skip(i % stride).step_by(stride));
         }
-        let colours: &[Srgb<u8>] = cast::from_component_slice(pixels.as_flattened());
-        let size = PaletteSize::from_u8_clamped(COLOURS);
-        let input =
-            Pipeline::new().palette_size(size).quantize_method(QuantizeMethod::Wu).input_slice(colours);
+        let pixels = srgb8_to_oklab(cast::from_component_slice(pixels.as_flattened()));
+        let found = WuF32x3::run_slice(&pixels, BinnerF32x3::<BINS, BINS, BINS>::new(ranges(&pixels)));
         // Only an empty film has no colours.
-        let chosen = input.map_or(vec![Srgb::new(0, 0, 0)], |input| input.output_srgb8_palette().into_vec());
-        let oklab = srgb8_to_oklab(&chosen);
-        Ok(Self { colours: chosen.into_iter().map(|c| [c.red, c.green, c.blue]).collect(), oklab })
+        let chosen =
+            found.map_or(Vec::new(), |found| found.palette(PaletteSize::from_u8_clamped(COLOURS)).into_vec());
+        let colours: Vec<[u8; CHANNELS]> =
+            oklab_to_srgb8(&chosen).into_iter().map(|c| [c.red, c.green, c.blue]).collect();
+        Ok(Self { oklab: srgb8_to_oklab(cast::from_component_slice(colours.as_flattened())), colours })
     }
 
-    /// The bytes R, G, B of all colours.
+    /// The index of transparent pixels: that of one more colour.
+    pub(super) fn transparent(&self) -> u8 {
+        self.colours.len() as u8
+    }
+
+    /// The bytes R, G, B of all colours, and of that for transparent pixels.
     pub(super) fn bytes(&self) -> Vec<u8> {
-        self.colours.concat()
+        [self.colours.concat(), vec![0; CHANNELS]].concat()
     }
 
     /// The index of each pixel of a picture: of the nearest colour, or of that on the other side of the pixel's own, by a
@@ -86,4 +93,13 @@ impl Palette {
         let best = self.oklab.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
         best.map_or(0, |(index, _)| index)
     }
+}
+
+/// The least and the largest values of each coordinate, a little apart.
+fn ranges(colours: &[Oklab]) -> [(f32, f32); CHANNELS] {
+    let range = |of: fn(&Oklab) -> f32| {
+        let [low, high] = [f32::min, f32::max].map(|pick| colours.iter().map(of).reduce(pick).unwrap_or(0.0));
+        (low - 1e-4, high + 1e-4)
+    };
+    [range(|c| c.l), range(|c| c.a), range(|c| c.b)]
 }

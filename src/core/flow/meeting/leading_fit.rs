@@ -33,7 +33,12 @@ impl LeadingFit {
     pub(super) fn new(settings: FitSettings, liquid: f64) -> Result<Self> {
         let gamma = settings.gamma;
         let alone = |gamma: f64, alpha: f64| {
-            Fitter::new(FitSettings { gamma, alpha: settings.alpha.max(alpha), blend: Blend::Joint, ..settings })
+            Fitter::new(FitSettings {
+                gamma,
+                alpha: settings.alpha.max(alpha),
+                blend: Blend::Joint,
+                ..settings
+            })
         };
         let smooth = if gamma < 0.5 { liquid * liquid } else { 0.0 };
         let (leads, follows) = if gamma < 0.5 { (0.0, 1.0) } else { (1.0, 0.0) };
@@ -67,8 +72,11 @@ impl LeadingFit {
             positions.iter().zip(velocities).map(|(&p, &v)| v - leading.velocity(p)).collect()
         };
         let left = rest(positions, velocities);
-        let of_lines: Vec<Vec<Vec2>> =
-            lines.iter().flat_map(|lines| lines.rows).map(|rows| rest(rows.positions, rows.velocities)).collect();
+        let of_lines: Vec<Vec<Vec2>> = lines
+            .iter()
+            .flat_map(|lines| lines.rows)
+            .map(|rows| rest(rows.positions, rows.velocities))
+            .collect();
         let rows: Vec<Rows> = lines
             .iter()
             .flat_map(|lines| lines.rows)
@@ -82,4 +90,3 @@ impl LeadingFit {
         Ok((field, report.worst(other)))
     }
 }
-

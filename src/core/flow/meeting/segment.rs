@@ -45,7 +45,10 @@ impl MeetingSegment<'_> {
             Ok(guide_rows(photons.len(), count).into_iter().map(|row| photons[row]).collect())
         };
         if self.groups.is_empty() {
-            return Err(Error::value("flow", "there are no photons to move; check that light reaches the receiver"));
+            return Err(Error::value(
+                "flow",
+                "there are no photons to move; check that light reaches the receiver",
+            ));
         }
         self.groups.iter().map(|[earlier, later]| Ok([guides(earlier)?, guides(later)?])).collect()
     }

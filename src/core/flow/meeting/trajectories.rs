@@ -64,7 +64,8 @@ impl<'a> MeetingTrajectories<'a> {
     /// Root mean square gap at the meeting, plane units; 0 before the tracks are known.
     pub fn gap(&self) -> f64 {
         let Some([forward, backward]) = &self.halves else { return 0.0 };
-        let squares = forward.end().iter().zip(backward.end()).map(|(a, b)| f64::from(a.distance_squared(*b)));
+        let squares =
+            forward.end().iter().zip(backward.end()).map(|(a, b)| f64::from(a.distance_squared(*b)));
         (squares.sum::<f64>() / self.source.len().max(1) as f64).sqrt()
     }
 

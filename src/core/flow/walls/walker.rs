@@ -89,7 +89,9 @@ impl Walker<'_> {
     ) -> StepPath {
         let taken = match state.status {
             PathStatus::Unreachable => StepPath::Cubic(photon.curve(self.step)),
-            PathStatus::Waiting => StepPath::Line(slide(self.graph.barriers(), photon.at, self.drift(photon, photon.at, 0.0))),
+            PathStatus::Waiting => {
+                StepPath::Line(slide(self.graph.barriers(), photon.at, self.drift(photon, photon.at, 0.0)))
+            }
             PathStatus::Following => self.follow(photon, state, buffers),
         };
         state.on_line = matches!(taken, StepPath::Line(_));

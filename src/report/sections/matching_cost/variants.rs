@@ -73,7 +73,9 @@ impl Variant {
             (MatchingMethod::Given, _) => Self::Given,
             (MatchingMethod::Transport, MotionMethod::Stylized) => Self::Stylized,
             (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Guided) if walls => Self::Around,
-            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Guided | MotionMethod::Linear) => Self::Straight,
+            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Guided | MotionMethod::Linear) => {
+                Self::Straight
+            }
         }
     }
 
