@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightloom_core::engine::Quality;
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 
@@ -45,6 +45,10 @@ pub(crate) struct RenderArgs {
     /// Folder for the frames, the contact sheet and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// A film of all frames, too, by its ending: .gif, .apng or .mp4 (by ffmpeg, where it is installed). It runs at the frame
+    /// rate of the project, over and over.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) film: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -69,7 +73,7 @@ pub(crate) struct ReportArgs {
     #[arg(long)]
     pub(crate) quick: bool,
     /// Measure no project but the program: does it hold where inputs are stiff and extreme?
-    #[arg(long, conflicts_with_all = ["path", "only", "frames", "size", "passes", "photons", "quality", "format", "seed"])]
+    #[arg(long, conflicts_with_all = ["path", "only", "frames", "size", "passes", "photons", "quality", "format", "layers", "draw_constraints", "seed"])]
     pub(crate) stability: bool,
     /// Sections to measure, such as gamma,render; all without it.
     #[arg(long, value_name = "SECTIONS", value_delimiter = ',')]
@@ -128,6 +132,13 @@ pub(crate) struct ProjectArgs {
     /// Picture formats, such as exr,png.
     #[arg(long, value_delimiter = ',')]
     format: Vec<String>,
+    /// Layers of EXR files: beauty, caustic, caustics (one for each named caustic), background, depth. With caustic alone no
+    /// background is traced, and PNG files show the caustics on black.
+    #[arg(long, value_delimiter = ',')]
+    layers: Vec<String>,
+    /// Draw the lines and walls of the project on sheets, thin.
+    #[arg(long)]
+    draw_constraints: bool,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
 }
@@ -176,9 +187,16 @@ impl ProjectArgs {
             project.output.formats =
                 self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
         }
+        if !self.layers.is_empty() {
+            project.output.layers =
+                self.layers.iter().map(|name| parse_layer(name)).collect::<Result<_>>()?;
+        }
+        project.output.draws_constraints |= self.draw_constraints;
         // The file was in order, so what is wrong now was typed.
         project.check().map_err(|error| match error {
-            Error::Value { place, what } => Error::value(format!("--{}", place.replace("render.", "")), what),
+            Error::Value { place, what } => {
+                Error::value(format!("--{}", place.replace("render.", "").replace("output.", "")), what)
+            }
             other => other,
         })?;
         Ok(project)
@@ -222,6 +240,14 @@ fn parse_size(text: &str) -> Result<(u32, u32)> {
         text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
     numbers
         .ok_or_else(|| Error::value("--size", format!("'{text}' is no picture size; write it like 1280x720")))
+}
+
+fn parse_layer(name: &str) -> Result<FrameLayer> {
+    let known = FrameLayer::ALL.into_iter().find(|layer| layer.name() == name.trim());
+    known.ok_or_else(|| {
+        let names = FrameLayer::ALL.map(FrameLayer::name).join(",");
+        Error::value("--layers", format!("'{name}' is not offered; give one or more of {names}"))
+    })
 }
 
 fn parse_format(name: &str) -> Result<FrameFormat> {

@@ -77,7 +77,9 @@ impl EditorState {
             },
             Action::Command(command) if !self.command(command) => return Some(action),
             Action::Command(_) => (),
-            Action::Open(_) | Action::New(_) | Action::PickFile(_) => return Some(action),
+            Action::Open(_) | Action::PlayFrames(_) | Action::New(_) | Action::PickFile(_) => {
+                return Some(action);
+            }
         }
         self.keep_selection();
         None

@@ -25,8 +25,19 @@ pub(super) struct CameraView<'a> {
     /// Size of the plane; its longer side is 1.
     pub(super) extent: Vec2,
     pub(super) layout: TextureLayout,
-    /// Whether the picture without caustics is a rough one, for a live preview.
-    pub(super) rough: bool,
+    /// How the picture without caustics is made.
+    pub(super) background: BackgroundQuality,
+}
+
+/// How the picture without caustics is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BackgroundQuality {
+    /// Not at all: it is black, and nothing is traced.
+    None,
+    /// Noisy, for a live preview.
+    Rough,
+    /// Sampled until its noise is low.
+    Final,
 }
 
 impl<'a> CameraView<'a> {
@@ -36,7 +47,9 @@ impl<'a> CameraView<'a> {
         let first = first_radius(&project.render, *extent);
         let radii = (first, radius_of_pass(first, plan.passes - 1));
         let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
-        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, rough: false }
+        let shown = project.output.shows_background();
+        let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background }
     }
 }
 
@@ -52,11 +65,18 @@ impl Stages {
         meter: &Meter,
         progress: &Progress,
     ) -> Result<(Arc<GatherMatrix>, Arc<Image>)> {
-        let CameraView { project, scene, extent, layout, rough } = *view;
+        let CameraView { project, scene, extent, layout, background: quality } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
-        let input = ViewInput { scene: scene.map(Same::of), render: seen, extent, seed, layout: None, rough };
+        let input = ViewInput {
+            scene: scene.map(Same::of),
+            render: seen,
+            extent,
+            seed,
+            layout: None,
+            rough: quality == BackgroundQuality::Rough,
+        };
         let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
             meter.measure("visible", || match scene {
@@ -66,10 +86,10 @@ impl Stages {
                 None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
-        let background = match scene {
+        let background = match scene.filter(|_| quality != BackgroundQuality::None) {
             None => Arc::new(Image::new(render.width as usize, render.height as usize)),
             Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
-                let draw = if rough { rough_background } else { background };
+                let draw = if quality == BackgroundQuality::Rough { rough_background } else { background };
                 meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
             })?,
         };

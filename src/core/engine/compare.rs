@@ -95,7 +95,7 @@ impl Engine {
         for ((method, _), (prepared, meter)) in variants.iter().zip(prepared) {
             let folder = out.join(method.name());
             std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
-            let output = Output { folder: &folder, progress, saved, observer: &() };
+            let output = Output { folder: &folder, film: None, progress, saved, observer: &() };
             match self.render_prepared(prepared, &meter, &output) {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {

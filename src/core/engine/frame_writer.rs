@@ -5,13 +5,15 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
+use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
 use crate::project::Project;
-use crate::render::{GatherMatrix, Image, PlaneView, ProgressiveRender, View};
+use crate::render::{FirstHits, GatherMatrix, Image, PlaneView, ProgressiveRender, View};
+use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
@@ -30,6 +32,10 @@ pub(super) struct FrameWriter<'a> {
     pub(super) render: &'a ProgressiveRender,
     pub(super) visible: &'a GatherMatrix,
     pub(super) background: &'a Image,
+    pub(super) first_hits: Option<&'a FirstHits>,
+    /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
+    pub(super) caustic_names: &'a [String],
+    pub(super) camera: Option<Camera>,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
@@ -40,9 +46,14 @@ pub(super) struct FrameWriter<'a> {
 }
 
 impl FrameWriter<'_> {
-    /// Writes all frames and the contact sheet; returns the replaced values, and the pictures on the sheet with their
+    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on the sheet with their
     /// numbers.
-    pub(super) fn run(&self, times: &FrameTimes, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
+    pub(super) fn run(
+        &self,
+        times: &FrameTimes,
+        film: Option<&FilmWriter>,
+        progress: &Progress,
+    ) -> Result<(BadValues, Thumbnails)> {
         progress.begin("write", times.frames.len() as u64);
         let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
@@ -51,11 +62,15 @@ impl FrameWriter<'_> {
         let repairs: Vec<(i32, RepairedSamples)> = times
             .frames
             .par_iter()
-            .map(|&(frame, slot)| {
+            .enumerate()
+            .map(|(index, &(frame, slot))| {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
                 let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                if let Some(film) = film {
+                    film.keep(index, &view.apply(&beauty))?;
+                }
                 if on_sheet.contains(&frame) {
                     let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
                     let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
@@ -81,18 +96,42 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let (texture, _) = self.render.mean(slot)?;
-        let beauty = self.background.plus(&self.visible.gather(&texture));
+        let beauty = self.background.plus(&self.light(slot)?.0);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
+    }
+
+    /// The light at a moment as the camera sees it: of all caustics, of each by itself where they are apart, and its passes.
+    fn light(&self, moment: usize) -> Result<(Image, Vec<(String, Image)>, usize)> {
+        let textures = self.caustic_names.len().max(1);
+        let gathered = (0..textures).map(|i| {
+            let (texture, passes) = self.render.mean(moment * textures + i)?;
+            Ok((self.visible.gather(&texture), passes))
+        });
+        let mut gathered = gathered.collect::<Result<Vec<_>>>()?;
+        let passes = gathered.first().map_or(0, |(_, passes)| *passes);
+        if textures == 1 {
+            let all = gathered.swap_remove(0).0;
+            return Ok((all, Vec::new(), passes));
+        }
+        let mut all = Image::new(self.background.width, self.background.height);
+        gathered.iter().for_each(|(image, _)| all = all.plus(image));
+        let caustics = self.caustic_names.iter().cloned().zip(gathered.into_iter().map(|(image, _)| image));
+        Ok((all, caustics.collect(), passes))
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
     fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(RepairedSamples, Image)> {
-        let (texture, passes) = self.render.mean(slot)?;
-        let caustic = self.visible.gather(&texture);
+        let (caustic, caustics, passes) = self.light(slot)?;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
-        let picture = Frame { background: self.background, caustic: &caustic, metadata: &metadata };
+        let picture = Frame {
+            layers: &output.layers,
+            background: self.background,
+            caustic: &caustic,
+            caustics: &caustics,
+            first_hits: self.first_hits,
+            metadata: &metadata,
+        };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {
@@ -120,6 +159,7 @@ impl FrameWriter<'_> {
             frames_per_second: (output.fps[0] as i32, output.fps[1]),
             seed: *seed,
             passes: passes as u32,
+            camera: self.camera,
             settings,
         }
     }

@@ -55,6 +55,8 @@ pub struct Summary {
     pub passes_planned: usize,
     /// Frames that were written.
     pub frames: usize,
+    /// Frames per second of the project, as a fraction.
+    pub frames_per_second: [u32; 2],
     /// The flow; absent where nothing moves.
     #[serde(flatten)]
     pub flow: Option<FlowNumbers>,
@@ -129,6 +131,7 @@ impl Summary {
             passes: done.passes,
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
+            frames_per_second: project.output.fps,
             flow,
             continuity: done.continuity,
             caustics: done.flow.caustics.clone(),

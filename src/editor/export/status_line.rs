@@ -101,6 +101,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
         Some("watch" | "measure") => "Measuring the flow",
         Some("render") => "Rendering",
         Some("write") => "Writing frames",
+        Some("film") => "Writing the film",
         Some(other) => other,
     }
 }

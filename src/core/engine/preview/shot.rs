@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::light::{finest_radius, margin};
-use crate::engine::camera::CameraView;
+use crate::engine::camera::{BackgroundQuality, CameraView};
 use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
@@ -64,7 +64,13 @@ impl Engine {
         let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
         let radii = (margin(extent), finest_radius(extent));
         let layout = layout_for(scene.as_deref(), extent, &project.render, radii);
-        let view = CameraView { project, scene: scene.as_ref(), extent, layout, rough: true };
+        let view = CameraView {
+            project,
+            scene: scene.as_ref(),
+            extent,
+            layout,
+            background: BackgroundQuality::Rough,
+        };
         let slot = Slot { client: self.client, quality: Quality::Preview, index: 0 };
         let (visible, background) = self.stages.look(slot, &view, &Meter::quick(), progress)?;
         Ok(Shot { background, plane: PlaneView::new(scene.as_deref(), extent), visible })
