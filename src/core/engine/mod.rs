@@ -68,8 +68,8 @@ pub use plan::{LeftOut, Plan};
 pub use preview::{FieldAt, OrbitView, Preview, PreviewExposure, Shot, covered_area};
 pub use quality::Quality;
 pub use ray_benchmark::Traced;
-pub use segment_figures::{LayerContinuity, SegmentContinuity};
 pub use render::Output;
+pub use segment_figures::{LayerContinuity, SegmentContinuity};
 pub use summary::{BadValues, Energy, Summary};
 
 use crate::project::{AssetFolder, Project};
