@@ -202,7 +202,13 @@ fn motion_stages(
     let mut stages = Vec::new();
     for &layers in layers {
         let moving = if layers > 0 { photons } else { 0.0 };
-        stages.push(("match", moving / match_pace(project.method)[0]));
+        let matching = ("match", moving / match_pace(project.method)[0]);
+        if PairingMethod::meets(project) {
+            stages.extend((0..layers).flat_map(|_| [("plan", plan), ("fit", fit)]));
+            stages.push(matching);
+            continue;
+        }
+        stages.push(matching);
         if project.fits() {
             stages.extend((0..layers).map(|_| ("fit", fit)));
         }

@@ -97,6 +97,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
         Some("background") => "Rendering the background",
         Some("trace") => "Tracing photons",
         Some("match") => "Matching",
+        Some("plan") => "Planning the flow",
         Some("fit") => "Fitting the flow",
         Some("watch" | "measure") => "Measuring the flow",
         Some("render") => "Rendering",

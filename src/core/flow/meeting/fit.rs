@@ -130,9 +130,11 @@ impl<'a> MeetingFitter<'a> {
 
     fn run(mut self, segment: &MeetingSegment, progress: &Progress) -> Result<MeetingFit> {
         let half = self.fields.steps() / 2;
+        progress.begin("plan", 1);
+        self.renew(0, progress)?;
         progress.begin("fit", 2 * half as u64);
         for done in 0..half {
-            if done == 0 || done + UNPLANNED < half {
+            if done > 0 && done + UNPLANNED < half {
                 self.renew(done, progress)?;
             }
             for side in [0, 1] {
