@@ -27,6 +27,7 @@ const ORDER: [&str; 17] = [
     "targets",
     "constraint",
     "matching",
+    "bridge",
     "flow",
     "render",
     "export",
@@ -36,7 +37,7 @@ const ORDER: [&str; 17] = [
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.
-const SCENELESS: [&str; 5] = ["continuity", "targets", "constraint", "matching", "flow"];
+const SCENELESS: [&str; 6] = ["continuity", "targets", "constraint", "matching", "bridge", "flow"];
 
 /// A window and a command line.
 const OUTSIDE: [&str; 9] =

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::active_constraints::ActiveConstraints;
 use super::flow_numbers::FlowNumbers;
 use super::grouping::{CausticFlux, Grouping};
+use super::layer::Layer;
 use super::memo::Same;
 use super::pairing::TransportCost;
 use super::segment_photons::{Maps, Matched};
@@ -18,13 +19,6 @@ pub(super) struct FittedSegment {
     pub(super) reports: Vec<FlowReport>,
     /// Transport cost of the pairing of pass 0.
     pub(super) cost: TransportCost,
-}
-
-/// Groups that flow together.
-#[derive(Clone)]
-pub(super) struct Layer {
-    pub(super) groups: Vec<usize>,
-    pub(super) flow: Arc<SegmentFlow>,
 }
 
 /// The fitted flow of a project; no segments where there is one key frame.

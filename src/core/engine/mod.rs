@@ -29,6 +29,7 @@ mod grouping;
 mod job;
 mod key_photons;
 mod key_sources;
+mod layer;
 mod meeting;
 mod memo;
 mod memo_keys;

@@ -220,6 +220,9 @@ impl Kinematics for MeetingTrajectories<'_> {
     }
 }
 
+/// Photons that a report looks at, at most.
+const WATCHED: usize = 20_000;
+
 /// The report on a flow that meets half way, from at most `guides` of its photons, evenly spaced rows. `fits` has the figures
 /// of its fits.
 ///
@@ -232,7 +235,7 @@ pub fn meeting_report(
     fits: &FlowReport,
     progress: &Progress,
 ) -> Result<FlowReport> {
-    let rows = guide_rows(source.len(), guides);
+    let rows = guide_rows(source.len(), guides.min(WATCHED));
     let [source, targets] = [source, targets].map(|all| rows.iter().map(|&row| all[row]).collect::<Vec<_>>());
     let mut photons = MeetingTrajectories::new(fields, &source, &targets);
     photons.prepare(progress)?;

@@ -66,23 +66,45 @@ impl<'a> WallMotion<'a> {
     ) -> Vec2 {
         let x = (i as f32 + 0.5) / SUBSTEPS as f32;
         let (a, b, share) = if x < 0.5 { (begin, middle, 2.0 * x) } else { (middle, end, 2.0 * x - 1.0) };
-        let velocity = |p: Vec2| self.velocity([a, b], share, p);
-        let half = slide(self.barriers, at, 0.5 * part * velocity(at));
-        let end = slide(self.barriers, at, part * velocity(half));
+        let distance = self.clearance.at(at);
+        let first = 0.5 * part * self.velocity([a, b], share, at, distance);
+        let half = self.slid(at, first, distance);
+        let second = part * self.velocity([a, b], share, half, distance - first.length());
+        let end = self.slid(at, second, distance);
         // A slide that turns must not cut the corner.
-        if self.barriers.blocks(at, end) { at } else { end }
+        if self.may_meet(second, distance) && self.barriers.blocks(at, end) { at } else { end }
     }
 
-    /// The velocity between two stages; beside walls that of the plan.
-    fn velocity(&self, [a, b]: [&StageVelocity; 2], share: f32, p: Vec2) -> Vec2 {
-        let distance = self.clearance.at(p) / self.planned.side();
-        let near = ((FITTED - distance) / (FITTED - PLANNED)).clamp(0.0, 1.0);
+    /// Whether a move may meet a wall at least `distance` away, which is known to a fraction of a cell.
+    fn may_meet(&self, by: Vec2, distance: f32) -> bool {
+        by.length() + self.planned.side() > distance
+    }
+
+    /// `p` moved by `by`, sliding along walls; `distance` is that to the nearest.
+    fn slid(&self, p: Vec2, by: Vec2, distance: f32) -> Vec2 {
+        if self.may_meet(by, distance) { slide(self.barriers, p, by) } else { p + by }
+    }
+
+    /// The velocity between two stages; beside walls that of the plan. `distance` is that to the nearest wall, or less.
+    fn velocity(&self, [a, b]: [&StageVelocity; 2], share: f32, p: Vec2, distance: f32) -> Vec2 {
+        let cells = distance / self.planned.side();
+        let near = ((FITTED - cells) / (FITTED - PLANNED)).clamp(0.0, 1.0);
         let mut velocity = Vec2::ZERO;
         if near > 0.0 {
-            velocity += near * self.planned.seen_from(self.barriers, p);
+            // All four cells around are in sight of a point two cells from walls.
+            let planned = match cells > 2.0 {
+                true => self.planned.at(p),
+                false => self.planned.seen_from(self.barriers, p),
+            };
+            velocity += near * planned;
         }
         if near < 1.0 {
-            velocity += (1.0 - near) * ((1.0 - share) * a.velocity(p) + share * b.velocity(p));
+            let between = if share == 0.0 {
+                a.velocity(p)
+            } else {
+                (1.0 - share) * a.velocity(p) + share * b.velocity(p)
+            };
+            velocity += (1.0 - near) * between;
         }
         velocity
     }
