@@ -1,22 +1,24 @@
-//! The camera's stages: the visible points of the receiver, and the picture without caustics. Photons change neither.
+//! The camera's stages: the visible points of the receiver, the picture without caustics, and the light that does not flow.
 
 use std::sync::Arc;
 
 use glam::Vec2;
 
 use super::memo::{Same, Slot};
-use super::memo_keys::ViewInput;
+use super::grouping::Grouping;
+use super::memo_keys::{StillInput, ViewInput};
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::stages::Stages;
-use crate::project::Project;
+use super::still_light::{StillLight, shares};
+use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
+    GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, first_radius, layout_for,
     rough_background,
 };
 use crate::scene::Scene;
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// A project's camera, receiver and the texture that lies on it.
 pub(super) struct CameraView<'a> {
@@ -40,8 +42,28 @@ impl<'a> CameraView<'a> {
     }
 }
 
+/// What the camera sees apart from the light that flows.
+#[derive(Clone)]
+pub(super) struct CameraPictures {
+    /// The texels that each pixel sees.
+    pub(super) visible: Arc<GatherMatrix>,
+    /// The picture without caustics.
+    pub(super) background: Arc<Image>,
+    /// Absent without a scene.
+    pub(super) still: Option<Arc<StillLight>>,
+}
+
+impl CameraPictures {
+    /// The caustics at a moment, from the texture of the light that flows.
+    pub(super) fn caustic(&self, light: &ReceiverTexture, moment: SegmentTime) -> Image {
+        let mut caustic = self.visible.gather(light);
+        self.still.iter().for_each(|still| still.add_to(&mut caustic, moment));
+        caustic
+    }
+}
+
 impl Stages {
-    /// The texels that each pixel of the camera sees, and the picture without caustics.
+    /// The camera's pictures.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -51,7 +73,7 @@ impl Stages {
         view: &CameraView,
         meter: &Meter,
         progress: &Progress,
-    ) -> Result<(Arc<GatherMatrix>, Arc<Image>)> {
+    ) -> Result<CameraPictures> {
         let CameraView { project, scene, extent, layout, rough } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
@@ -68,11 +90,40 @@ impl Stages {
         })?;
         let background = match scene {
             None => Arc::new(Image::new(render.width as usize, render.height as usize)),
-            Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
+            Some(scene) => self.backgrounds.get(slot, input.clone(), progress, |_| {
                 let draw = if rough { rough_background } else { background };
                 meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
             })?,
         };
-        Ok((visible, background))
+        let still = match scene {
+            Some(scene) if project.traces() => {
+                match self.still_light(slot, (scene, project), input, meter, progress) {
+                    Ok(still) => Some(still),
+                    // A scene that casts no caustic can be looked at while it is built.
+                    Err(error) if !rough || matches!(error, Error::Cancelled) => return Err(error),
+                    Err(_) => None,
+                }
+            }
+            _ => None,
+        };
+        Ok(CameraPictures { visible, background, still })
+    }
+
+    fn still_light(
+        &self,
+        slot: Slot,
+        (scene, project): (&Arc<Scene>, &Project),
+        view: ViewInput,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Arc<StillLight>> {
+        let grouping = Grouping::resolve(project, Some(scene))?;
+        let shares = shares(project, &grouping);
+        let photons = (project.render.photons, project.render.passes);
+        let input = StillInput { view, photons, caustics: project.caustics.clone(), shares };
+        self.still.get(slot, input, progress, |StillInput { shares, .. }| {
+            let make = || StillLight::new(scene, project, (&grouping, shares), progress);
+            meter.measure("background", make).map(Arc::new)
+        })
     }
 }

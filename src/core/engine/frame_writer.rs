@@ -5,14 +5,15 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
+use super::camera::CameraPictures;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
 use crate::flow::MotionMethod;
-use crate::project::Project;
-use crate::render::{GatherMatrix, Image, PlaneView, ProgressiveRender, View};
+use crate::project::{Project, SegmentTime};
+use crate::render::{Image, PlaneView, ProgressiveRender, View};
 use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
@@ -29,8 +30,7 @@ pub(super) type Thumbnails = Vec<(i32, Image)>;
 pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
     pub(super) render: &'a ProgressiveRender,
-    pub(super) visible: &'a GatherMatrix,
-    pub(super) background: &'a Image,
+    pub(super) camera: &'a CameraPictures,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
@@ -56,7 +56,8 @@ impl FrameWriter<'_> {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
-                let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                let moment = times.moments[slot];
+                let (repairs, beauty) = self.frame(frame, (slot, moment), &view)?;
                 if on_sheet.contains(&frame) {
                     let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
                     let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
@@ -83,17 +84,24 @@ impl FrameWriter<'_> {
             return Ok(None);
         };
         let (texture, _) = self.render.mean(slot)?;
-        let beauty = self.background.plus(&self.visible.gather(&texture));
+        let caustic = self.camera.caustic(&texture, times.moments[slot]);
+        let beauty = self.camera.background.plus(&caustic);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
-    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(RepairedSamples, Image)> {
+    fn frame(
+        &self,
+        frame: i32,
+        (slot, moment): (usize, SegmentTime),
+        view: &View,
+    ) -> Result<(RepairedSamples, Image)> {
         let (texture, passes) = self.render.mean(slot)?;
-        let caustic = self.visible.gather(&texture);
+        let caustic = self.camera.caustic(&texture, moment);
+        let background = &*self.camera.background;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
-        let picture = Frame { background: self.background, caustic: &caustic, metadata: &metadata };
+        let picture = Frame { background, caustic: &caustic, metadata: &metadata };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {
@@ -101,7 +109,7 @@ impl FrameWriter<'_> {
             all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }
-        Ok((all, self.background.plus(&caustic)))
+        Ok((all, background.plus(&caustic)))
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {

@@ -43,6 +43,7 @@ mod ray_benchmark;
 mod render;
 mod segment_photons;
 mod stages;
+mod still_light;
 mod summary;
 mod track_files;
 mod trajectories;

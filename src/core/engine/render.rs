@@ -82,19 +82,18 @@ impl Engine {
         let &Output { folder, progress, saved, observer } = output;
         let view = CameraView::of_render(&prepared);
         let slot = Slot { client: self.client, quality: Quality::Final, index: 0 };
-        let (visible, background) = self.stages.look(slot, &view, meter, progress)?;
+        let camera = self.stages.look(slot, &view, meter, progress)?;
         let fitted = self.fit_prepared(prepared, meter, progress)?;
 
         let FittedProject { prepared, flow, .. } = &fitted;
         let (project, times) = (&prepared.project, &prepared.times);
         let first = first_radius(&project.render, prepared.extent);
-        let render = ProgressiveRender::new(*visible.layout(), first, times.moments.len(), folder)?;
+        let render = ProgressiveRender::new(*camera.visible.layout(), first, times.moments.len(), folder)?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
             render: &render,
-            visible: &visible,
-            background: &background,
+            camera: &camera,
             folder,
             drawn: &active_constraints::drawn(project),
             plane: plane.clone(),

@@ -9,8 +9,9 @@ use super::Quality;
 use super::fitted_segment::{FittedSegment, FlowInput};
 use super::key_sources::{self, KeySource, SourceInput};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
-use super::memo_keys::{GuideInput, PositionsInput, ViewInput};
+use super::memo_keys::{GuideInput, PositionsInput, StillInput, ViewInput};
 use super::segment_photons::{MatchInput, Matched};
+use super::still_light::StillLight;
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
 use crate::render::{GatherMatrix, Image};
@@ -30,6 +31,7 @@ pub(super) struct Stages {
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
     pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
+    pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
 
 /// A result, and notes for the artist.
@@ -50,6 +52,7 @@ impl Stages {
             positions: Memo::default(),
             visible: Memo::default(),
             backgrounds: Memo::default(),
+            still: Memo::default(),
         }
     }
 
