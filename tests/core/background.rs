@@ -89,7 +89,7 @@ fn settings(samples: u32) -> RenderSettings {
 }
 
 fn render(scene: &Scene, samples: u32) -> Image {
-    background(scene, &settings(samples), 11, &Progress::new()).unwrap()
+    background(scene, &settings(samples), 11, &Progress::new()).unwrap().image
 }
 
 /// The place of the receiver that a pixel of [`settings`] sees, in metres from its centre.

@@ -39,7 +39,7 @@ fn small() -> (impl Sized, Project, Engine) {
 fn a_second_render_makes_only_passes_and_files() {
     let (_stage, project, engine) = small();
     let (first, made) = render(&engine, &project);
-    assert_eq!(made, ["load", "visible", "background", "trace", "match", "fit", "render", "write"]);
+    assert_eq!(made, ["load", "visible", "background", "still", "trace", "match", "fit", "render", "write"]);
     let (second, made) = render(&engine.on_behalf_of(Client::Export), &project);
     assert_eq!(made, ["load", "render", "write"]);
     assert_eq!(first.len(), 2);

@@ -14,7 +14,7 @@ use super::still_light::{StillLight, shares};
 use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, first_radius, layout_for,
+    Background, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, first_radius, layout_for,
     rough_background,
 };
 use crate::scene::Scene;
@@ -48,7 +48,7 @@ pub(super) struct CameraPictures {
     /// The texels that each pixel sees.
     pub(super) visible: Arc<GatherMatrix>,
     /// The picture without caustics.
-    pub(super) background: Arc<Image>,
+    pub(super) background: Arc<Background>,
     /// Absent without a scene.
     pub(super) still: Option<Arc<StillLight>>,
 }
@@ -89,7 +89,10 @@ impl Stages {
             })
         })?;
         let background = match scene {
-            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
+            None => {
+                let image = Image::new(render.width as usize, render.height as usize);
+                Arc::new(Background { image, clamped: Default::default() })
+            }
             Some(scene) => self.backgrounds.get(slot, input.clone(), progress, |_| {
                 let draw = if rough { rough_background } else { background };
                 meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
@@ -123,7 +126,7 @@ impl Stages {
         let input = StillInput { view, photons, caustics: project.caustics.clone(), shares };
         self.still.get(slot, input, progress, |StillInput { shares, .. }| {
             let make = || StillLight::new(scene, project, (&grouping, shares), progress);
-            meter.measure("background", make).map(Arc::new)
+            meter.measure("still", make).map(Arc::new)
         })
     }
 }

@@ -85,7 +85,7 @@ impl FrameWriter<'_> {
         };
         let (texture, _) = self.render.mean(slot)?;
         let caustic = self.camera.caustic(&texture, times.moments[slot]);
-        let beauty = self.camera.background.plus(&caustic);
+        let beauty = self.camera.background.image.plus(&caustic);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
@@ -98,7 +98,7 @@ impl FrameWriter<'_> {
     ) -> Result<(RepairedSamples, Image)> {
         let (texture, passes) = self.render.mean(slot)?;
         let caustic = self.camera.caustic(&texture, moment);
-        let background = &*self.camera.background;
+        let background = &self.camera.background.image;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
         let picture = Frame { background, caustic: &caustic, metadata: &metadata };

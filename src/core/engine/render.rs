@@ -10,7 +10,7 @@ use super::memo::Slot;
 use super::meter::Meter;
 use super::observer::RenderObserver;
 use super::prepare::Prepared;
-use super::summary::{BadValues, Done, Summary};
+use super::summary::{Done, Summary};
 use super::{Engine, Quality, active_constraints, track_files};
 use crate::project::Project;
 use crate::render::{PlaneView, ProgressiveRender, first_radius};
@@ -103,7 +103,8 @@ impl Engine {
         let (passes, balance) =
             meter.measure("render", || fitted.render_passes(&render, progress, &passed))?;
         let (bad_values, thumbnails) = meter.measure("write", || writer.run(times, progress))?;
-        let done = Done { command: "render", passes, flow, balance, bad_values };
+        let clamped = camera.background.clamped;
+        let done = Done { command: "render", passes, flow, balance, bad_values, clamped };
         let summary = Summary::new(prepared, done, meter);
         Ok(Rendered { summary, fitted, thumbnails, plane })
     }
@@ -136,7 +137,8 @@ impl Engine {
         let inner = progress.inner();
         let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
         let balance = meter.measure("write", || track_files::write(&job, flow, out, progress, saved))?;
-        let done = Done { command: "fit", passes: 0, flow, balance, bad_values: BadValues::default() };
+        let (bad_values, clamped) = Default::default();
+        let done = Done { command: "fit", passes: 0, flow, balance, bad_values, clamped };
         Ok(Summary::new(prepared, done, &meter))
     }
 }

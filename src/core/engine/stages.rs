@@ -14,7 +14,7 @@ use super::segment_photons::{MatchInput, Matched};
 use super::still_light::StillLight;
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{GatherMatrix, Image};
+use crate::render::{Background, GatherMatrix};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -30,7 +30,7 @@ pub(super) struct Stages {
     pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
-    pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
+    pub(super) backgrounds: Memo<ViewInput, Arc<Background>>,
     pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
 

@@ -13,6 +13,7 @@ use super::plan::LeftOut;
 use super::prepare::Prepared;
 use crate::constraint::Constraint;
 use crate::export::RepairedSamples;
+use crate::render::ClampedLight;
 
 /// The conservation of flux.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -65,6 +66,9 @@ pub struct Summary {
     pub walled: bool,
     /// Where the light went.
     pub energy: Energy,
+    /// Highlights of the background that were clamped; absent where none was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamped: Option<ClampedLight>,
     /// Replaced values.
     pub bad_values: BadValues,
     /// Seconds and peak memory of each stage.
@@ -96,6 +100,7 @@ pub(super) struct Done<'a> {
     pub(super) flow: &'a FittedFlow,
     pub(super) balance: EnergyBalance,
     pub(super) bad_values: BadValues,
+    pub(super) clamped: ClampedLight,
 }
 
 impl Summary {
@@ -127,6 +132,7 @@ impl Summary {
             caustics: done.flow.caustics.clone(),
             walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
             energy: Energy { texture_ratio: balance.texture_ratio, photons_outside: balance.outside },
+            clamped: Some(done.clamped).filter(|clamped| clamped.pixels > 0),
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
             stages,
@@ -176,6 +182,13 @@ impl Summary {
                 text,
                 "  walls: {} crossings, {} photons shut off",
                 flow.wall_crossings, flow.unreachable
+            );
+        }
+        if let Some(ClampedLight { pixels, share }) = &self.clamped {
+            let _ = writeln!(
+                text,
+                "  highlights clamped in {pixels} pixels of the background: {:.2} % of its light",
+                100.0 * share
             );
         }
         let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;

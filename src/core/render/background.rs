@@ -6,12 +6,13 @@
 //! does pass through glass.
 //!
 //! Sampling is adaptive: noisy pixels and their neighbours get more samples. A few samples can miss what is rare and
-//! bright, but hardly in a whole neighbourhood.
+//! bright, but hardly in a whole neighbourhood. What still stands out alone in glass is clamped, and counted.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
 use super::camera_sampler::FAINT as FAINT_WAY;
+use super::fireflies::{ClampedLight, clamp_outliers};
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
@@ -19,7 +20,8 @@ use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::material::fresnel::facing_normals;
 use crate::scene::material::{Beam, Material};
-use crate::scene::{Hit, Media, Ray, Scene};
+use crate::scene::light::LightRole;
+use crate::scene::{Hit, LightDesc, Media, Ray, Scene};
 use crate::{Progress, Result};
 
 /// Most diffuse bounces.
@@ -30,14 +32,30 @@ const MAX_SURFACES: usize = 32;
 const FAINT: f32 = 0.1;
 /// Bounds on the samples of a noisy pixel, in units of the setting.
 const NOISY: [u32; 2] = [8, 64];
+/// Part of these that a pixel gets that sees glass or a mirror, where one sample is several paths.
+const SPECULAR: u32 = 4;
 /// The accepted standard error, relative to a pixel's brightness plus half that of the picture.
 const TOLERANCE: f32 = 0.016;
 /// Clamp on fireflies: largest luminance of a light seen in glass or a mirror, over the mean of the picture. Lamps are
 /// thousands of times brighter, and one chance reflection of a small lamp would sparkle; this is still white.
 const FIREFLY_LIMIT: f32 = 50.0;
 
+/// The picture without caustics.
+#[derive(Clone, Debug)]
+pub struct Background {
+    /// Linear light.
+    pub image: Image,
+    /// What was taken from it.
+    pub clamped: ClampedLight,
+}
+
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
-pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
+pub fn background(
+    scene: &Scene,
+    settings: &RenderSettings,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Background> {
     render(scene, settings, seed, true, progress)
 }
 
@@ -47,7 +65,7 @@ pub fn rough_background(
     settings: &RenderSettings,
     seed: u64,
     progress: &Progress,
-) -> Result<Image> {
+) -> Result<Background> {
     render(scene, settings, seed, false, progress)
 }
 
@@ -57,7 +75,7 @@ fn render(
     seed: u64,
     adaptive: bool,
     progress: &Progress,
-) -> Result<Image> {
+) -> Result<Background> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
     let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
@@ -81,17 +99,17 @@ fn render(
         })
     };
     trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
-    let mean = |pixels: &[Pixel]| Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
-    if !adaptive {
-        return Ok(mean(&pixels));
-    }
     let floor = 0.5 * brightness;
+    if !adaptive {
+        return Ok(tracer.finish(&pixels, floor));
+    }
     let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
     let near_noise = dilated(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
     trace(&mut pixels, &|i, pixel| {
-        near_noise[i] && (pixel.count < NOISY[0] * base || (pixel.count < NOISY[1] * base && noisy(pixel)))
+        let [least, most] = NOISY.map(|units| units * base / if pixel.specular { SPECULAR } else { 1 });
+        near_noise[i] && (pixel.count < least || (pixel.count < most && noisy(pixel)))
     })?;
-    Ok(mean(&pixels))
+    Ok(tracer.finish(&pixels, floor))
 }
 
 /// Morphological dilation: whether each pixel or one of its eight neighbours is marked.
@@ -112,12 +130,16 @@ struct Pixel {
     /// Sum of squared luminance.
     square: f32,
     count: u32,
+    /// Sum of the luminance that was clamped.
+    clamped: f32,
+    /// Whether a path met glass or a mirror first.
+    specular: bool,
 }
 
 impl Pixel {
     fn new(mut rng: Stream) -> Self {
         let sampler = Sampler::new(rng.u32());
-        Self { rng, sampler, sum: Vec3::ZERO, square: 0.0, count: 0 }
+        Self { rng, sampler, sum: Vec3::ZERO, square: 0.0, count: 0, clamped: 0.0, specular: false }
     }
 
     fn add(&mut self, value: Vec3) {
@@ -173,6 +195,22 @@ impl PathTracer<'_> {
         (lights.sum::<f64>() / PATHS as f64) as f32
     }
 
+    /// The means of the pixels, without the outliers among those that are brighter than `floor`.
+    fn finish(&self, pixels: &[Pixel], floor: f32) -> Background {
+        let (width, height) = (self.width, self.height);
+        let mut image = Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
+        let specular: Vec<bool> = pixels.iter().map(|pixel| pixel.specular).collect();
+        let mut lost = clamp_outliers(&mut image, &specular, floor);
+        for (lost, pixel) in lost.iter_mut().zip(pixels) {
+            *lost += pixel.clamped / pixel.count.max(1) as f32;
+        }
+        let sum: f64 = lost.iter().copied().map(f64::from).sum();
+        let kept: f64 = image.pixels.iter().map(|pixel| f64::from(luminance(*pixel))).sum();
+        let share = if sum > 0.0 { sum / (sum + kept) } else { 0.0 };
+        let clamped = ClampedLight { pixels: lost.iter().filter(|lost| **lost > 0.0).count(), share };
+        Background { image, clamped }
+    }
+
     /// One more path through a pixel.
     fn sample(&self, x: usize, y: usize, pixel: &mut Pixel) {
         let index = pixel.count;
@@ -180,18 +218,18 @@ impl PathTracer<'_> {
         let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(pixel.sampler.pair(index, 0));
         let place: Vec2 = at / size * 2.0 - 1.0;
         let ray = self.scene.camera().ray(place.x, -place.y, size.x / size.y);
-        let radiance = self.radiance(ray, index, pixel.sampler, &mut pixel.rng);
+        let radiance = self.radiance(ray, index, pixel);
         pixel.add(if radiance.is_finite() { radiance } else { Vec3::ZERO });
     }
 
     /// The radiance that arrives along the ray. Ways that branch at glass before a matt surface are followed both, down to faint
     /// ones: a lamp in a reflection of four per cent would sparkle if one path in twenty-five saw it.
-    fn radiance(&self, ray: Ray, index: u32, sampler: Sampler, rng: &mut Stream) -> Vec3 {
+    fn radiance(&self, ray: Ray, index: u32, pixel: &mut Pixel) -> Vec3 {
         let beam = Beam::new(Vec3::ONE, self.media);
         let mut rest = vec![Open { ray, beam, surfaces: 0 }];
         let mut radiance = Vec3::ZERO;
         while let Some(path) = rest.pop() {
-            radiance += self.follow(path, (index, sampler), rng, &mut rest);
+            radiance += self.follow(path, index, pixel, &mut rest);
         }
         radiance
     }
@@ -200,11 +238,11 @@ impl PathTracer<'_> {
     fn follow(
         &self,
         Open { mut ray, mut beam, surfaces }: Open,
-        (index, sampler): (u32, Sampler),
-        rng: &mut Stream,
+        index: u32,
+        Pixel { sampler, rng, clamped, specular, .. }: &mut Pixel,
         rest: &mut Vec<Open>,
     ) -> Vec3 {
-        let scene = self.scene;
+        let (scene, sampler) = (self.scene, *sampler);
         let mut radiance = Vec3::ZERO;
         let mut bounces = 0;
         for surface in surfaces..MAX_SURFACES {
@@ -213,13 +251,16 @@ impl PathTracer<'_> {
                 // Rays pass through lights: the radiance behind is added.
                 let seen = beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
                 let most = if surface == 0 { f32::INFINITY } else { self.firefly_limit };
-                radiance += seen * (most / luminance(seen).max(f32::MIN_POSITIVE)).min(1.0);
+                let bright = luminance(seen);
+                radiance += seen * (most / bright.max(f32::MIN_POSITIVE)).min(1.0);
+                *clamped += (bright - most).max(0.0);
             }
             let Some(hit) = hit else {
                 return radiance + beam.weight * scene.environment().radiance(ray.direction);
             };
             beam.travel(scene.meshes(), hit.t);
             let material = scene.material(hit.surface);
+            *specular |= surface == 0 && material.is_specular();
             let next = if let Material::Diffuse(diffuse) = material {
                 beam.weight *= Vec3::from(diffuse.albedo);
                 let (geometric, normal) = facing_normals(&hit, ray.direction);
@@ -253,9 +294,14 @@ impl PathTracer<'_> {
         radiance
     }
 
+    /// The lights that are seen, with their numbers.
+    fn lights(&self) -> impl Iterator<Item = (usize, &LightDesc)> {
+        self.scene.lights().iter().enumerate().filter(|(_, light)| light.role() == LightRole::All)
+    }
+
     /// Radiance of the area lights on the ray before `distance`.
     fn lights_along(&self, ray: &Ray, distance: f32) -> Vec3 {
-        let met = self.scene.lights().iter().filter_map(|light| light.intersect(ray));
+        let met = self.lights().filter_map(|(_, light)| light.intersect(ray));
         met.filter(|(t, _)| *t < distance).map(|(_, radiance)| radiance).sum()
     }
 
@@ -270,7 +316,7 @@ impl PathTracer<'_> {
         sampler: Sampler,
     ) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for (i, light) in self.scene.lights().iter().enumerate() {
+        for (i, light) in self.lights() {
             let pair = (i as u32 + 1) * 16 + bounce;
             let Some(lit) = light.illuminate(hit.point, sampler.pair(index, pair)) else { continue };
             let cosine = lit.direction.dot(normal);

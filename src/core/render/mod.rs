@@ -21,9 +21,11 @@ pub mod texture;
 pub mod view;
 
 mod camera_sampler;
+mod fireflies;
 mod sampler;
 
-pub use background::{background, rough_background};
+pub use background::{Background, background, rough_background};
+pub use fireflies::ClampedLight;
 pub use gather_matrix::{GatherMatrix, layout_for};
 pub use image::Image;
 pub use orbit_view::{MarkerKind, OrbitLight, SceneMarker, orbit_image, scene_markers};

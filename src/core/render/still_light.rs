@@ -49,6 +49,7 @@ pub fn still_pictures(
     let metres = scene.receiver().metres_per_plane_unit();
     let layouts = lights.iter().map(|light| *light.all.layout());
     let watts: Vec<f32> = layouts.map(|layout| (layout.texel * metres).powi(2).recip()).collect();
+    progress.begin("still", height as u64);
     let rows = (0..height).into_par_iter().map(|y| {
         let mut row = vec![[Vec3::ZERO; 2]; width * lights.len()];
         for (x, pixel) in row.chunks_exact_mut(lights.len()).enumerate() {
@@ -66,6 +67,7 @@ pub fn still_pictures(
                 *sums = sums.map(|sum| sum * (watts / taken as f32));
             }
         }
+        progress.advance(1);
         Ok(row)
     });
     let rows = rows.collect::<Result<Vec<_>>>()?;

@@ -36,14 +36,14 @@ impl Shot {
 
     /// The picture without caustics, linear.
     pub fn background(&self) -> &Image {
-        &self.camera.background
+        &self.camera.background.image
     }
 
     /// The picture with the light of a texture at a frame of a preview, linear. None for a texture of another resolution or
     /// receiver.
     pub fn picture(&self, light: &ReceiverTexture, preview: &Preview, frame: i32) -> Option<Image> {
         let fits = light.layout() == self.layout();
-        fits.then(|| self.camera.background.plus(&self.camera.caustic(light, preview.moment(frame))))
+        fits.then(|| self.camera.background.image.plus(&self.camera.caustic(light, preview.moment(frame))))
     }
 }
 
