@@ -103,7 +103,8 @@ impl StillLight {
     pub(super) fn add_to(&self, picture: &mut Image, SegmentTime { segment, time }: SegmentTime) {
         for (shares, StillPictures { stays, in_glass }) in &self.layers {
             for (share, light) in [(&shares.stays, stays), (&shares.kept, in_glass)] {
-                let ends = [segment, (segment + 1).min(share.len() - 1)].map(|key| share[key]);
+                // A picture may be asked for a moment of a project that has got more keys since.
+                let ends = [segment, segment + 1].map(|key| share[key.min(share.len() - 1)]);
                 let now = Vec3::from([0, 1, 2].map(|c| between(ends.map(|end| end[c].into()), time) as f32));
                 if now != Vec3::ZERO {
                     let pixels = picture.pixels.iter_mut().zip(&light.pixels);

@@ -296,7 +296,7 @@ impl PathTracer<'_> {
 
     /// The lights that are seen, with their numbers.
     fn lights(&self) -> impl Iterator<Item = (usize, &LightDesc)> {
-        self.scene.lights().iter().enumerate().filter(|(_, light)| light.role() == LightRole::All)
+        self.scene.lights().iter().enumerate().filter(|(_, light)| light.role() != LightRole::Caustics)
     }
 
     /// Radiance of the area lights on the ray before `distance`.

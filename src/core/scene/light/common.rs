@@ -18,6 +18,8 @@ pub enum LightRole {
     All,
     /// Casts caustics alone.
     Caustics,
+    /// Lights everything, and casts no caustics.
+    Background,
 }
 
 /// The settings that lights share.
@@ -41,6 +43,7 @@ settings! { Common {
     ROLE = Setting::choice("scene.lights[].role", &[
         Choice { value: "all", help: "lights everything, and casts caustics" },
         Choice { value: "caustics", help: "casts caustics alone: its own pool of light, shadows and reflections are left out" },
+        Choice { value: "background", help: "lights everything, and casts no caustics, as a softbox whose own would be faint noise" },
     ]);
     /// The point the light looks at.
     TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");

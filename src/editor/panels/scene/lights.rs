@@ -24,7 +24,7 @@ const KINDS: &[fn() -> LightDesc] = &[
 const KIND: Control =
     Control::new("Kind", LightDesc::KIND).labels(&["Point", "Spot", "Directional", "Rectangle", "Sphere"]);
 const NAME: Control = Control::new("Name", Common::NAME);
-const ROLE: Control = Control::new("Role", Common::ROLE).labels(&["All light", "Only caustics"]);
+const ROLE: Control = Control::new("Role", Common::ROLE).labels(&["All", "Caustics", "Background"]);
 const WATTS: Control = Control::new("Power", Common::WATTS).log_slider(0.0, 1000.0);
 const COLOUR: Control = Control::new("Colour", Common::COLOUR);
 const POSITION: Control = Control::new("Position", Common::POSITION);
@@ -100,7 +100,7 @@ pub(super) fn show(
     if let Some(make) = KIND.pick_another(ui, kind(light)).and_then(|new| KINDS.get(new)) {
         *light = changed(light, make());
     }
-    ROLE.choose(ui, role_of(light), &[LightRole::All, LightRole::Caustics]);
+    ROLE.choose(ui, role_of(light), &[LightRole::All, LightRole::Caustics, LightRole::Background]);
     values(ui, light);
 }
 
