@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::memo::{Same, Slot};
 use super::grouping::Grouping;
+use super::memo::{Same, Slot};
 use super::memo_keys::{StillInput, ViewInput};
 use super::meter::Meter;
 use super::prepare::Prepared;
@@ -14,8 +14,8 @@ use super::still_light::{StillLight, shares};
 use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Background, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, first_radius, layout_for,
-    rough_background,
+    Background, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
+    first_radius, layout_for, rough_background,
 };
 use crate::scene::Scene;
 use crate::{Error, Progress, Result};

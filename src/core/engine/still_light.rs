@@ -24,20 +24,19 @@ const PASS: u64 = u64::MAX - 2;
 pub(super) struct StillShares {
     /// Of what stays on the border and the floor: 1 while the caustic is physical.
     stays: Vec<Vec3>,
-    /// Of what glass keeps of the whole caustic: 1 while it shows something else.
+    /// Of what glass keeps of the whole caustic while it shows something else.
     kept: Vec<Vec3>,
 }
 
 /// The shares of each group; none for one that is physical at no key.
 pub(super) fn shares(project: &Project, grouping: &Grouping) -> Vec<Option<StillShares>> {
     let of_group = |group: usize| {
-        let gain = |key: usize| {
-            grouping.gains(project, key)[group] * if key == 0 { 1.0 } else { project.flow.rho }
-        };
+        let gain =
+            |key: usize| grouping.gains(project, key)[group] * if key == 0 { 1.0 } else { project.flow.rho };
         let shows = |key: usize| project.keys[key].shown_by(grouping.name(group));
         let physical: Vec<bool> =
             (0..project.keys.len()).map(|key| *shows(key) == Shows::PhysicalCaustic).collect();
-        let first = gain(physical.iter().position(|physical| *physical)?);
+        let first = gain(physical.iter().position(|physical| *physical)?) * project.render.kept_in_glass;
         let share = |stays: bool, (key, is_physical): (usize, &bool)| match (is_physical, stays) {
             (true, true) => gain(key),
             (false, false) => first,
@@ -123,7 +122,8 @@ fn textures(scene: &Scene, most_texels: u32, photons: &Photons, rows: &[usize]) 
     let radius = default_radius(photons.len(), size.x * size.y).min(0.5);
     let positions: Vec<Vec2> = rows.iter().map(|&row| photons.positions[row]).collect();
     let texture = |share: &dyn Fn(Vec2) -> f32| {
-        let flux: Vec<Vec3> = rows.iter().map(|&row| photons.flux[row] * share(photons.positions[row])).collect();
+        let flux: Vec<Vec3> =
+            rows.iter().map(|&row| photons.flux[row] * share(photons.positions[row])).collect();
         let mut texture = ReceiverTexture::new(layout);
         Splatter::default().splat(&positions, &flux, &mut texture);
         KernelFilter::default().filter(&mut texture, radius);

@@ -2,8 +2,8 @@
 
 use super::FluxBalance;
 use crate::Error;
-use crate::scene::light::LightRole;
 use crate::scene::Scene;
+use crate::scene::light::LightRole;
 
 /// The error that names the broken link of the chain light, caster, receiver.
 pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
@@ -13,7 +13,8 @@ pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
         .filter(|mesh| mesh.material.is_specular())
         .map(|mesh| mesh.name.as_str())
         .collect();
-    let casting = scene.lights().iter().zip(balances).filter(|(light, _)| light.role() != LightRole::Background);
+    let casting =
+        scene.lights().iter().zip(balances).filter(|(light, _)| light.role() != LightRole::Background);
     let (lights, balances): (Vec<&str>, Vec<&FluxBalance>) =
         casting.map(|(light, balance)| (light.name(), balance)).unzip();
     let reason = if scene.lights().is_empty() {

@@ -56,7 +56,8 @@ impl EmissionPlan {
                 continue;
             }
             let balance = &mut balances[domain.light as usize];
-            let mut learner = GuideLearner { scene, part, domain, index: index as u32, seed, progress, balance };
+            let mut learner =
+                GuideLearner { scene, part, domain, index: index as u32, seed, progress, balance };
             match guiding {
                 EmissionGuiding::Unguided | EmissionGuiding::Bounds => {
                     learner.probe_once()?;

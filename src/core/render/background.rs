@@ -18,9 +18,9 @@ use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
 use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
+use crate::scene::light::LightRole;
 use crate::scene::material::fresnel::facing_normals;
 use crate::scene::material::{Beam, Material};
-use crate::scene::light::LightRole;
 use crate::scene::{Hit, LightDesc, Media, Ray, Scene};
 use crate::{Progress, Result};
 
@@ -270,7 +270,8 @@ impl PathTracer<'_> {
                 (bounces <= BOUNCES && next.dot(geometric) > 0.0).then_some(next)
             } else {
                 let least = if bounces == 0 { FAINT_WAY } else { f32::INFINITY };
-                let [way, other] = material.split(scene.meshes(), &hit, ray.direction, beam.clone(), least, rng);
+                let [way, other] =
+                    material.split(scene.meshes(), &hit, ray.direction, beam.clone(), least, rng);
                 rest.extend(other.map(|(direction, beam)| Open {
                     ray: Ray::leaving(&hit, direction),
                     beam,

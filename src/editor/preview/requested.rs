@@ -70,6 +70,7 @@ pub(super) struct BackgroundKey {
     pub(super) caustics: Vec<CausticDesc>,
     /// By key frame: what each caustic, and the rest, has of its physical light; none where it shows something else.
     pub(super) physical: Vec<Vec<Option<[f32; 3]>>>,
+    pub(super) kept_in_glass: f32,
     /// The project file, and whether external files may be read.
     pub(super) files: (PathBuf, bool),
 }

@@ -64,7 +64,7 @@ impl LivePreview {
 
     fn request_shot(&mut self, subject: &Subject, wanted: &Wanted) {
         let Some(size) = wanted.shot else { return };
-        let Project { scene, plane, seed, caustics, .. } = &*subject.project;
+        let Project { scene, plane, seed, caustics, render, .. } = &*subject.project;
         let files = (subject.base.clone(), subject.external);
         let asked = BackgroundKey {
             scene: scene.clone(),
@@ -73,6 +73,7 @@ impl LivePreview {
             seed: *seed,
             caustics: caustics.clone(),
             physical: physical(&subject.project),
+            kept_in_glass: render.kept_in_glass,
             files,
         };
         if self.requests.staged.as_ref() != Some(&asked) {

@@ -1,15 +1,13 @@
 //! The project's camera without photons: the picture without caustics, to which the light of a preview is added.
 
-use super::light::{finest_radius, margin};
 use super::Preview;
+use super::light::{finest_radius, margin};
 use crate::engine::camera::{CameraPictures, CameraView};
 use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
 use crate::project::Project;
-use crate::render::{
-    Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, layout_for,
-};
+use crate::render::{Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, layout_for};
 use crate::{Progress, Result};
 
 /// The picture of the project's camera without caustics, and the points of the receiver that its pixels see.
