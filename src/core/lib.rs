@@ -166,6 +166,8 @@ pub mod constraint;
 
 pub mod matching;
 
+pub mod bridge;
+
 pub mod flow;
 
 pub mod render;

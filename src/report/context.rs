@@ -135,10 +135,10 @@ impl<'a> Context<'a> {
     /// # Errors
     /// As [`Self::moving_segment`].
     pub(crate) fn flow_photons(&mut self, count: usize, progress: &Progress) -> Result<Arc<MovingSegment>> {
-        if self.project.method == MotionMethod::Flow {
+        if self.project.method == MotionMethod::Guided {
             return self.photons(count, progress);
         }
-        let mut project = Project { method: MotionMethod::Flow, ..self.project.clone() };
+        let mut project = Project { method: MotionMethod::Guided, ..self.project.clone() };
         project.render.photons = count as u64;
         Ok(Arc::new(self.engine.moving_segment(&project, Some(count), &progress.inner())?))
     }

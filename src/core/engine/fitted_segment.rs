@@ -21,9 +21,10 @@ pub(super) struct FittedSegment {
 }
 
 /// Groups that flow together.
+#[derive(Clone)]
 pub(super) struct Layer {
     pub(super) groups: Vec<usize>,
-    pub(super) flow: SegmentFlow,
+    pub(super) flow: Arc<SegmentFlow>,
 }
 
 /// The fitted flow of a project; no segments where there is one key frame.
@@ -47,7 +48,7 @@ pub(super) struct FlowInput {
 impl FittedSegment {
     /// The flow of a group; none where it rests, or where the fit saw no photon of it.
     pub(super) fn flow_of(&self, group: usize) -> Option<&SegmentFlow> {
-        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &layer.flow)
+        self.layers.iter().find(|layer| layer.groups.contains(&group)).map(|layer| &*layer.flow)
     }
 
     /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with

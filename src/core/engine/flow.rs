@@ -13,9 +13,10 @@ use super::job::Job;
 use super::key_photons::KeyPhotons;
 use super::memo::Same;
 use super::meter::Meter;
-use super::segment_photons::SegmentPhotons;
+use super::segment_photons::{MeetingFlow, SegmentPhotons};
 use super::walk::{MapsFrom, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
+use crate::flow::meeting::meeting_report;
 use crate::flow::{
     FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots,
     fit_with_snapshots, path_report,
@@ -46,7 +47,7 @@ pub(super) fn fit_segment(
 ) -> Result<Arc<FittedSegment>> {
     let Project { method, flow, .. } = job.project;
     let settings = match method {
-        MotionMethod::Flow => FlowSettings { rho: 1.0, ..flow.clone() },
+        MotionMethod::Flow | MotionMethod::Guided => FlowSettings { rho: 1.0, ..flow.clone() },
         // Closed-form paths are watched by so many guides at so many times, and heed nothing else.
         MotionMethod::Stylized | MotionMethod::Linear => {
             FlowSettings { guides: flow.guides, steps: flow.steps, ..FlowSettings::default() }
@@ -57,8 +58,10 @@ pub(super) fn fit_segment(
     let input = FlowInput { matched: Same::of(matched), active, method: *method, settings };
     job.stages.flows.get(job.slot(photons.number), input, job.progress, |FlowInput { active, .. }| {
         let ActiveConstraints { lines, walls } = active;
-        let (layers, reports) =
-            photons.fit(job.project, job.extent, (lines, walls), samples, job.meter, job.progress)?;
+        let (layers, reports) = match &matched.maps.meeting {
+            Some(meeting) => photons.report_meeting(job, meeting, samples)?,
+            None => photons.fit(job.project, job.extent, (lines, walls), samples, job.meter, job.progress)?,
+        };
         let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
         Ok(Arc::new(fitted))
     })
@@ -108,10 +111,58 @@ impl SegmentPhotons {
                     fit_layer(project.method, &segment, midpoint_offsets, samples, meter, progress)?
                 }
             };
-            layers.push(Layer { groups: groups.clone(), flow });
+            layers.push(Layer { groups: groups.clone(), flow: Arc::new(flow) });
             reports.push(report);
         }
         Ok((layers, reports))
+    }
+
+    /// The layers of a flow that meets half way, with reports on the photons that were paired along it.
+    fn report_meeting(
+        &self,
+        job: &Job,
+        meeting: &MeetingFlow,
+        mut samples: Option<LayerSamples>,
+    ) -> Result<(Vec<Layer>, Vec<FlowReport>)> {
+        let mut reports = Vec::new();
+        for (layer, fits) in meeting.layers.iter().zip(&meeting.fits) {
+            let SegmentFlow::Meeting(fields) = &*layer.flow else { continue };
+            if let Some(LayerSamples { times, show }) = &mut samples {
+                self.show_samples(layer, times, show, job.progress)?;
+            }
+            let [source, target] = self.columns(&layer.groups);
+            let guides = (job.extent, job.project.flow.guides as usize);
+            let report = || meeting_report(fields, (&source, &target), guides, fits, job.progress);
+            reports.push(job.meter.measure("watch", report)?);
+        }
+        Ok((meeting.layers.clone(), reports))
+    }
+
+    /// Shows the photons of a layer at some times.
+    fn show_samples(
+        &self,
+        layer: &Layer,
+        times: &[f64],
+        show: &mut ShowSample,
+        progress: &Progress,
+    ) -> Result<()> {
+        let group = |&group: &usize| {
+            let (from, to) = (&self.from[group].positions, &self.to[group].positions);
+            let tracks = self.tracks.get(group).and_then(Option::as_ref);
+            (from.len(), layer.flow.trajectories(from, to, &[], tracks))
+        };
+        let mut groups: Vec<_> = layer.groups.iter().map(group).collect();
+        let mut positions = vec![Vec2::ZERO; groups.iter().map(|(count, _)| count).sum()];
+        for (i, &time) in times.iter().enumerate() {
+            let mut rest = &mut *positions;
+            for (count, trajectories) in &mut groups {
+                let (own, others) = std::mem::take(&mut rest).split_at_mut(*count);
+                trajectories.positions_at(time, own, &progress.inner())?;
+                rest = others;
+            }
+            show(&layer.groups, i, &positions);
+        }
+        Ok(())
     }
 
     /// The positions of some groups at both key frames, one group after the other.
@@ -142,7 +193,7 @@ fn fit_layer(
     progress: &Progress,
 ) -> Result<(SegmentFlow, FlowReport)> {
     match method {
-        MotionMethod::Flow => meter.measure("fit", || {
+        MotionMethod::Flow | MotionMethod::Guided => meter.measure("fit", || {
             let (fields, report) = fit_with_snapshots(segment, samples, progress)?;
             Ok((SegmentFlow::Fields(fields), report))
         }),

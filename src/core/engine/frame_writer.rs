@@ -11,7 +11,6 @@ use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
-use crate::flow::MotionMethod;
 use crate::project::{Project, SegmentTime};
 use crate::render::{Image, PlaneView, ProgressiveRender, View};
 use crate::{Error, Progress, Result};
@@ -121,7 +120,7 @@ impl FrameWriter<'_> {
             ("flow".into(), json(serde_json::to_string(flow))),
             ("render".into(), json(serde_json::to_string(render))),
         ];
-        if *method != MotionMethod::Flow {
+        if !method.fits() {
             settings.push(("method".into(), method.name().into()));
         }
         Metadata {

@@ -27,6 +27,7 @@ mod grouping;
 mod job;
 mod key_photons;
 mod key_sources;
+mod meeting;
 mod memo;
 mod memo_keys;
 mod meter;

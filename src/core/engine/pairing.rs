@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::active_constraints::active;
+use super::active_constraints::{ActiveConstraints, active};
 use super::key_photons::KeyPhotons;
 use crate::constraint::{ActiveWall, VisibilityGraph};
-use crate::flow::MotionMethod;
+use crate::flow::{FlowSettings, MotionMethod};
 use crate::matching::{ContinuousMap, MatchingMethod, StylizedMap, WallMap, transport_map};
 use crate::project::Project;
 use crate::{Progress, Result};
@@ -31,6 +31,15 @@ pub(super) enum PairingMethod {
     AroundWalls(Vec<ActiveWall>),
     /// Landmarks and a thin-plate warp (Günther et al. 2016).
     Stylized,
+    /// Where the light of both key frames meets half way along this flow.
+    Meeting(Box<MeetingInput>),
+}
+
+/// Everything that a flow depends on which meets half way, but for the light.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MeetingInput {
+    pub(super) settings: FlowSettings,
+    pub(super) active: ActiveConstraints,
 }
 
 impl PairingMethod {
@@ -38,9 +47,15 @@ impl PairingMethod {
     pub(super) fn of(project: &Project, segment: usize, extent: Vec2) -> Self {
         match (project.matching, project.method) {
             (MatchingMethod::Given, _) => Self::Given,
+            (MatchingMethod::Transport, MotionMethod::Flow) => {
+                // rho acts on the flux alone.
+                let settings = FlowSettings { rho: 1.0, ..project.flow.clone() };
+                let active = active(project, segment, extent);
+                Self::Meeting(Box::new(MeetingInput { settings, active }))
+            }
             (MatchingMethod::Transport, MotionMethod::Linear) => Self::Transport,
             (MatchingMethod::Transport, MotionMethod::Stylized) => Self::Stylized,
-            (MatchingMethod::Transport, MotionMethod::Flow) => {
+            (MatchingMethod::Transport, MotionMethod::Guided) => {
                 let mut walls = active(project, segment, extent).walls;
                 walls.retain(takes_part);
                 if walls.is_empty() { Self::Transport } else { Self::AroundWalls(walls) }
@@ -57,7 +72,9 @@ impl PairingMethod {
     ) -> Result<Option<ContinuousMap>> {
         Ok(match self {
             Self::Given => None,
-            Self::Transport => Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?)),
+            Self::Transport | Self::Meeting(_) => {
+                Some(ContinuousMap::Transport(transport_map(from, to, extent, progress)?))
+            }
             Self::AroundWalls(walls) => {
                 let walls: Vec<&ActiveWall> = walls.iter().collect();
                 let graph = Arc::new(VisibilityGraph::new(&walls, extent, progress)?);

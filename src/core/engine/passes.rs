@@ -68,7 +68,8 @@ impl<'a> Exposures<'a> {
                 _ => MapsFrom::Others(&fitted.maps),
             };
             let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
-            let trajectories = SegmentTrajectories::new(fitted, &photons.from, &photons.to);
+            let trajectories =
+                SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
             let moments = times.of_segment(i);
             self.carry(trajectories, photons.requested, kernel, moments, progress)?;
         }

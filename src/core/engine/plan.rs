@@ -204,7 +204,7 @@ fn motion_stages(
 /// Points paired per second by the first pass, and by each later one.
 fn match_pace(method: MotionMethod) -> [f64; 2] {
     match method {
-        MotionMethod::Flow | MotionMethod::Linear => [pace::MATCH, pace::REMATCH],
+        MotionMethod::Flow | MotionMethod::Guided | MotionMethod::Linear => [pace::MATCH, pace::REMATCH],
         MotionMethod::Stylized => [pace::STYLIZED; 2],
     }
 }

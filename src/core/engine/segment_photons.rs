@@ -4,17 +4,36 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::fitted_segment::Layer;
 use super::key_photons::KeyPhotons;
 use super::key_sources::KeySource;
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
+use crate::flow::FlowReport;
+use crate::flow::meeting::{BridgeReport, HalfTracks};
 use crate::matching::{ContinuousMap, MatchingMethod};
 use crate::photon::EmissionGuide;
 use crate::project::CausticDesc;
 
-/// The continuous maps of a segment by group; absent where rows are paired as given, where the group rests, and where it
-/// has no photon.
-pub(super) type Maps = Vec<Option<ContinuousMap>>;
+/// How the photons of all passes are paired in a segment.
+pub(super) struct Maps {
+    /// By group; absent where rows are paired as given, where the group rests, and where it has no photon. Where the key
+    /// frames meet half way, the map from one side of the meeting to the other.
+    pub(super) by_group: Vec<Option<ContinuousMap>>,
+    /// The flow that carries both key frames to their meeting; absent where photons are paired before they flow.
+    pub(super) meeting: Option<Arc<MeetingFlow>>,
+}
+
+/// The flow of a segment whose key frames meet half way, made before its photons are paired.
+pub(super) struct MeetingFlow {
+    pub(super) layers: Vec<Layer>,
+    /// By layer.
+    pub(super) fits: Vec<FlowReport>,
+    pub(super) plans: Vec<BridgeReport>,
+}
+
+/// The tracks of a group's photons from both key frames to the meeting, row by row.
+pub(super) type GroupTracks = [HalfTracks; 2];
 
 /// The photons of a pass at both key frames of a segment, row by row.
 pub(super) struct SegmentPhotons {
@@ -29,6 +48,8 @@ pub(super) struct SegmentPhotons {
     /// The groups that move; those together that share a field.
     pub(super) layers: Vec<Vec<usize>>,
     pub(super) matched: Arc<Matched>,
+    /// By group, where they were made to pair its photons.
+    pub(super) tracks: Vec<Option<GroupTracks>>,
 }
 
 /// The matching of one segment.

@@ -44,8 +44,9 @@ pub(super) fn write(
     let key_states = key_states(job, flow)?;
     progress.begin("write", 3);
     // Where walls stand there are more steps: the way between two rows shall cross none.
-    let fields = flow.segments.iter().flat_map(|segment| segment.fields(grouping));
-    let steps = fields.map(|(_, fields)| fields.steps()).max().unwrap_or(job.project.flow.steps as usize);
+    let layers = flow.segments.iter().flat_map(|segment| &segment.layers);
+    let steps =
+        layers.filter_map(|layer| layer.flow.steps()).max().unwrap_or(job.project.flow.steps as usize);
     let table = Table { key_states: &key_states, flow, steps };
     let tracks = out.join("tracks.npy");
     table.write_tracks(&tracks, progress)?;

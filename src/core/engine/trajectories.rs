@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::fitted_segment::FittedSegment;
 use super::key_photons::KeyPhotons;
+use super::segment_photons::GroupTracks;
 use crate::flow::{Trajectories, WallViolations, flux};
 use crate::{Progress, Result};
 
@@ -26,13 +27,23 @@ struct Group<'a> {
 impl<'a> SegmentTrajectories<'a> {
     /// The trajectories of the photons at `from` to those at `to`, row by row.
     pub(super) fn new(segment: &'a FittedSegment, from: &'a [KeyPhotons], to: &'a [KeyPhotons]) -> Self {
+        Self::with_tracks(segment, (from, to), &[])
+    }
+
+    /// As [`Self::new`], with the tracks to the meeting of those groups for which they are known.
+    pub(super) fn with_tracks(
+        segment: &'a FittedSegment,
+        (from, to): (&'a [KeyPhotons], &'a [KeyPhotons]),
+        tracks: &'a [Option<GroupTracks>],
+    ) -> Self {
         let mut end = 0;
         let group = |(group, (from, to)): (usize, (&'a KeyPhotons, &'a KeyPhotons))| {
             let rows = end..end + from.positions.len();
             end = rows.end;
             let flow = segment.flow_of(group).filter(|_| !rows.is_empty());
-            let trajectories =
-                flow.map(|flow| flow.trajectories(&from.positions, &to.positions, &to.midpoint_offsets));
+            let tracks = tracks.get(group).and_then(Option::as_ref);
+            let trajectories = flow
+                .map(|flow| flow.trajectories(&from.positions, &to.positions, &to.midpoint_offsets, tracks));
             Group { from, to, rows, trajectories }
         };
         Self { groups: from.iter().zip(to).enumerate().map(group).collect() }

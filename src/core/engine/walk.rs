@@ -4,11 +4,16 @@
 
 use std::sync::Arc;
 
+use glam::Vec2;
+
 use super::job::Job;
 use super::key_photons::{KeyPhotons, PassLight};
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
-use super::segment_photons::{FirstKey, Maps, MatchInput, Matched, Origin, SegmentPhotons};
+use super::segment_photons::{
+    FirstKey, GroupTracks, Maps, MatchInput, Matched, MeetingFlow, Origin, SegmentPhotons,
+};
+use crate::flow::meeting::HalfTracks;
 use crate::flow::spatial_order;
 use crate::matching::{ContinuousMap, MatchingMethod, mean_square_distance};
 use crate::{Progress, Result};
@@ -86,7 +91,7 @@ impl<'a> Walk<'a> {
             return Ok(None);
         }
         let layers = self.layers();
-        let (matched, to) = match self.pass {
+        let (matched, to, tracks) = match self.pass {
             0 if job.remembers => self.remembered(&maps)?,
             _ => self.pair(&maps, job.progress)?,
         };
@@ -96,7 +101,7 @@ impl<'a> Walk<'a> {
         self.key += 1;
         self.origin = Origin::Matched(Same::of(&matched));
         let requested = [before, self.requested()];
-        Ok(Some(SegmentPhotons { number, from, to, requested, layers, matched }))
+        Ok(Some(SegmentPhotons { number, from, to, requested, layers, matched, tracks }))
     }
 
     /// The groups that have photons to move until the next key frame; those together that share a field.
@@ -123,7 +128,7 @@ impl<'a> Walk<'a> {
         self.job.sources.key(self.key + 1, group, &self.light, self.pass)
     }
 
-    fn remembered(&self, maps: &MapsFrom) -> Result<(Arc<Matched>, Vec<KeyPhotons>)> {
+    fn remembered(&self, maps: &MapsFrom) -> Result<Paired> {
         let Job { stages, progress, anchors, .. } = *self.job;
         let input = MatchInput {
             from: self.origin.clone(),
@@ -138,43 +143,84 @@ impl<'a> Walk<'a> {
         };
         let mut fresh = None;
         let matched = stages.matchings.get(self.job.slot(self.key), input, progress, |_| {
-            self.job.meter.measure("match", || {
-                progress.begin("match", 1);
-                let (matched, to) = self.pair(maps, progress)?;
-                fresh = Some(to);
-                Ok(matched)
-            })
+            let (matched, to, tracks) = self.pair(maps, progress)?;
+            fresh = Some((to, tracks));
+            Ok(matched)
         })?;
         let arrange = |(group, pairing): (usize, &Pairing)| pairing.arrange(self.next_points(group));
-        let to = fresh.unwrap_or_else(|| matched.pairings.iter().enumerate().map(arrange).collect());
-        Ok((matched, to))
+        let (to, tracks) =
+            fresh.unwrap_or_else(|| (matched.pairings.iter().enumerate().map(arrange).collect(), Vec::new()));
+        Ok((matched, to, tracks))
     }
 
     /// Pairs the photons of all groups with their points of the next key frame: row k of the points is the target of
     /// photon k.
-    fn pair(&self, maps: &MapsFrom, progress: &Progress) -> Result<(Arc<Matched>, Vec<KeyPhotons>)> {
-        let (mut own, mut pairings, mut arranged) = (Vec::new(), Vec::new(), Vec::new());
+    fn pair(&self, maps: &MapsFrom, progress: &Progress) -> Result<Paired> {
+        let points: Vec<KeyPhotons> = (0..self.at.len()).map(|group| self.next_points(group)).collect();
+        let meeting = match (self.method(), maps) {
+            (_, MapsFrom::Others(maps)) => maps.meeting.clone(),
+            (PairingMethod::Meeting(input), MapsFrom::Own { .. }) => {
+                let groups: Vec<[&[Vec2]; 2]> =
+                    self.at.iter().zip(&points).map(|(a, b)| [&*a.positions, &*b.positions]).collect();
+                let meeting = super::meeting::fit(self.job, (self.key, &input), (&self.layers(), &groups))?;
+                Some(Arc::new(meeting))
+            }
+            _ => None,
+        };
+        let pair = || {
+            progress.begin("match", 1);
+            self.pair_groups((maps, meeting), points, progress)
+        };
+        // What is done again for every pass is a part of the render.
+        if self.job.remembers && self.pass == 0 { self.job.meter.measure("match", pair) } else { pair() }
+    }
+
+    /// Pairs group by group, where they meet if there is a meeting.
+    fn pair_groups(
+        &self,
+        (maps, meeting): (&MapsFrom, Option<Arc<MeetingFlow>>),
+        all_points: Vec<KeyPhotons>,
+        progress: &Progress,
+    ) -> Result<Paired> {
+        let (mut own, mut pairings, mut arranged, mut all_tracks) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut cost = TransportCost::default();
-        for (group, at) in self.at.iter().enumerate() {
-            let points = self.next_points(group);
+        for (group, (at, points)) in self.at.iter().zip(all_points).enumerate() {
+            let fields = meeting.as_ref().and_then(|meeting| meeting.fields_of(group));
+            let tracks = match fields {
+                Some(fields) if !self.rests(group) && !at.positions.is_empty() => Some([
+                    HalfTracks::new(fields, 0, &at.positions, &progress.inner())?,
+                    HalfTracks::new(fields, 1, &points.positions, &progress.inner())?,
+                ]),
+                _ => None,
+            };
+            // Photons are paired where they meet, or at their key frames.
+            let ends = match &tracks {
+                Some([earlier, later]) => [earlier.end(), later.end()],
+                None => [&*at.positions, &*points.positions],
+            };
             let made = match maps {
-                MapsFrom::Own { .. } => self.map(group, &points, &progress.inner())?,
+                MapsFrom::Own { .. } => self.map(group, ends, &progress.inner())?,
                 MapsFrom::Others(_) => None,
             };
             let map = match maps {
                 MapsFrom::Own { .. } => made.as_ref(),
-                MapsFrom::Others(maps) => maps[group].as_ref(),
+                MapsFrom::Others(maps) => maps.by_group[group].as_ref(),
             };
-            let bound = match (map, maps) {
-                (Some(map), MapsFrom::Own { bounded: true }) => {
-                    map.lower_bound(&at.positions, &points.positions, progress)?
+            let bound = match (map, maps, &tracks) {
+                (Some(map), MapsFrom::Own { bounded: true }, None) => {
+                    map.lower_bound(ends[0], ends[1], progress)?
                 }
                 _ => None,
             };
-            let pairing = self.pairing(group, &points, map, &progress.inner())?;
+            let pairing = self.pairing(group, ends, map, &progress.inner())?;
+            let tracks = tracks.map(|[earlier, later]| match &pairing.order {
+                Some(order) => [earlier, later.permuted(order)],
+                None => [earlier, later],
+            });
             let points = pairing.arrange(points);
             if matches!(maps, MapsFrom::Own { .. }) && !self.rests(group) && !at.positions.is_empty() {
-                let mean = match map {
+                let mean = match map.filter(|_| tracks.is_none()) {
                     Some(map) => map.cost(&at.positions, &points.positions),
                     None => mean_square_distance(&at.positions, points.positions.iter().copied()),
                 };
@@ -183,48 +229,51 @@ impl<'a> Walk<'a> {
             own.push(made);
             pairings.push(pairing);
             arranged.push(points);
+            all_tracks.push(tracks);
         }
         let maps = match maps {
-            MapsFrom::Own { .. } => Arc::new(own),
+            MapsFrom::Own { .. } => Arc::new(Maps { by_group: own, meeting }),
             MapsFrom::Others(maps) => (*maps).clone(),
         };
-        Ok((Arc::new(Matched { pairings, maps, cost }), arranged))
+        Ok((Arc::new(Matched { pairings, maps, cost }), arranged, all_tracks))
     }
 
-    /// The map of a group to `points`; none where rows are paired as given, where the group rests, and where it has no
-    /// photon.
-    fn map(&self, group: usize, points: &KeyPhotons, progress: &Progress) -> Result<Option<ContinuousMap>> {
-        let from = &self.at[group].positions;
-        if self.rests(group) || from.is_empty() {
+    /// The map of a group between its photons and points; none where rows are paired as given, where the group rests, and
+    /// where it has no photon.
+    fn map(&self, group: usize, ends: [&[Vec2]; 2], progress: &Progress) -> Result<Option<ContinuousMap>> {
+        if self.rests(group) || ends[0].is_empty() {
             return Ok(None);
         }
         let plane = (self.job.extent, self.job.anchors);
-        self.method().map((from, &points.positions), plane, progress)
+        self.method().map((ends[0], ends[1]), plane, progress)
     }
 
-    /// The pairing of a group with its `points` along `map`, or along a map of its own where the photons that were matched
-    /// before had none.
+    /// The pairing of a group between its photons and points along `map`, or along a map of its own where the photons that
+    /// were matched before had none.
     fn pairing(
         &self,
         group: usize,
-        points: &KeyPhotons,
+        ends: [&[Vec2]; 2],
         map: Option<&ContinuousMap>,
         progress: &Progress,
     ) -> Result<Pairing> {
-        let at = &self.at[group];
         if self.rests(group) {
-            return Ok(Pairing { order: Some(at.origin.clone()), midpoint_offsets: Vec::new() });
+            return Ok(Pairing { order: Some(self.at[group].origin.clone()), midpoint_offsets: Vec::new() });
         }
-        if at.positions.is_empty() {
+        if ends[0].is_empty() {
             return Ok(Pairing::default());
         }
         let own = match map {
             Some(_) => None,
-            None => self.map(group, points, progress)?,
+            None => self.map(group, ends, progress)?,
         };
         let Some(map) = map.or(own.as_ref()) else { return Ok(Pairing::default()) };
         let seed = self.job.sources.seed();
-        let paired = map.pair(&at.positions, &points.positions, seed, self.pass, progress)?;
+        let paired = map.pair(ends[0], ends[1], seed, self.pass, progress)?;
         Ok(Pairing { order: Some(paired.matching.target_of), midpoint_offsets: paired.midpoint_offsets })
     }
 }
+
+/// A matching, the points in the rows of their photons, and the tracks to the meeting by group; no tracks where the matching
+/// was remembered.
+type Paired = (Arc<Matched>, Vec<KeyPhotons>, Vec<Option<GroupTracks>>);

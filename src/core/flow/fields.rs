@@ -207,12 +207,12 @@ impl Fields {
     /// Step `n`, whose field must be known unless the fade has ended.
     pub(super) fn step(&self, n: usize) -> Step {
         let (start, end) = (self.time(n), self.time(n + 1));
-        let velocities = self.acts_in(n).then(|| {
-            [0.0, 0.5, 1.0].map(|x| {
-                let t = start + f64::from(x) * (end - start);
-                StageVelocity { field: self.field(n, x), noise: self.noise(t), rate: self.fade.rate(t) }
-            })
-        });
-        Step { number: n, left: self.steps - 1 - n, start, length: end - start, velocities }
+        let time = |x: f32| start + f64::from(x) * (end - start);
+        let stages = [0.0, 0.5, 1.0];
+        let velocities = self
+            .acts_in(n)
+            .then(|| stages.map(|x| StageVelocity { field: self.field(n, x), noise: self.noise(time(x)) }));
+        let rates = stages.map(|x| self.fade.rate(time(x)));
+        Step { number: n, left: self.steps - 1 - n, start, length: end - start, velocities, rates }
     }
 }

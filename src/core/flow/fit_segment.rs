@@ -8,7 +8,7 @@ use super::field::{Field, Grid};
 use super::fields::Fields;
 use super::fit::{Blend, DirectedLines, FitReport, FitSettings, Fitter, LineTerm, NoPenetrationRows};
 use super::guidance;
-use super::observer::{Kinematics as _, Observer};
+use super::observer::{FitStatistics, Kinematics as _, Observer};
 use super::photons::GuidedPhotons;
 use super::report::FlowReport;
 use super::segment::{Segment, check_photons, guide_rows};
@@ -100,6 +100,7 @@ fn fit(
     let mut photons = GuidedPhotons::new(&source, &target, fade, obstacles.as_deref());
     photons.find_paths(progress)?;
     let mut observer = Observer::new(&source, &target, extent);
+    let mut fits = FitStatistics::default();
     let mut positions = source.clone();
     let mut guidance = vec![Vec2::ZERO; source.len()];
     photons.guidance(0.0, &mut guidance);
@@ -110,7 +111,7 @@ fn fit(
             show(n, &positions);
         }
         if let Some((field, report)) = stepper.fit(n, &fields, &positions, &guidance, progress)? {
-            observer.fitted((&field, &fields.noise(fields.time(n))), &report, &positions, &guidance);
+            fits.fitted((&field, &fields.noise(fields.time(n))), &report, &positions, &guidance);
             fields.push(field);
         }
         let step = fields.step(n);
@@ -133,7 +134,7 @@ fn fit(
     if let Some(show) = &mut show_step {
         show(steps, &positions);
     }
-    let report = observer.finish(&positions, fields.turbulence(), photons.wall_violations());
+    let report = observer.finish(&positions, fields.turbulence(), photons.wall_violations(), fits.report());
     Ok((fields, report))
 }
 
@@ -192,7 +193,7 @@ impl<'a> StepFitter<'a> {
     }
 }
 
-fn fit_settings(settings: &FlowSettings, extent: Vec2) -> FitSettings {
+pub(super) fn fit_settings(settings: &FlowSettings, extent: Vec2) -> FitSettings {
     FitSettings {
         grid: Grid { cells: settings.grid.cells(extent).map(|n| n as usize), extent },
         gamma: settings.gamma.into(),

@@ -33,6 +33,7 @@ pub mod field;
 pub mod fit;
 pub mod flux;
 pub mod guidance;
+pub mod meeting;
 pub mod metric;
 pub mod movement;
 pub mod settings;

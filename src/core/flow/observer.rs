@@ -28,51 +28,14 @@ pub(super) struct Steering {
     pub field_shares: Vec<f32>,
 }
 
-/// Collects the report while the photons move.
-pub(super) struct Observer<'a> {
-    source: &'a [Vec2],
-    target: &'a [Vec2],
-    extent: Vec2,
+/// Collects the figures of the fits.
+#[derive(Default)]
+pub(super) struct FitStatistics {
     report: FlowReport,
     squares: [f64; 2],
-    fastest: Vec<f32>,
-    dispersion_sum: f64,
-    dispersions: usize,
-    by_field: f64,
-    by_guidance: f64,
-    positions: Vec<Vec2>,
-    velocities: Vec<Vec2>,
 }
 
-/// Times at which the crossing index is taken.
-const CROSSING_TIMES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Stride of the photons at which derivatives of the field are evaluated.
-const DERIVATIVE_STRIDE: usize = 16;
-
-impl<'a> Observer<'a> {
-    pub(super) fn new(source: &'a [Vec2], target: &'a [Vec2], extent: Vec2) -> Self {
-        let n = source.len();
-        let report = FlowReport {
-            guides: n,
-            mean_straight: mean_straight(source, target).into(),
-            ..FlowReport::default()
-        };
-        Self {
-            source,
-            target,
-            extent,
-            report,
-            squares: [0.0; 2],
-            fastest: vec![0.0; n],
-            dispersion_sum: 0.0,
-            dispersions: 0,
-            by_field: 0.0,
-            by_guidance: 0.0,
-            positions: vec![Vec2::ZERO; n],
-            velocities: vec![Vec2::ZERO; n],
-        }
-    }
-
+impl FitStatistics {
     /// Records a fitted field and the turbulence that is added to it.
     pub(super) fn fitted(
         &mut self,
@@ -93,6 +56,61 @@ impl<'a> Observer<'a> {
         let some: Vec<Vec2> = positions.iter().step_by(DERIVATIVE_STRIDE).copied().collect();
         for (sum, rms) in self.squares.iter_mut().zip(metric::divergence_and_curl_rms(&all, &some)) {
             *sum += rms * rms;
+        }
+    }
+
+    /// The figures of all fits, in a report that has no others.
+    pub(super) fn report(mut self) -> FlowReport {
+        let fits = self.report.fits.max(1) as f64;
+        let report = &mut self.report;
+        report.solver_iterations_mean /= fits;
+        report.fit_residual /= fits;
+        [report.divergence_rms, report.curl_rms] = self.squares.map(|sum| (sum / fits).sqrt());
+        self.report
+    }
+}
+
+/// Collects the report while the photons move.
+pub(super) struct Observer<'a> {
+    source: &'a [Vec2],
+    target: &'a [Vec2],
+    extent: Vec2,
+    report: FlowReport,
+    fastest: Vec<f32>,
+    dispersion_sum: f64,
+    dispersions: usize,
+    by_field: f64,
+    by_guidance: f64,
+    positions: Vec<Vec2>,
+    velocities: Vec<Vec2>,
+}
+
+/// Times at which the crossing index is taken.
+const CROSSING_TIMES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Stride of the photons at which derivatives of the field are evaluated.
+const DERIVATIVE_STRIDE: usize = 16;
+
+impl<'a> Observer<'a> {
+    /// Photons from `source` to `target`, row by row.
+    pub(super) fn new(source: &'a [Vec2], target: &'a [Vec2], extent: Vec2) -> Self {
+        let n = source.len();
+        let report = FlowReport {
+            guides: n,
+            mean_straight: mean_straight(source, target).into(),
+            ..FlowReport::default()
+        };
+        Self {
+            source,
+            target,
+            extent,
+            report,
+            fastest: vec![0.0; n],
+            dispersion_sum: 0.0,
+            dispersions: 0,
+            by_field: 0.0,
+            by_guidance: 0.0,
+            positions: vec![Vec2::ZERO; n],
+            velocities: vec![Vec2::ZERO; n],
         }
     }
 
@@ -123,13 +141,12 @@ impl<'a> Observer<'a> {
         positions: &[Vec2],
         turbulence: Option<&Turbulence>,
         violations: WallViolations,
+        fits: FlowReport,
     ) -> FlowReport {
-        let fits = self.report.fits.max(1) as f64;
+        let FlowReport { guides, mean_straight, crossing_index, dispersion_max, wander, .. } = self.report;
+        self.report = FlowReport { guides, mean_straight, crossing_index, dispersion_max, wander, ..fits };
         let report = &mut self.report;
-        report.solver_iterations_mean /= fits;
-        report.fit_residual /= fits;
         report.turbulence_rms = turbulence.map_or(0.0, |turbulence| turbulence.speed().into());
-        [report.divergence_rms, report.curl_rms] = self.squares.map(|sum| (sum / fits).sqrt());
         report.peak_speed_ratio = metric::peak_speed_ratio(&self.fastest, report.mean_straight as f32);
         let distances: Vec<f32> = self.source.iter().zip(self.target).map(|(a, b)| a.distance(*b)).collect();
         report.straight_peak_ratio = metric::peak_speed_ratio(&distances, report.mean_straight as f32);

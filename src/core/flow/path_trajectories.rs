@@ -119,7 +119,7 @@ pub fn path_report(
     }
     let mut positions = vec![Vec2::ZERO; source.len()];
     paths.positions(1.0, &mut positions);
-    Ok(observer.finish(&positions, None, WallViolations::default()))
+    Ok(observer.finish(&positions, None, WallViolations::default(), FlowReport::default()))
 }
 
 #[cfg(test)]

@@ -43,6 +43,8 @@ pub struct FlowReport {
     pub field_share: f64,
     /// Largest root mean square distance of the photons from their straight paths, over that of |b - a|.
     pub wander: f64,
+    /// Root mean square gap between the two ends of a photon where the key frames meet, plane units; 0 where they do not.
+    pub gap: f64,
     /// max |c(1) - b| in plane units.
     pub endpoint_error: f64,
     /// Wall crossings of photons that have a path around, over all steps.
@@ -75,6 +77,7 @@ impl FlowReport {
             crossing_index: [0, 1, 2].map(|i| a.crossing_index[i].max(b.crossing_index[i])),
             field_share: a.field_share.min(b.field_share),
             wander: a.wander.max(b.wander),
+            gap: a.gap.max(b.gap),
             endpoint_error: a.endpoint_error.max(b.endpoint_error),
             wall_crossings: a.wall_crossings + b.wall_crossings,
             unreachable: a.unreachable.max(b.unreachable),

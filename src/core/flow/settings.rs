@@ -47,6 +47,10 @@ pub struct FlowSettings {
     pub beta: f32,
     /// Fit of the two kinds of flow ([`Self::FIT`]).
     pub fit: FitKind,
+    /// Size of the pieces that stay together ([`Self::HOLD`]).
+    pub hold: f32,
+    /// Most density on the way ([`Self::DENSITY`]).
+    pub density: f32,
     /// Cells of the field ([`Self::GRID`]).
     pub grid: GridSize,
     /// Time steps of a segment ([`Self::STEPS`]).
@@ -82,6 +86,12 @@ settings! { FlowSettings {
         Choice { value: "separate", help: "each alone, then blended: gamma acts evenly over its whole range" },
         Choice { value: "joint", help: "both at once, as in the paper, Eq. (7): gamma acts mostly below 0.2" },
     ]);
+    /// Size of the pieces of light that stay together on their way, share of the plane's longer side. Larger pieces tear
+    /// less and arrive less evenly.
+    HOLD = Setting::real("flow.hold", [0.01, 0.2], &[0.05]);
+    /// How dense light may get on its way around walls, over its density at the key frames. Lower spreads it into wider
+    /// lanes.
+    DENSITY = Setting::real("flow.density", [1.0, 100.0], &[1.1]);
     /// Cells of the field along the plane's longer side; in a file also two numbers, along x and along y. Finer grids
     /// follow finer lines and take longer; the finest is smaller where there are more steps.
     GRID = Setting::whole("flow.grid", [MIN_CELLS as f64, 2041.0], &[128.0]);
@@ -128,6 +138,8 @@ impl Default for FlowSettings {
             alpha: Self::ALPHA.value(),
             beta: Self::BETA.value(),
             fit: FitKind::default(),
+            hold: Self::HOLD.value(),
+            density: Self::DENSITY.value(),
             grid: GridSize::Longer(Self::GRID.value()),
             steps: Self::STEPS.value(),
             fade: Fade::default(),
@@ -181,6 +193,8 @@ impl FlowSettings {
         Self::BETA.check(self.beta, place)?;
         Self::RHO.check(self.rho, place)?;
         Self::TOLERANCE.check(self.tolerance, place)?;
+        Self::HOLD.check(self.hold, place)?;
+        Self::DENSITY.check(self.density, place)?;
         Self::STEPS.check(self.steps, place)?;
         Self::GUIDES.check(self.guides, place)?;
         self.fade.check(&format!("{place}.fade"))?;

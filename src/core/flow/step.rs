@@ -24,16 +24,16 @@ pub(super) struct Step {
     pub length: f64,
     /// The velocities at begin, middle and end; none once the fade has ended and all photons go straight.
     pub velocities: Option<[StageVelocity; 3]>,
+    /// (1-s)/(1-t) at those times, the weight in v' = rate (v - u).
+    pub rates: [f32; 3],
 }
 
-/// The velocity at one of the three times of RK4, with its weight in v' = rate (v - u).
+/// The velocity at one of the three times of RK4.
 pub(super) struct StageVelocity {
     /// The fitted field, extrapolated to this time.
     pub field: Field,
     /// The turbulence at this time, one field per noise grid.
     pub noise: Vec<Field>,
-    /// (1-s)/(1-t).
-    pub rate: f32,
 }
 
 impl StageVelocity {
@@ -76,14 +76,15 @@ impl Step {
             return [[Vec2::ZERO; 3]; N];
         };
         let (t, h) = (self.start as f32, self.length as f32);
-        let slopes = |stage: &StageVelocity, v: [Vec2; N], t: f32| -> [Vec2; N] {
+        let slopes = |stage: &StageVelocity, rate: f32, v: [Vec2; N], t: f32| -> [Vec2; N] {
             let u: [Vec2; N] = stage.velocities(from_fn(|i| position(targets[i], v[i], t)));
-            from_fn(|i| (v[i] - u[i]) * (h * stage.rate * ease(v[i].length() * inverse_speed_limits[i])))
+            from_fn(|i| (v[i] - u[i]) * (h * rate * ease(v[i].length() * inverse_speed_limits[i])))
         };
-        let k1 = slopes(begin, v, t);
-        let k2 = slopes(middle, from_fn(|i| v[i] + 0.5 * k1[i]), t + 0.5 * h);
-        let k3 = slopes(middle, from_fn(|i| v[i] + 0.5 * k2[i]), t + 0.5 * h);
-        let k4 = slopes(end, from_fn(|i| v[i] + k3[i]), t + h);
+        let rates = self.rates;
+        let k1 = slopes(begin, rates[0], v, t);
+        let k2 = slopes(middle, rates[1], from_fn(|i| v[i] + 0.5 * k1[i]), t + 0.5 * h);
+        let k3 = slopes(middle, rates[1], from_fn(|i| v[i] + 0.5 * k2[i]), t + 0.5 * h);
+        let k4 = slopes(end, rates[2], from_fn(|i| v[i] + k3[i]), t + h);
         from_fn(|i| {
             let (k1, k2, k3, k4) = (k1[i], k2[i], k3[i], k4[i]);
             [k1, k2 + k3 - 1.5 * k1 - 0.5 * k4, (2.0 / 3.0) * (k1 - k2 - k3 + k4)]

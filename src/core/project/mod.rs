@@ -164,7 +164,7 @@ impl Project {
 
     /// Whether fields are fitted: several keys, and the method is the flow.
     pub fn fits(&self) -> bool {
-        self.keys.len() > 1 && self.method == MotionMethod::Flow
+        self.keys.len() > 1 && self.method.fits()
     }
 
     /// The paths of all files of the project, as written.

@@ -18,7 +18,8 @@ const ALPHA: Control =
 const BETA: Control =
     Control::new("Beta", FlowSettings::BETA).log_slider(0.0, 100.0).pictures(&pictures::BETA);
 const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0);
-const METHOD: Control = Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "2016", "Linear"]);
+const METHOD: Control =
+    Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "Guided", "2016", "Linear"]);
 const FIT: Control = Control::new("Fit", FlowSettings::FIT).labels(&["Separate", "Joint"]);
 const GRID: Control = Control::new("Grid", FlowSettings::GRID).log_slider(16.0, 512.0);
 const STEPS: Control = Control::new("Steps", FlowSettings::STEPS).log_slider(5.0, 200.0);

@@ -58,8 +58,9 @@ fn choice(ui: &mut Ui, place: Rect, wipe: &mut Wipe) {
 }
 
 /// All comparisons.
-const COMPARISONS: [Comparison; 3] = [
+const COMPARISONS: [Comparison; 4] = [
     Comparison::Method(MotionMethod::Linear),
+    Comparison::Method(MotionMethod::Guided),
     Comparison::Method(MotionMethod::Stylized),
     Comparison::NothingDrawn,
 ];
@@ -68,6 +69,7 @@ const COMPARISONS: [Comparison; 3] = [
 fn name(comparison: Comparison) -> &'static str {
     match comparison {
         Comparison::Method(MotionMethod::Flow) => "The flow",
+        Comparison::Method(MotionMethod::Guided) => "Guided photons",
         Comparison::Method(MotionMethod::Stylized) => "Method of 2016",
         Comparison::Method(MotionMethod::Linear) => "Straight lines",
         Comparison::NothingDrawn => "No constraints",

@@ -67,7 +67,7 @@ pub fn gamma_response(engine: &Engine, project: &Project, progress: &Progress) -
 
 /// The project at preview size, with fields. The shape of the response does not depend on the grid.
 fn preview(project: &Project) -> Project {
-    Project { method: MotionMethod::Flow, ..Quality::Preview.apply(project) }
+    Project { method: MotionMethod::Guided, ..Quality::Preview.apply(project) }
 }
 
 fn responses(project: &Project, photons: &MovingSegment, progress: &Progress) -> Result<GammaResponse> {

@@ -14,7 +14,7 @@ use crate::engine::grouping::CausticFlux;
 use crate::engine::key_photons::{KeyPhotons, all_flux, all_positions};
 use crate::engine::meter::StageCost;
 use crate::engine::plan::LeftOut;
-use crate::flow::{Fields, flux};
+use crate::flow::{SegmentFlow, flux};
 use crate::project::SegmentTime;
 use crate::{Progress, Result};
 
@@ -132,11 +132,11 @@ impl Preview {
     pub fn fields(&self, frame: i32) -> Vec<FieldAt> {
         let moment = self.moment(frame);
         let layers = self.segments.get(moment.segment).into_iter().flatten().flat_map(|s| &s.layers);
-        let field = |groups: &[usize], fields: &Fields| {
+        let field = |groups: &[usize], flow: &SegmentFlow| {
             let rows = groups.iter().map(|&group| self.keys.groups[group].1.clone()).collect();
-            FieldAt::new(fields.at(moment.time), rows)
+            FieldAt::new(flow.at(moment.time), rows)
         };
-        layers.filter_map(|layer| field(&layer.groups, layer.flow.fields()?)).collect()
+        layers.filter_map(|layer| field(&layer.groups, &layer.flow)).collect()
     }
 
     /// The residual of the fit at a frame: for each photon, guidance minus the velocity of its field, plane units per

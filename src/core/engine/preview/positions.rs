@@ -54,7 +54,8 @@ impl Growing<'_> {
         let frames = memo.get(job.slot(photons.number), input, job.progress, |input| match known {
             Some(frames) => Ok(Arc::new(frames)),
             None => job.meter.measure("carry", || {
-                let mut trajectories = SegmentTrajectories::new(fitted, &photons.from, &photons.to);
+                let mut trajectories =
+                    SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
                 let mut frames = Vec::with_capacity(slots.len());
                 job.progress.begin("carry", slots.len() as u64);
                 for (&slot, &time) in slots.iter().zip(&input.times) {

@@ -248,7 +248,7 @@ impl Fitter {
 
 impl FitReport {
     /// The worse of two solves; the unknowns of the larger.
-    fn worst(self, other: Self) -> Self {
+    pub(in crate::flow) fn worst(self, other: Self) -> Self {
         Self {
             iterations: self.iterations.max(other.iterations),
             residual: self.residual.max(other.residual),

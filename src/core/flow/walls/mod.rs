@@ -12,3 +12,4 @@ mod walker;
 pub(super) use columns::{Columns, WallColumns};
 pub(super) use obstacles::{Obstacles, SUBSTEPS};
 pub use violations::WallViolations;
+pub(super) use walker::slide;

@@ -84,8 +84,23 @@ impl Obstacles {
     }
 
     /// The visibility graph of step `step`; none where no wall stands.
-    pub(super) fn graph(&self, step: usize) -> Option<&VisibilityGraph> {
+    pub(crate) fn graph(&self, step: usize) -> Option<&VisibilityGraph> {
         self.epochs[self.index(step)].graph.as_ref()
+    }
+
+    /// Steps of the photons over the whole segment.
+    pub(crate) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The runs of steps in which the same walls stand, by their first step, with the visibility graph of each.
+    pub(crate) fn epochs(&self) -> impl Iterator<Item = (usize, Option<&VisibilityGraph>)> {
+        self.epochs.iter().map(|epoch| (epoch.first, epoch.graph.as_ref()))
+    }
+
+    /// Whether the same walls stand in two steps.
+    pub(crate) fn same_walls(&self, step: usize, other: usize) -> bool {
+        self.index(step) == self.index(other)
     }
 
     /// Whether step `step` begins with other walls than the step before; true for step 0.

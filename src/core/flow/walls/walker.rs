@@ -9,6 +9,7 @@ use arrayvec::ArrayVec;
 use glam::Vec2;
 
 use super::path_state::{PathState, PathStatus};
+use crate::constraint::barrier::Barriers;
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{VisibilityGraph, WallPath};
 use crate::flow::fade::ease;
@@ -88,7 +89,9 @@ impl Walker<'_> {
     ) -> StepPath {
         let taken = match state.status {
             PathStatus::Unreachable => StepPath::Cubic(photon.curve(self.step)),
-            PathStatus::Waiting => StepPath::Line(self.slide(photon.at, self.drift(photon, photon.at, 0.0))),
+            PathStatus::Waiting => {
+                StepPath::Line(slide(self.graph.barriers(), photon.at, self.drift(photon, photon.at, 0.0)))
+            }
             PathStatus::Following => self.follow(photon, state, buffers),
         };
         state.on_line = matches!(taken, StepPath::Line(_));
@@ -199,7 +202,7 @@ impl Walker<'_> {
     fn slide_on(&self, photon: &Photon, waypoints: &mut Waypoints, buffers: &mut SearchBuffers) {
         let Some(&Waypoint { at: c, path, .. }) = waypoints.last() else { return };
         let length = self.graph.length(path, c, photon.target);
-        let end = self.slide(c, self.drift(photon, c, length));
+        let end = slide(self.graph.barriers(), c, self.drift(photon, c, length));
         if let Some(path) = self.graph.updated(path, end, photon.target, buffers) {
             let _ = waypoints.try_push(Waypoint { at: end, path, by_field: true });
         }
@@ -235,13 +238,15 @@ impl Walker<'_> {
     /// Weight of the field, 1 - s, at the fraction `x` of the step (0, 1/2 or 1) for a photon with `length` of its path
     /// ahead.
     fn field_share(&self, photon: &Photon, length: f32, x: f64) -> f32 {
-        let Some(velocities) = &self.step.velocities else { return 0.0 };
+        if self.step.velocities.is_none() {
+            return 0.0;
+        }
         let time_left = (1.0 - self.step.start - x * self.step.length) as f32;
         // At t = 1 the speed has no limit, and the fade none either.
         if time_left <= 0.0 {
             return 0.0;
         }
-        velocities[(2.0 * x) as usize].rate * time_left * ease(length / time_left * photon.inverse_limit)
+        self.step.rates[(2.0 * x) as usize] * time_left * ease(length / time_left * photon.inverse_limit)
     }
 
     /// The displacement by the field over the step from `c`, by the midpoint method.
@@ -252,22 +257,21 @@ impl Walker<'_> {
         let drift = h * middle.velocity(half);
         if drift.is_finite() { drift } else { Vec2::ZERO }
     }
+}
 
-    /// The end of a move from `c` by `drift` that slides along the walls it meets.
-    fn slide(&self, mut c: Vec2, mut drift: Vec2) -> Vec2 {
-        let barriers = self.graph.barriers();
-        for _ in 0..SLIDES {
-            let Some(contact) = barriers.first_contact(c, c + drift) else { return c + drift };
-            let along = contact.edge.direction();
-            let normal = along.perp();
-            let side = if drift.dot(normal) > 0.0 { -normal } else { normal };
-            let near = c + drift * contact.share + side * MARGIN;
-            if barriers.blocks(c, near) {
-                return c;
-            }
-            drift = along * (drift * (1.0 - contact.share)).dot(along);
-            c = near;
+/// The end of a move from `c` by `drift` that slides along the walls it meets.
+pub(crate) fn slide(barriers: &Barriers, mut c: Vec2, mut drift: Vec2) -> Vec2 {
+    for _ in 0..SLIDES {
+        let Some(contact) = barriers.first_contact(c, c + drift) else { return c + drift };
+        let along = contact.edge.direction();
+        let normal = along.perp();
+        let side = if drift.dot(normal) > 0.0 { -normal } else { normal };
+        let near = c + drift * contact.share + side * MARGIN;
+        if barriers.blocks(c, near) {
+            return c;
         }
-        c
+        drift = along * (drift * (1.0 - contact.share)).dot(along);
+        c = near;
     }
+    c
 }

@@ -72,8 +72,10 @@ impl Variant {
         match (project.matching, project.method) {
             (MatchingMethod::Given, _) => Self::Given,
             (MatchingMethod::Transport, MotionMethod::Stylized) => Self::Stylized,
-            (MatchingMethod::Transport, MotionMethod::Flow) if walls => Self::Around,
-            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Linear) => Self::Straight,
+            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Guided) if walls => Self::Around,
+            (MatchingMethod::Transport, MotionMethod::Flow | MotionMethod::Guided | MotionMethod::Linear) => {
+                Self::Straight
+            }
         }
     }
 

@@ -1,0 +1,210 @@
+//! The kernel of motion around walls: many short steps, none through a wall, and no cell fuller than its cap.
+
+use rayon::prelude::*;
+
+use super::cells::Cells;
+use super::wall_cells::WallCells;
+
+/// Reach of one step, in cells to each side.
+const REACH: usize = 4;
+/// Iterations that scale the rows of a kernel to sum 1.
+const SCALINGS: usize = 20;
+/// Densities below this count as none.
+const LEAST: f64 = 1e-290;
+
+/// One short step: a Gaussian over the cells that see each other, scaled so that rows and columns sum to 1, which makes
+/// walls and borders reflect.
+pub(super) struct StepKernel {
+    size: [usize; 2],
+    /// Gaussian by distance along an axis, in cells.
+    taps: [f64; REACH + 1],
+    scale: Vec<f64>,
+    /// Cells with a wall in reach; their rows are explicit.
+    rows: Vec<u32>,
+    starts: Vec<u32>,
+    columns: Vec<u32>,
+    weights: Vec<f64>,
+}
+
+impl StepKernel {
+    /// The step of variance `variance`, squared cells along each axis; without walls where `walls` is none.
+    pub(super) fn new(cells: &Cells, walls: Option<&WallCells>, variance: f64) -> Self {
+        let taps = std::array::from_fn(|i| (-(i as f64).powi(2) / (2.0 * variance)).exp());
+        let mut kernel = Self {
+            size: cells.size,
+            taps,
+            scale: vec![1.0; cells.count()],
+            rows: Vec::new(),
+            starts: vec![0],
+            columns: Vec::new(),
+            weights: Vec::new(),
+        };
+        if let Some(walls) = walls {
+            kernel.add_rows(cells, walls);
+        }
+        let mut work = [vec![0.0; cells.count()], vec![0.0; cells.count()]];
+        let mut product = vec![0.0; cells.count()];
+        for _ in 0..SCALINGS {
+            // K d with the scale inside: the rows of D K D are d (K d).
+            let scale = std::mem::replace(&mut kernel.scale, vec![1.0; cells.count()]);
+            kernel.spread(&scale, &mut work, &mut product);
+            kernel.scale = scale.iter().zip(&product).map(|(d, sum)| (d / sum).sqrt()).collect();
+        }
+        kernel
+    }
+
+    fn window(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<'_> {
+        let [width, height] = self.size;
+        let (column, row) = (cell % width, cell / width);
+        let columns = column.saturating_sub(REACH)..(column + REACH + 1).min(width);
+        let rows = row.saturating_sub(REACH)..(row + REACH + 1).min(height);
+        rows.flat_map(move |y| {
+            let along_y = self.taps[y.abs_diff(row)];
+            columns.clone().map(move |x| (y * width + x, along_y * self.taps[x.abs_diff(column)]))
+        })
+    }
+
+    /// Explicit rows for the cells that do not see all others within reach.
+    fn add_rows(&mut self, cells: &Cells, walls: &WallCells) {
+        let seen = |cell: usize| {
+            // A wall within reach of a cell is near some cell of its window.
+            if !self.window(cell).any(|(other, _)| walls.near(other)) {
+                return None;
+            }
+            let centre = cells.centre(cell);
+            let row: Vec<(u32, f64)> = self
+                .window(cell)
+                .filter(|&(other, _)| other == cell || !walls.blocks(centre, cells.centre(other)))
+                .map(|(other, weight)| (other as u32, weight))
+                .collect();
+            Some((cell as u32, row))
+        };
+        let rows: Vec<_> = (0..cells.count()).into_par_iter().filter_map(seen).collect();
+        for (cell, row) in rows {
+            self.rows.push(cell);
+            self.columns.extend(row.iter().map(|(other, _)| other));
+            self.weights.extend(row.iter().map(|(_, weight)| weight));
+            self.starts.push(self.columns.len() as u32);
+        }
+    }
+
+    /// `out` = K `density`; `work` are two more columns.
+    pub(super) fn spread(&self, density: &[f64], work: &mut [Vec<f64>; 2], out: &mut [f64]) {
+        let [width, height] = self.size;
+        let [scaled, rows] = work;
+        let scaled_row = |y: usize, scaled: &mut [f64]| {
+            let values = density[y * width..].iter().zip(&self.scale[y * width..]);
+            scaled.iter_mut().zip(values).for_each(|(out, (value, scale))| *out = value * scale);
+        };
+        scaled.par_chunks_mut(width).zip(rows.par_chunks_mut(width)).enumerate().with_min_len(24).for_each(
+            |(y, (scaled, row))| {
+                scaled_row(y, scaled);
+                row.iter_mut().zip(&*scaled).for_each(|(out, value)| *out = self.taps[0] * value);
+                for k in 1..=REACH.min(width - 1) {
+                    let tap = self.taps[k];
+                    row[k..].iter_mut().zip(&*scaled).for_each(|(out, value)| *out += tap * value);
+                    row.iter_mut().zip(&scaled[k..]).for_each(|(out, value)| *out += tap * value);
+                }
+            },
+        );
+        let (scaled, rows) = (&*scaled, &*rows);
+        out.par_chunks_mut(width).enumerate().with_min_len(24).for_each(|(y, out)| {
+            let first = self.rows.partition_point(|&cell| (cell as usize) < y * width);
+            out.fill(0.0);
+            for from in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {
+                let tap = self.taps[y.abs_diff(from)];
+                out.iter_mut().zip(&rows[from * width..]).for_each(|(out, value)| *out += tap * value);
+            }
+            for (i, &cell) in self.rows[first..].iter().enumerate().map(|(i, cell)| (first + i, cell)) {
+                let Some(x) = (cell as usize).checked_sub(y * width).filter(|x| *x < width) else { break };
+                let entries = self.starts[i] as usize..self.starts[i + 1] as usize;
+                let columns = &self.columns[entries.clone()];
+                out[x] =
+                    columns.iter().zip(&self.weights[entries]).map(|(&j, w)| w * scaled[j as usize]).sum();
+            }
+            out.iter_mut().zip(&self.scale[y * width..]).for_each(|(out, scale)| *out *= scale);
+        });
+    }
+}
+
+/// The kernel over a window of steps with the factors that keep every cell below its cap.
+pub(super) struct WallKernel {
+    /// The kernels, and which of them each step has.
+    kernels: Vec<StepKernel>,
+    of_step: Vec<usize>,
+    /// Most light of each cell.
+    cap: Vec<f64>,
+    /// Factors at the begin of each step, at most 1, and the densities from both sides there.
+    factors: Vec<Vec<f64>>,
+    from: [Vec<Vec<f64>>; 2],
+    work: [Vec<f64>; 2],
+    current: Vec<f64>,
+    /// Whether both sides have spread, so that the light between them is known.
+    known: [bool; 2],
+    first: usize,
+}
+
+impl WallKernel {
+    pub(super) fn new(kernels: Vec<StepKernel>, of_step: Vec<usize>, cap: Vec<f64>) -> Self {
+        let (steps, count) = (of_step.len(), cap.len());
+        let columns = |value: f64| vec![vec![value; count]; steps + 1];
+        Self {
+            kernels,
+            of_step,
+            cap,
+            factors: columns(1.0),
+            from: [columns(1.0), columns(1.0)],
+            work: [vec![0.0; count], vec![0.0; count]],
+            current: vec![0.0; count],
+            known: [false; 2],
+            first: 0,
+        }
+    }
+
+    /// Sets the window to all steps but the first and the last `first`.
+    pub(super) fn set_window(&mut self, first: usize) {
+        self.first = first;
+    }
+
+    /// `out` = the density of `side` (0: from the begin of the window on, 1: from its end back) at the other end.
+    pub(super) fn spread(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
+        let (begin, end) = (self.first, self.of_step.len() - self.first);
+        self.current.copy_from_slice(density);
+        self.known[side] = true;
+        let capped = self.known == [true; 2];
+        for k in 0..end - begin {
+            let (step, to) = if side == 0 { (begin + k, begin + k + 1) } else { (end - 1 - k, end - 1 - k) };
+            let kernel = &self.kernels[self.of_step[step]];
+            kernel.spread(&self.current, &mut self.work, &mut self.from[side][to]);
+            if to == begin || to == end {
+                break;
+            }
+            let [a, b] = &self.from;
+            let columns = self.current.iter_mut().zip(&mut self.factors[to]).zip(&self.cap);
+            for (i, ((current, factor), cap)) in columns.enumerate() {
+                if capped {
+                    *factor = (cap / (a[to][i] * b[to][i]).max(LEAST)).min(1.0);
+                }
+                *current = *factor * self.from[side][to][i];
+            }
+        }
+        out.copy_from_slice(&self.from[side][if side == 0 { end } else { begin }]);
+    }
+
+    /// `out` = K `density` with the walls that stand now at the end of `side`, over as many steps as the window has and
+    /// without caps: symmetric.
+    pub(super) fn spread_freely(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
+        self.blur(side, self.of_step.len() - 2 * self.first, density, out);
+    }
+
+    /// `out` = `density` after `times` steps with the walls that stand now at the end of `side`.
+    pub(super) fn blur(&mut self, side: usize, times: usize, density: &[f64], out: &mut [f64]) {
+        let end = self.of_step.len() - self.first;
+        let step = if side == 0 { self.first } else { end - 1 };
+        out.copy_from_slice(density);
+        for _ in 0..times {
+            self.current.copy_from_slice(out);
+            self.kernels[self.of_step[step]].spread(&self.current, &mut self.work, out);
+        }
+    }
+}

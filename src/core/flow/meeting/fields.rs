@@ -1,0 +1,130 @@
+//! The fields of a segment that meets half way, interpolated in time.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+
+use crate::bridge::CellVelocities;
+use crate::flow::field::Field;
+use crate::flow::step::StageVelocity;
+use crate::flow::turbulence::Turbulence;
+use crate::flow::walls::Obstacles;
+
+/// The fields that carry the light of both key frames to the meeting at t = 1/2, where photons of all passes are paired.
+///
+/// Step n of the first half has the field fitted at its begin; step n of the second half that fitted at its end, where the
+/// light that moves backward comes from. Within a step the field is extrapolated from the last two fits of its half:
+/// second order, and known before the next fit, so that guide photons and those of later passes move alike.
+pub struct MeetingFields {
+    /// By half, from its key frame to the meeting.
+    halves: [Vec<Field>; 2],
+    /// The planned velocities near walls, by half and step; empty where no wall stands.
+    planned: [Vec<CellVelocities>; 2],
+    steps: usize,
+    mean_way: f32,
+    turbulence: Option<Turbulence>,
+    obstacles: Option<Arc<Obstacles>>,
+}
+
+impl MeetingFields {
+    /// No fields yet of `steps` steps, an even number.
+    pub(super) fn new(
+        steps: usize,
+        mean_way: f32,
+        turbulence: Option<Turbulence>,
+        obstacles: Option<Arc<Obstacles>>,
+    ) -> Self {
+        Self {
+            halves: Default::default(),
+            planned: Default::default(),
+            steps,
+            mean_way,
+            turbulence,
+            obstacles,
+        }
+    }
+
+    /// Appends the next field of a half, with the planned velocities where walls stand.
+    pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
+        self.halves[half].push(field);
+        self.planned[half].extend(planned);
+    }
+
+    /// Time steps of the whole segment, an even number.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// The fields with their times, rising.
+    pub fn nodes(&self) -> impl DoubleEndedIterator<Item = (f64, &Field)> {
+        let time = |n: usize| n as f64 / self.steps as f64;
+        let [first, second] = &self.halves;
+        let forward = first.iter().enumerate().map(move |(n, field)| (time(n), field));
+        let backward = second.iter().enumerate().rev().map(move |(n, field)| (1.0 - time(n), field));
+        forward.chain(backward)
+    }
+
+    /// The mean way of the light at its initial velocity, plane units.
+    pub fn mean_way(&self) -> f32 {
+        self.mean_way
+    }
+
+    pub(super) fn set_mean_way(&mut self, way: f32) {
+        self.mean_way = way;
+    }
+
+    /// The turbulence that is added to the fields.
+    pub fn turbulence(&self) -> Option<&Turbulence> {
+        self.turbulence.as_ref()
+    }
+
+    /// The walls; none where none stands at any time.
+    pub(in crate::flow) fn obstacles(&self) -> Option<&Arc<Obstacles>> {
+        self.obstacles.as_ref()
+    }
+
+    /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
+    pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
+        self.planned[half].get(done)
+    }
+
+    /// The turbulence at time `t`: fields whose velocities add up.
+    pub fn noise(&self, t: f64) -> Vec<Field> {
+        self.turbulence.as_ref().map_or_else(Vec::new, |turbulence| turbulence.at(t))
+    }
+
+    /// The fields whose velocities add up at time `t`, clipped to 0..=1: the fitted field first, then the turbulence.
+    pub fn at(&self, t: f64) -> Vec<Field> {
+        let t = t.clamp(0.0, 1.0);
+        let half = usize::from(t > 0.5);
+        let since = if half == 0 { t } else { 1.0 - t } * self.steps as f64;
+        let done = (since as usize).min(self.steps / 2 - 1);
+        if done >= self.halves[half].len() {
+            return Vec::new();
+        }
+        std::iter::once(self.field(half, done, (since - done as f64) as f32)).chain(self.noise(t)).collect()
+    }
+
+    /// The field of a half after `done` steps and the fraction `x` of the next.
+    fn field(&self, half: usize, done: usize, x: f32) -> Field {
+        let fields = &self.halves[half];
+        let (now, before) = (&fields[done], &fields[done.saturating_sub(1)]);
+        let mut field = now.clone();
+        Field::blend(now, 1.0 + x, before, -x, &mut field);
+        field
+    }
+
+    /// The velocities at the begin, middle and end of the step after `done` steps of a half, forward in time.
+    pub(super) fn step(&self, half: usize, done: usize) -> [StageVelocity; 3] {
+        [0.0f32, 0.5, 1.0].map(|x| {
+            let since = (done as f64 + f64::from(x)) / self.steps as f64;
+            let t = if half == 0 { since } else { 1.0 - since };
+            StageVelocity { field: self.field(half, done, 0.0 * x), noise: self.noise(t) }
+        })
+    }
+
+    /// The fitted velocity at `p` and time `t`, turbulence with it.
+    pub fn velocity(&self, t: f64, p: Vec2) -> Vec2 {
+        self.at(t).iter().map(|field| field.velocity(p)).sum()
+    }
+}

@@ -1,0 +1,224 @@
+//! The fit of both halves of a segment, step by step from its key frames to the meeting.
+
+use std::sync::Arc;
+
+use glam::Vec2;
+use serde::Serialize;
+
+use super::fields::MeetingFields;
+use super::leading_fit::LeadingFit;
+use super::segment::MeetingSegment;
+use super::tracks::advance;
+use crate::bridge::{Bridge, BridgeSettings, WallsFrom};
+use crate::constraint::VisibilityGraph;
+use crate::flow::field::Grid;
+use crate::flow::fit::{DirectedLines, LineTerm, NoPenetrationRows};
+use crate::flow::fit_segment::fit_settings;
+use crate::flow::observer::FitStatistics;
+use crate::flow::report::FlowReport;
+use crate::flow::turbulence::Turbulence;
+use crate::flow::walls::{Obstacles, SUBSTEPS};
+use crate::{Progress, Result};
+
+/// Cells of the plan for each cell of the field.
+const PLAN_CELLS: f32 = 1.5;
+/// Limits of the cells of a plan along the longer side.
+const FINEST: usize = 192;
+const COARSEST: usize = 32;
+/// Length over which a liquid is smooth, over that of the pieces that stay together.
+const LIQUID: f64 = 0.6;
+/// Steps before the meeting with the plan of the step before them: the time left would make any rest of an error fast.
+const UNPLANNED: usize = 2;
+
+/// The flow of a segment that meets half way, before its photons are paired.
+pub struct MeetingFit {
+    /// The fields.
+    pub fields: MeetingFields,
+    /// The figures of the fits; those of the motion are in the [`meeting_report`](super::meeting_report).
+    pub fits: FlowReport,
+    /// The figures of the plans.
+    pub plan: BridgeReport,
+}
+
+/// Figures of the plans of a segment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BridgeReport {
+    /// Cells along the longer side.
+    pub cells: usize,
+    /// Misplaced share of the light after the first plan, the worst of all groups.
+    pub error: f64,
+    /// Share of the light of the earlier and of the later key frame that walls shut off from the other.
+    pub shut_off: [f64; 2],
+    /// Seconds of all plans, and of all fits.
+    pub seconds: [f64; 2],
+}
+
+/// Fits the fields that carry the light of both key frames to their meeting.
+///
+/// # Errors
+/// `Value` when there are no photons or one is not finite; `Numeric` when the solver fails or a photon is lost; `Limit`
+/// for walls of too many corners; `Cancelled`.
+pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<MeetingFit> {
+    let MeetingSegment { extent, settings, number, walls, .. } = *segment;
+    let guides = segment.guides()?;
+    let even = (settings.steps as usize).next_multiple_of(2);
+    let (obstacles, steps) = Obstacles::new(walls, even, extent, &progress.inner())?;
+    let obstacles = obstacles.map(Arc::new);
+    let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
+    let fields = MeetingFields::new(steps.next_multiple_of(2), 0.0, turbulence, obstacles.clone());
+    let standing = obstacles.as_deref().map_or_else(Vec::new, standing);
+    let fitter = MeetingFitter::new(segment, (fields, &standing), guides)?;
+    fitter.run(segment, progress)
+}
+
+/// The walls by the time from which they stand.
+fn standing(obstacles: &Obstacles) -> Vec<WallsFrom<'_>> {
+    let steps = obstacles.steps() as f64;
+    let mut walls = Vec::new();
+    for (step, graph) in obstacles.epochs() {
+        let barriers = graph.map(VisibilityGraph::barriers);
+        walls.push(WallsFrom { time: step as f64 / steps, barriers });
+    }
+    walls
+}
+
+/// The state of a fit between steps.
+struct MeetingFitter<'a> {
+    fields: MeetingFields,
+    /// By group.
+    bridges: Vec<Bridge<'a>>,
+    /// Guide photons of each group on either side.
+    photons: Vec<[Vec<Vec2>; 2]>,
+    fits: [LeadingFit; 2],
+    lines: [DirectedLines<'a>; 2],
+    grid: Grid,
+    statistics: FitStatistics,
+    plan: BridgeReport,
+}
+
+impl<'a> MeetingFitter<'a> {
+    fn new(
+        segment: &MeetingSegment<'a>,
+        (fields, standing): (MeetingFields, &[WallsFrom<'a>]),
+        photons: Vec<[Vec<Vec2>; 2]>,
+    ) -> Result<Self> {
+        let MeetingSegment { extent, settings, lines, .. } = *segment;
+        let fit = fit_settings(settings, extent);
+        let longer = fit.grid.cells.into_iter().max().unwrap_or(COARSEST);
+        let plan = BridgeSettings {
+            extent,
+            cells: ((longer as f32 * PLAN_CELLS) as usize).clamp(COARSEST, FINEST),
+            steps: fields.steps(),
+            hold: settings.hold,
+            density: settings.density,
+        };
+        let bridge = |[a, b]: &[Vec<Vec2>; 2]| Bridge::new(plan, standing, [a, b]);
+        let liquid = LIQUID * f64::from(settings.hold);
+        let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
+        Ok(Self {
+            fields,
+            bridges: photons.iter().map(bridge).collect(),
+            photons,
+            fits: [LeadingFit::new(fit, liquid)?, LeadingFit::new(fit, liquid)?],
+            lines: [0, 1].map(of_half),
+            grid: fit.grid,
+            statistics: FitStatistics::default(),
+            plan: BridgeReport { cells: plan.cells, ..BridgeReport::default() },
+        })
+    }
+
+    fn run(mut self, segment: &MeetingSegment, progress: &Progress) -> Result<MeetingFit> {
+        let half = self.fields.steps() / 2;
+        progress.begin("fit", 2 * half as u64);
+        for done in 0..half {
+            if done == 0 || done + UNPLANNED < half {
+                self.renew(done, progress)?;
+            }
+            for side in [0, 1] {
+                self.fit(side, done, segment.extent, progress)?;
+                for photons in &mut self.photons {
+                    advance(&self.fields, side, done, &mut photons[side], progress)?;
+                }
+                progress.advance(1);
+            }
+        }
+        Ok(MeetingFit { fields: self.fields, fits: self.statistics.report(), plan: self.plan })
+    }
+
+    /// Makes the plans of all groups anew.
+    fn renew(&mut self, done: usize, progress: &Progress) -> Result<()> {
+        let start = std::time::Instant::now();
+        for (bridge, [a, b]) in self.bridges.iter_mut().zip(&self.photons) {
+            bridge.renew(done, [a, b], progress)?;
+        }
+        if done == 0 {
+            for bridge in &self.bridges {
+                self.plan.error = self.plan.error.max(bridge.error());
+                let shut_off = bridge.shut_off();
+                self.plan.shut_off = [0, 1].map(|side| self.plan.shut_off[side].max(shut_off[side]));
+            }
+            let counts = self.photons.iter().map(|[a, _]| a.len());
+            let sum: f32 =
+                self.bridges.iter().zip(counts.clone()).map(|(b, count)| b.mean_speed() * count as f32).sum();
+            self.fields.set_mean_way(sum / counts.sum::<usize>().max(1) as f32);
+        }
+        self.plan.seconds[0] += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Fits the field of one step of a half to the planned velocities, and keeps it.
+    fn fit(&mut self, side: usize, done: usize, extent: Vec2, progress: &Progress) -> Result<()> {
+        let start = std::time::Instant::now();
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+        for (bridge, photons) in self.bridges.iter().zip(&self.photons) {
+            let first = positions.len();
+            positions.extend(one_in_each_place(&photons[side], self.grid, extent));
+            velocities.extend(positions[first..].iter().map(|&p| sign * bridge.velocity(side, p)));
+        }
+        self.set_walls(side, done);
+        let steps = self.fields.steps();
+        let t = if side == 0 { done as f64 } else { (steps - done) as f64 } / steps as f64;
+        let lines = &mut self.lines[side];
+        let rows = lines.act_at(t).then(|| lines.rows(t, &positions, &velocities));
+        let lines = rows.as_ref().map(|(rows, mask)| LineTerm { rows, mask });
+        let part = 2.0 * done as f64 / steps as f64;
+        let (field, report) = self.fits[side].fit(part, (&positions, &velocities), lines, progress)?;
+        self.statistics.fitted((&field, &self.fields.noise(t)), &report, &positions, &velocities);
+        // One plan stands beside walls for all groups that share the field: that of the first, whose walls are the same.
+        let planned = self.fields.obstacles().is_some().then(|| self.bridges[0].velocities(side, sign));
+        self.fields.push(side, field, planned);
+        self.plan.seconds[1] += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Sets the no-penetration term of the walls that stand in a step, where they changed.
+    fn set_walls(&mut self, side: usize, done: usize) {
+        let Some(obstacles) = self.fields.obstacles() else { return };
+        let step = SUBSTEPS * if side == 0 { done } else { self.fields.steps() - 1 - done };
+        if done == 0 || !obstacles.same_walls(step, step_before(step, side)) {
+            let (positions, normals, weight) = obstacles.no_penetration(step, self.grid);
+            let rows = NoPenetrationRows { positions: &positions, normals: &normals, weight };
+            self.fits[side].set_no_penetration((!positions.is_empty()).then_some(rows));
+        }
+    }
+}
+
+fn step_before(step: usize, side: usize) -> usize {
+    if side == 0 { step - SUBSTEPS } else { step + SUBSTEPS }
+}
+
+/// The first photon in each quarter of a cell of the fit: even weight over the lit area, or thin light would be dragged along
+/// by the bright.
+fn one_in_each_place(photons: &[Vec2], grid: Grid, extent: Vec2) -> Vec<Vec2> {
+    let [width, height] = grid.cells.map(|cells| 2 * cells);
+    let mut taken = vec![false; width * height];
+    let scale = Vec2::new(width as f32, height as f32) / extent;
+    let first = |p: &&Vec2| {
+        let place = **p * scale;
+        let column = (place.x.max(0.0) as usize).min(width - 1);
+        let row = (place.y.max(0.0) as usize).min(height - 1);
+        !std::mem::replace(&mut taken[row * width + column], true)
+    };
+    photons.iter().filter(first).copied().collect()
+}

@@ -1,0 +1,21 @@
+//! Flow that carries both key frames towards each other until they meet half way.
+//!
+//! The [`bridge`](crate::bridge) plans the motion of the whole body of light; psi and phi are fitted to its velocities
+//! at every step, once for the light of the earlier key frame, which moves forward to t = 1/2, and once for that of the
+//! later one, which moves backward ([`fit_meeting`]). Photons are paired where they meet ([`HalfTracks`]): the pairing is
+//! short, the neighbourhoods of each key frame stay whole in its own half, and both ends are exact. The gap that is left at
+//! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]).
+
+mod fields;
+mod fit;
+mod leading_fit;
+mod segment;
+mod tracks;
+mod trajectories;
+mod wall_motion;
+
+pub use fields::MeetingFields;
+pub use fit::{BridgeReport, MeetingFit, fit_meeting};
+pub use segment::MeetingSegment;
+pub use tracks::HalfTracks;
+pub use trajectories::{MeetingTrajectories, meeting_report};

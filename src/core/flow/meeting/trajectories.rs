@@ -1,0 +1,193 @@
+//! Photons that move from both key frames to the meeting, paired.
+
+use std::borrow::Cow;
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::fields::MeetingFields;
+use super::tracks::HalfTracks;
+use crate::flow::observer::{Kinematics, Observer};
+use crate::flow::report::FlowReport;
+use crate::flow::segment::guide_rows;
+use crate::flow::step::CHUNK;
+use crate::flow::trajectories::Trajectories;
+use crate::flow::walls::WallViolations;
+use crate::{Progress, Result};
+
+/// The photons of one pass on their way through a segment that meets half way: 8 bytes for each photon and step.
+///
+/// In the first half a photon is where the light of the earlier key frame is that moves forward, in the second half where
+/// that of the later one is that moves backward. What is between its two ends at the meeting is made up for by half in
+/// either half, growing with the square of the time, so that position and velocity have no jump.
+pub struct MeetingTrajectories<'a> {
+    fields: &'a MeetingFields,
+    source: &'a [Vec2],
+    targets: &'a [Vec2],
+    halves: Option<[Cow<'a, HalfTracks>; 2]>,
+    violations: WallViolations,
+}
+
+impl<'a> MeetingTrajectories<'a> {
+    /// Photons at `source`, each bound for the target in the same row; their tracks are made when they are asked for.
+    ///
+    /// # Panics
+    /// When the columns differ in length.
+    pub fn new(fields: &'a MeetingFields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
+        assert_eq!(source.len(), targets.len(), "each photon has one target");
+        Self { fields, source, targets, halves: None, violations: WallViolations::default() }
+    }
+
+    /// As [`Self::new`], with known tracks from both key frames, row by row.
+    ///
+    /// # Panics
+    /// When the columns differ in length.
+    pub fn with_tracks(
+        fields: &'a MeetingFields,
+        (source, targets): (&'a [Vec2], &'a [Vec2]),
+        halves: [&'a HalfTracks; 2],
+    ) -> Self {
+        assert!(halves.iter().all(|tracks| tracks.end().len() == source.len()), "a track for each photon");
+        Self { halves: Some(halves.map(Cow::Borrowed)), ..Self::new(fields, source, targets) }
+    }
+
+    /// Makes the tracks unless they are known.
+    fn prepare(&mut self, progress: &Progress) -> Result<()> {
+        if self.halves.is_none() {
+            let tracks = |half, photons| HalfTracks::new(self.fields, half, photons, progress);
+            let tracks = [tracks(0, self.source)?, tracks(1, self.targets)?];
+            self.halves = Some(tracks.map(Cow::Owned));
+        }
+        Ok(())
+    }
+
+    /// Root mean square gap at the meeting, plane units; 0 before the tracks are known.
+    pub fn gap(&self) -> f64 {
+        let Some([forward, backward]) = &self.halves else { return 0.0 };
+        let squares =
+            forward.end().iter().zip(backward.end()).map(|(a, b)| f64::from(a.distance_squared(*b)));
+        (squares.sum::<f64>() / self.source.len().max(1) as f64).sqrt()
+    }
+
+    /// Writes `value` of the place on its half, and of the share of the gap there with its slope, for each photon.
+    fn each(&self, t: f64, out: &mut [Vec2], value: impl Fn(Curve, Vec2, [f32; 2]) -> Vec2 + Sync) {
+        let Some([forward, backward]) = &self.halves else { return };
+        let second = usize::from(t > 0.5);
+        let tracks = if second == 0 { forward } else { backward };
+        let since = (if second == 0 { t } else { 1.0 - t }).clamp(0.0, 0.5);
+        let place = since * self.fields.steps() as f64;
+        let done = (place as usize).min(tracks.count() - 1);
+        let x = (place - done as f64) as f32;
+        let sign = if second == 0 { 1.0 } else { -1.0 };
+        // Half the gap times (2 s)^2, and its slope in forward time, which is the same from either side.
+        let share = [sign * 0.5 * (2.0 * since as f32).powi(2), 4.0 * since as f32];
+        let [before, begin, end, after] =
+            [done.saturating_sub(1), done, done + 1, (done + 2).min(tracks.count())].map(|n| tracks.after(n));
+        let at_border = [done == 0, done + 1 == tracks.count()];
+        let (first, last) = (forward.end(), backward.end());
+        out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
+            for (i, out) in out.iter_mut().enumerate().map(|(i, out)| (chunk * CHUNK + i, out)) {
+                let curve = Curve { points: [before[i], begin[i], end[i], after[i]], at_border, x };
+                *out = value(curve, last[i] - first[i], share);
+            }
+        });
+    }
+}
+
+/// The cubic through the ends of a step, with the slopes of its neighbours.
+struct Curve {
+    points: [Vec2; 4],
+    /// Whether the step is the first, and the last, of its half.
+    at_border: [bool; 2],
+    x: f32,
+}
+
+impl Curve {
+    /// Slopes at both ends, per step: central differences, one-sided of second order at a border.
+    fn slopes(&self) -> [Vec2; 2] {
+        let [before, begin, end, after] = self.points;
+        let chord = end - begin;
+        match self.at_border {
+            [true, true] => [chord, chord],
+            [true, false] => {
+                let slope = 0.5 * (after - begin);
+                [2.0 * chord - slope, slope]
+            }
+            [false, true] => {
+                let slope = 0.5 * (end - before);
+                [slope, 2.0 * chord - slope]
+            }
+            [false, false] => [0.5 * (end - before), 0.5 * (after - begin)],
+        }
+    }
+
+    fn position(&self) -> Vec2 {
+        let ([_, begin, end, _], [a, b], x) = (self.points, self.slopes(), self.x);
+        let (y, chord) = (1.0 - x, end - begin);
+        begin + x * (chord * x * (3.0 - 2.0 * x) + y * (y * a - x * b))
+    }
+
+    /// Per step from the key frame on.
+    fn slope(&self) -> Vec2 {
+        let ([_, begin, end, _], [a, b], x) = (self.points, self.slopes(), self.x);
+        let chord = end - begin;
+        6.0 * x * (1.0 - x) * chord + (1.0 - x) * (1.0 - 3.0 * x) * a + x * (3.0 * x - 2.0) * b
+    }
+}
+
+impl Trajectories for MeetingTrajectories<'_> {
+    fn positions_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+        assert_eq!(out.len(), self.targets.len(), "one position for each photon");
+        progress.check()?;
+        match t {
+            t if t <= 0.0 => out.copy_from_slice(self.source),
+            t if t >= 1.0 => out.copy_from_slice(self.targets),
+            t => {
+                self.prepare(progress)?;
+                self.positions(t, out);
+            }
+        }
+        Ok(())
+    }
+
+    fn wall_violations(&self) -> WallViolations {
+        self.violations
+    }
+}
+
+impl Kinematics for MeetingTrajectories<'_> {
+    fn positions(&self, t: f64, out: &mut [Vec2]) {
+        self.each(t, out, |curve, gap, [share, _]| curve.position() + share * gap);
+    }
+
+    fn velocities(&self, t: f64, out: &mut [Vec2]) {
+        let per_time = if t > 0.5 { -1.0 } else { 1.0 } * self.fields.steps() as f32;
+        self.each(t, out, |curve, gap, [_, slope]| per_time * curve.slope() + slope * gap);
+    }
+}
+
+/// The report on a flow that meets half way, from at most `guides` of its photons, evenly spaced rows. `fits` has the figures
+/// of its fits.
+///
+/// # Errors
+/// As [`HalfTracks::new`].
+pub fn meeting_report(
+    fields: &MeetingFields,
+    (source, targets): (&[Vec2], &[Vec2]),
+    (extent, guides): (Vec2, usize),
+    fits: &FlowReport,
+    progress: &Progress,
+) -> Result<FlowReport> {
+    let rows = guide_rows(source.len(), guides);
+    let [source, targets] = [source, targets].map(|all| rows.iter().map(|&row| all[row]).collect::<Vec<_>>());
+    let mut photons = MeetingTrajectories::new(fields, &source, &targets);
+    photons.prepare(progress)?;
+    let mut observer = Observer::new(&source, &targets, extent);
+    let steps = fields.steps();
+    for n in 0..steps {
+        progress.check()?;
+        observer.stepped(&photons, n as f64 / steps as f64, 1.0 / steps as f64);
+    }
+    let report = observer.finish(&targets, fields.turbulence(), photons.violations, fits.clone());
+    Ok(FlowReport { gap: photons.gap(), field_share: 1.0, ..report })
+}
