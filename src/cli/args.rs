@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightloom_core::engine::Quality;
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 
@@ -27,6 +27,9 @@ pub(crate) enum Command {
     Fit(FitArgs),
     /// Render a project by the vector field, by the method of 2016 and by straight lines, side by side on one sheet.
     Compare(CompareArgs),
+    /// Measure how well the light of projects holds together on its way: cracks, torn pieces, bunching, speed. A table with a
+    /// row for each segment; nothing is rendered.
+    Figures(FiguresArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
     /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
@@ -42,6 +45,10 @@ pub(crate) struct RenderArgs {
     /// Folder for the frames, the contact sheet and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// A film of all frames, too, by its ending: .gif, .apng or .mp4 (by ffmpeg, where it is installed). It runs at the frame
+    /// rate of the project, over and over.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) film: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -66,7 +73,7 @@ pub(crate) struct ReportArgs {
     #[arg(long)]
     pub(crate) quick: bool,
     /// Measure no project but the program: does it hold where inputs are stiff and extreme?
-    #[arg(long, conflicts_with_all = ["path", "only", "frames", "size", "passes", "photons", "quality", "format", "seed"])]
+    #[arg(long, conflicts_with_all = ["path", "only", "frames", "size", "passes", "photons", "quality", "format", "layers", "draw_constraints", "seed"])]
     pub(crate) stability: bool,
     /// Sections to measure, such as gamma,render; all without it.
     #[arg(long, value_name = "SECTIONS", value_delimiter = ',')]
@@ -81,6 +88,21 @@ pub(crate) struct CompareArgs {
     /// Folder for compare.png, compare.json and a folder of frames for each method; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(crate) struct FiguresArgs {
+    /// The project files.
+    #[arg(value_name = "PROJECT", required = true)]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Values of gamma in place of the project's own, such as 0,0.5,1: a row for each.
+    #[arg(long, value_delimiter = ',')]
+    pub(crate) gamma: Vec<f32>,
+    /// Methods in place of the project's own, such as flow,linear: a row for each.
+    #[arg(long, value_delimiter = ',')]
+    pub(crate) method: Vec<String>,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
 }
 
 #[derive(Args)]
@@ -107,12 +129,26 @@ pub(crate) struct ProjectArgs {
     /// Photons per pass.
     #[arg(long)]
     photons: Option<u64>,
-    /// Preview: few photons, coarse grid, small picture. Final: as the project says.
-    #[arg(long, value_enum, default_value = "final")]
-    quality: QualityName,
     /// Picture formats, such as exr,png.
     #[arg(long, value_delimiter = ',')]
     format: Vec<String>,
+    /// Layers of EXR files: beauty, caustic, caustics (one for each named caustic), background, depth. With caustic alone no
+    /// background is traced, and PNG files show the caustics on black.
+    #[arg(long, value_delimiter = ',')]
+    layers: Vec<String>,
+    /// Draw the lines and walls of the project on sheets, thin.
+    #[arg(long)]
+    draw_constraints: bool,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// What can differ in a run of any project.
+#[derive(Args)]
+pub(crate) struct CommonArgs {
+    /// Preview: few photons, coarse grid, small picture. Final: as the project says.
+    #[arg(long, value_enum, default_value = "final")]
+    quality: QualityName,
     /// Threads; the result does not depend on their number. Default: one per core.
     #[arg(long)]
     threads: Option<usize>,
@@ -122,7 +158,7 @@ pub(crate) struct ProjectArgs {
     /// Let the project read meshes and pictures from anywhere, not only from its own folder.
     #[arg(long)]
     pub(crate) allow_external: bool,
-    /// Print the summary as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -136,12 +172,8 @@ enum QualityName {
 impl ProjectArgs {
     /// The project as this run shall do it.
     pub(crate) fn load(&self) -> Result<Project> {
-        let quality = match self.quality {
-            QualityName::Preview => Quality::Fine,
-            QualityName::Final => Quality::Final,
-        };
         // What is asked for by name outweighs the quality.
-        let mut project = quality.apply(&Project::load(self.path()?)?);
+        let mut project = self.common.load(self.path()?)?;
         if let Some(frames) = &self.frames {
             frames::parse(frames, "--frames")?;
             project.output.frames = Some(frames.clone());
@@ -151,14 +183,20 @@ impl ProjectArgs {
         }
         project.render.passes = self.passes.unwrap_or(project.render.passes);
         project.render.photons = self.photons.unwrap_or(project.render.photons);
-        project.seed = self.seed.unwrap_or(project.seed);
         if !self.format.is_empty() {
             project.output.formats =
                 self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
         }
+        if !self.layers.is_empty() {
+            project.output.layers =
+                self.layers.iter().map(|name| parse_layer(name)).collect::<Result<_>>()?;
+        }
+        project.output.draws_constraints |= self.draw_constraints;
         // The file was in order, so what is wrong now was typed.
         project.check().map_err(|error| match error {
-            Error::Value { place, what } => Error::value(format!("--{}", place.replace("render.", "")), what),
+            Error::Value { place, what } => {
+                Error::value(format!("--{}", place.replace("render.", "").replace("output.", "")), what)
+            }
             other => other,
         })?;
         Ok(project)
@@ -170,6 +208,18 @@ impl ProjectArgs {
     /// `Value` where a command that can do without one was given none.
     pub(crate) fn path(&self) -> Result<&Path> {
         self.path.as_deref().ok_or_else(|| Error::value("PROJECT", "name a project file"))
+    }
+}
+
+impl CommonArgs {
+    /// The project of a file at the quality and with the seed of this run.
+    pub(crate) fn load(&self, path: &Path) -> Result<Project> {
+        let quality = match self.quality {
+            QualityName::Preview => Quality::Fine,
+            QualityName::Final => Quality::Final,
+        };
+        let project = quality.apply(&Project::load(path)?);
+        Ok(Project { seed: self.seed.unwrap_or(project.seed), ..project })
     }
 
     /// Sets the number of threads for the whole process; it is set once.
@@ -190,6 +240,14 @@ fn parse_size(text: &str) -> Result<(u32, u32)> {
         text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
     numbers
         .ok_or_else(|| Error::value("--size", format!("'{text}' is no picture size; write it like 1280x720")))
+}
+
+fn parse_layer(name: &str) -> Result<FrameLayer> {
+    let known = FrameLayer::ALL.into_iter().find(|layer| layer.name() == name.trim());
+    known.ok_or_else(|| {
+        let names = FrameLayer::ALL.map(FrameLayer::name).join(",");
+        Error::value("--layers", format!("'{name}' is not offered; give one or more of {names}"))
+    })
 }
 
 fn parse_format(name: &str) -> Result<FrameFormat> {

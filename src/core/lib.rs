@@ -22,6 +22,7 @@
 //! | Advection (RK4), fade, flux blending | `flow::step`, [`flow::fade`], [`flow::flux`] |
 //! | Synthetic turbulence | [`flow::turbulence`] |
 //! | Sec. 4, progressive rendering | [`render`], [`engine`] |
+//! | How well light holds together on the way (not in the paper) | [`continuity`] |
 //! | Fig. 1, the previous method (Günther et al. 2016) | `matching::stylized`, `flow::path_trajectories`, `engine::compare` |
 //!
 //! [`setting`] describes every value of a project once: range, default, unit, help. Modules use only those above them in
@@ -57,6 +58,9 @@
 //! | guides | The photons to which the field is fitted ([`flow::FlowSettings::guides`]). |
 //! | fade | The transition of the photons from the field to their targets ([`flow::Fade`]). |
 //! | trajectory | The path of one photon through a segment ([`flow::Trajectories`]). |
+//! | crack | A dark seam that opens between parts of a body of light on its way ([`continuity`]). |
+//! | torn | Of a photon: away from the neighbours that it has in a key ([`continuity::Neighbourhoods`]). |
+//! | bunch | Light piled up in one place on its way ([`continuity::Continuity::bunch`]). |
 //! | turbulence | Divergence-free noise added to the field ([`flow::Turbulence`]). |
 //! | directed line | A drawn line along which the field flows ([`constraint::DirectedLine`]). |
 //! | wall | A drawn line that no photon crosses ([`constraint::Wall`]). |
@@ -155,6 +159,8 @@ pub mod setting;
 pub mod files;
 
 pub mod math;
+
+pub mod continuity;
 
 pub mod scene;
 

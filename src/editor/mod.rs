@@ -17,6 +17,7 @@ pub mod menu;
 pub mod palette;
 pub mod panels;
 pub mod playback;
+pub mod player;
 pub mod preferences;
 pub mod preview;
 mod relative_path;

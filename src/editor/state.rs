@@ -77,7 +77,9 @@ impl EditorState {
             },
             Action::Command(command) if !self.command(command) => return Some(action),
             Action::Command(_) => (),
-            Action::Open(_) | Action::New(_) | Action::PickFile(_) => return Some(action),
+            Action::Open(_) | Action::PlayFrames(_) | Action::New(_) | Action::PickFile(_) => {
+                return Some(action);
+            }
         }
         self.keep_selection();
         None
@@ -148,6 +150,7 @@ impl EditorState {
             Command::ShowDivergence => map(FieldMap::Divergence),
             Command::ShowCurl => map(FieldMap::Curl),
             Command::ShowResidual => map(FieldMap::Residual),
+            Command::ShowTears => map(FieldMap::Tears),
             Command::ShowArrows => toggle(&mut overlays.arrows),
             Command::ShowStreamlines => toggle(&mut overlays.streamlines),
             Command::ShowTrails => toggle(&mut overlays.trails),

@@ -3,7 +3,7 @@
 use divan::{Bencher, black_box};
 use glam::{Vec2, Vec3, vec2};
 use lightloom_core::Progress;
-use lightloom_core::export::{Frame, FrameFormat, Metadata, PngDepth, write_frame};
+use lightloom_core::export::{Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
@@ -89,9 +89,22 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
     let mut background = Image::new(1280, 720);
     let rng = &mut Stream::new(2, Purpose::Background, 0, 0);
     background.pixels.iter_mut().for_each(|p| *p = Vec3::splat(0.2 + 0.002 * rng.f32()));
-    let metadata =
-        Metadata { frame: 1, frames_per_second: (24, 1), seed: 1, passes: 8, settings: Vec::new() };
-    let frame = Frame { background: &background, caustic: &caustic, metadata: &metadata };
+    let metadata = Metadata {
+        frame: 1,
+        frames_per_second: (24, 1),
+        seed: 1,
+        passes: 8,
+        camera: None,
+        settings: Vec::new(),
+    };
+    let frame = Frame {
+        layers: &FrameLayer::DEFAULT,
+        background: &background,
+        caustic: &caustic,
+        caustics: &[],
+        first_hits: None,
+        metadata: &metadata,
+    };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("frame.0001");
     let view = ViewSettings::default().view();

@@ -57,6 +57,7 @@ impl Place {
             file: self.file(),
             external: false,
             folder: self.path("frames"),
+            film: None,
             limit: None,
             shown: 30,
         }

@@ -11,6 +11,7 @@ mod flow_view;
 mod palette;
 mod panels;
 mod photon_drawing;
+mod player;
 mod store;
 mod timeline;
 mod tools;

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 use glam::Vec2;
 use lightloom_core::Progress;
@@ -10,6 +11,7 @@ use lightloom_core::files::npy;
 use lightloom_core::files::npz::NpzReader;
 use lightloom_core::flow::{FieldTrajectories, Trajectories as _};
 use serde_json::{Value, json};
+use tempfile::TempDir;
 
 use crate::small::{letters, lightloom};
 
@@ -79,6 +81,13 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
         assert!(!summary[name].is_null(), "no {name} in {summary}");
     }
     assert!(summary["endpoint_error"].as_f64().unwrap() < 1e-6);
+    let continuity = &summary["continuity"][0];
+    assert_eq!(continuity["frames"], json!([1, 9]));
+    for name in
+        ["cracks", "torn_source", "torn_target", "torn_target_late", "bunch", "fastest", "fastest_999"]
+    {
+        assert!(continuity[name].as_f64().is_some_and(|figure| figure >= 0.0), "no {name} in {summary}");
+    }
     assert!((summary["flux_ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6);
     assert!(
         summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0)
@@ -344,4 +353,78 @@ fn one_photon_runs() {
         "png",
     ]);
     assert!(out.join("frame.0005.png").exists());
+}
+
+#[test]
+fn figures_prints_a_row_for_each_project_method_and_gamma() {
+    let (_folder, project) = letters("flow");
+    let printed =
+        run(&["figures", text(&project), text(&project), "--method", "flow,linear", "--gamma", "0,1"]);
+    let rows: Vec<&str> = printed.lines().skip(2).collect();
+    let named = |row: &str| row.split('|').nth(1).unwrap().trim().to_owned();
+    let of_one = ["flow, gamma 0, 1-9", "flow, gamma 1, 1-9", "linear, 1-9"]
+        .map(|row| format!("Small letters, {row}"));
+    assert_eq!(rows.iter().map(|row| named(row)).collect::<Vec<_>>(), [&of_one[..], &of_one[..]].concat());
+    assert_eq!(rows[0], rows[3], "the same project has the same figures");
+    let json: Value = serde_json::from_str(&run(&["figures", text(&project), "--json"])).unwrap();
+    assert_eq!(json[0]["name"], "Small letters, 1-9");
+    assert!(json[0]["cracks"].as_f64().is_some());
+    assert!(
+        fail(2, &["figures", text(&project), "--method", "magic"]).contains("flow,guided,stylized,linear")
+    );
+    assert!(fail(2, &["figures", text(&project), "--gamma", "7"]).contains("--gamma"));
+}
+
+/// A folder with a program `ffmpeg` that knows libx264, notes its arguments, and copies its input to its last argument.
+#[cfg(unix)]
+fn pretended_ffmpeg() -> TempDir {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let script = "#!/bin/sh\ncase \"$*\" in *-encoders*) echo ' V..... libx264'; exit 0;; esac\n\
+        for last; do :; done\necho \"$*\" > \"$(dirname \"$0\")/arguments\"\ncat > \"$last\"\n";
+    let path = folder.path().join("ffmpeg");
+    fs::write(&path, script).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    folder
+}
+
+#[cfg(unix)]
+#[test]
+fn a_film_goes_through_ffmpeg_at_the_pace_of_the_project() {
+    let (folder, project) = letters("flow");
+    let (ffmpeg, out) = (pretended_ffmpeg(), folder.path().join("out"));
+    let film = folder.path().join("films/shot.mp4");
+    let path = format!("{}:/usr/bin:/bin", ffmpeg.path().display());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lightloom"));
+    command.args(["render", project.to_str().unwrap(), "--format", "png", "--frames", "1-9x4"]);
+    let done = command.arg("--out").arg(&out).arg("--film").arg(&film).env("PATH", path).output().unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    // Frames 1, 5 and 9, each for four frames, of 96 x 96 pixels and three bytes.
+    assert_eq!(fs::metadata(&film).unwrap().len(), 12 * 96 * 96 * 3);
+    let arguments = fs::read_to_string(ffmpeg.path().join("arguments")).unwrap();
+    assert!(arguments.contains("-framerate 24/1") && arguments.contains("-video_size 96x96"), "{arguments}");
+    let left: Vec<_> = film.parent().unwrap().read_dir().unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(left, ["shot.mp4"], "no temporary file");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_film_that_cannot_be_written_is_refused_before_the_work_begins() {
+    let (folder, project) = letters("flow");
+    let out = folder.path().join("out");
+    let render = |film: &Path| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lightloom"));
+        command.args(["render", project.to_str().unwrap()]).arg("--out").arg(&out).arg("--film").arg(film);
+        let done = command.env("PATH", folder.path()).output().unwrap();
+        assert_eq!(done.status.code(), Some(2));
+        assert!(!out.join("frame.0001.png").exists());
+        String::from_utf8_lossy(&done.stderr).into_owned()
+    };
+    let said = render(&folder.path().join("shot.mp4"));
+    assert!(said.contains("--film") && said.contains("install it") && said.contains(".gif"), "{said}");
+    assert!(render(&folder.path().join("shot.mov")).contains(".mp4"));
+    assert!(render(&folder.path().join("out")).contains(".gif"));
+    // An animated PNG, but the picture that the project shows.
+    let said = render(&folder.path().join("letter_c.png"));
+    assert!(said.contains("would be overwritten"), "{said}");
 }

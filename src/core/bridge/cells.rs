@@ -92,7 +92,7 @@ impl Cells {
 
     /// The bilinear value at a point.
     #[inline]
-    pub(super) fn value(&self, values: &[f64], p: Vec2) -> f64 {
+    pub fn value(&self, values: &[f64], p: Vec2) -> f64 {
         self.around(p).iter().map(|&(cell, weight)| f64::from(weight) * values[cell]).sum()
     }
 }

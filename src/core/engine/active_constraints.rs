@@ -6,8 +6,6 @@ use crate::constraint::{ActiveLine, ActiveWall, Barriers, Constraint, Window, st
 use crate::export::{MAGENTA, ORANGE, OverlayLine};
 use crate::project::Project;
 
-/// Width of a directed line on a sheet, plane units.
-const LINE_WIDTH: f32 = 0.006;
 /// Cells along the longer side in which lines are looked at for conflicts.
 const CELLS: f32 = 64.0;
 
@@ -48,20 +46,18 @@ fn window(project: &Project, constraint: &Constraint, segment: usize) -> Option<
     }
 }
 
-/// The enabled constraints as they are drawn on a sheet: lines in orange, walls in magenta.
+/// The enabled constraints as they are drawn on a sheet: lines in orange, walls in magenta; none unless the project asks
+/// for them.
 pub(super) fn drawn(project: &Project) -> Vec<OverlayLine> {
     let drawn = |constraint: &Constraint| {
         let points = stroke::clean(constraint.points());
         match constraint {
-            Constraint::DirectedLine(_) => {
-                OverlayLine { points, colour: ORANGE, width: LINE_WIDTH, arrow: true }
-            }
-            Constraint::Wall(wall) => {
-                OverlayLine { points, colour: MAGENTA, width: wall.thickness, arrow: false }
-            }
+            Constraint::DirectedLine(_) => OverlayLine { points, colour: ORANGE, arrow: true },
+            Constraint::Wall(_) => OverlayLine { points, colour: MAGENTA, arrow: false },
         }
     };
-    project.constraints.iter().filter(|constraint| constraint.is_enabled()).map(drawn).collect()
+    let shown = project.constraints.iter().filter(|constraint| constraint.is_enabled());
+    shown.filter(|_| project.output.draws_constraints).map(drawn).collect()
 }
 
 /// Notes on constraints that do nothing, contradict each other, or do other than they look.

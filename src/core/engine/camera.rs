@@ -27,8 +27,19 @@ pub(super) struct CameraView<'a> {
     /// Size of the plane; its longer side is 1.
     pub(super) extent: Vec2,
     pub(super) layout: TextureLayout,
-    /// Whether the picture without caustics is a rough one, for a live preview.
-    pub(super) rough: bool,
+    /// How the picture without caustics is made.
+    pub(super) background: BackgroundQuality,
+}
+
+/// How the picture without caustics is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BackgroundQuality {
+    /// Not at all: it is black, and nothing is traced.
+    None,
+    /// Noisy, for a live preview.
+    Rough,
+    /// Sampled until its noise is low.
+    Final,
 }
 
 impl<'a> CameraView<'a> {
@@ -38,7 +49,9 @@ impl<'a> CameraView<'a> {
         let first = first_radius(&project.render, *extent);
         let radii = (first, radius_of_pass(first, plan.passes - 1));
         let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
-        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, rough: false }
+        let shown = project.output.shows_background();
+        let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background }
     }
 }
 
@@ -54,10 +67,16 @@ pub(super) struct CameraPictures {
 }
 
 impl CameraPictures {
-    /// The caustics at a moment, from the texture of the light that flows.
-    pub(super) fn caustic(&self, light: &ReceiverTexture, moment: SegmentTime) -> Image {
+    /// The caustics at a moment, from the texture of the light that flows: that of one group of photons, whose light must be
+    /// apart, or of all.
+    pub(super) fn caustic(
+        &self,
+        light: &ReceiverTexture,
+        group: Option<usize>,
+        moment: SegmentTime,
+    ) -> Image {
         let mut caustic = self.visible.gather(light);
-        self.still.iter().for_each(|still| still.add_to(&mut caustic, moment));
+        self.still.iter().for_each(|still| still.add_to(&mut caustic, group, moment));
         caustic
     }
 }
@@ -74,7 +93,8 @@ impl Stages {
         meter: &Meter,
         progress: &Progress,
     ) -> Result<CameraPictures> {
-        let CameraView { project, scene, extent, layout, rough } = *view;
+        let CameraView { project, scene, extent, layout, background: quality } = *view;
+        let rough = quality == BackgroundQuality::Rough;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
@@ -88,7 +108,7 @@ impl Stages {
                 None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
-        let background = match scene {
+        let background = match scene.filter(|_| quality != BackgroundQuality::None) {
             None => {
                 let image = Image::new(render.width as usize, render.height as usize);
                 Arc::new(Background { image, clamped: Default::default() })
@@ -123,7 +143,8 @@ impl Stages {
         let grouping = Grouping::resolve(project, Some(scene))?;
         let shares = shares(project, &grouping);
         let photons = (project.render.photons, project.render.passes);
-        let input = StillInput { view, photons, caustics: project.caustics.clone(), shares };
+        let apart = project.output.separates_caustics();
+        let input = StillInput { view, photons, caustics: project.caustics.clone(), shares, apart };
         self.still.get(slot, input, progress, |StillInput { shares, .. }| {
             let make = || StillLight::new(scene, project, (&grouping, shares), progress);
             meter.measure("still", make).map(Arc::new)

@@ -21,7 +21,7 @@ use crate::{Error, Progress, Result};
 
 /// A project whose flow is fitted.
 pub struct FittedProject {
-    engine: Engine,
+    pub(super) engine: Engine,
     pub(super) prepared: Prepared,
     pub(super) flow: FittedFlow,
 }
@@ -143,7 +143,7 @@ impl FittedProject {
         // Beyond the last frame nothing is seen.
         let needed = times.moments.last().map_or(0, |moment| moment.segment + 1);
         let segments = &self.flow.segments[..needed.min(self.flow.segments.len())];
-        let mut exposures = Exposures::new(&render);
+        let mut exposures = Exposures::new(&render, 1);
         let mut seconds = 0.0;
         for pass in 0..plane.passes {
             let start = Instant::now();
@@ -170,7 +170,7 @@ impl FittedProject {
         progress.begin("render", (plan.passes * times.moments.len()) as u64);
         let (meter, inner) = (Meter::quick(), progress.inner());
         let job = engine.job(prepared, &meter, &inner)?;
-        let mut exposures = Exposures::new(render);
+        let mut exposures = Exposures::new(render, prepared.textures());
         for pass in 0..plan.passes {
             match exposures.run(&job, &flow.segments, times, (pass, pass), progress) {
                 Err(Error::Cancelled) if pass > 0 && !progress.is_abandoned() => {

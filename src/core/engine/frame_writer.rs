@@ -6,13 +6,15 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 
 use super::camera::CameraPictures;
+use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
 use crate::project::{Project, SegmentTime};
-use crate::render::{Image, PlaneView, ProgressiveRender, View};
+use crate::render::{FirstHits, Image, PlaneView, ProgressiveRender, View};
+use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
@@ -29,7 +31,12 @@ pub(super) type Thumbnails = Vec<(i32, Image)>;
 pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
     pub(super) render: &'a ProgressiveRender,
-    pub(super) camera: &'a CameraPictures,
+    /// What the camera sees apart from the light that flows.
+    pub(super) pictures: &'a CameraPictures,
+    pub(super) first_hits: Option<&'a FirstHits>,
+    /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
+    pub(super) caustic_names: &'a [String],
+    pub(super) camera: Option<Camera>,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
@@ -40,9 +47,14 @@ pub(super) struct FrameWriter<'a> {
 }
 
 impl FrameWriter<'_> {
-    /// Writes all frames and the contact sheet; returns the replaced values, and the pictures on the sheet with their
-    /// numbers.
-    pub(super) fn run(&self, times: &FrameTimes, progress: &Progress) -> Result<(BadValues, Thumbnails)> {
+    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on
+    /// the sheet with their numbers.
+    pub(super) fn run(
+        &self,
+        times: &FrameTimes,
+        film: Option<&FilmWriter>,
+        progress: &Progress,
+    ) -> Result<(BadValues, Thumbnails)> {
         progress.begin("write", times.frames.len() as u64);
         let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
         let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
@@ -51,12 +63,16 @@ impl FrameWriter<'_> {
         let repairs: Vec<(i32, RepairedSamples)> = times
             .frames
             .par_iter()
-            .map(|&(frame, slot)| {
+            .enumerate()
+            .map(|(index, &(frame, slot))| {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
                 let moment = times.moments[slot];
                 let (repairs, beauty) = self.frame(frame, (slot, moment), &view)?;
+                if let Some(film) = film {
+                    film.keep(index, &view.apply(&beauty))?;
+                }
                 if on_sheet.contains(&frame) {
                     let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
                     let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
@@ -82,10 +98,29 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let (texture, _) = self.render.mean(slot)?;
-        let caustic = self.camera.caustic(&texture, times.moments[slot]);
-        let beauty = self.camera.background.image.plus(&caustic);
+        let (caustic, ..) = self.light(slot, times.moments[slot])?;
+        let beauty = self.pictures.background.image.plus(&caustic);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
+    }
+
+    /// The light of a slot and moment as the camera sees it: of all caustics, of each by itself where they are apart, and its
+    /// passes.
+    fn light(&self, slot: usize, moment: SegmentTime) -> Result<(Image, Vec<(String, Image)>, usize)> {
+        if self.caustic_names.is_empty() {
+            let (texture, passes) = self.render.mean(slot)?;
+            return Ok((self.pictures.caustic(&texture, None, moment), Vec::new(), passes));
+        }
+        let image = &self.pictures.background.image;
+        let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
+        let mut caustics = Vec::new();
+        for (group, name) in self.caustic_names.iter().enumerate() {
+            let (texture, of_group) = self.render.mean(slot * self.caustic_names.len() + group)?;
+            let caustic = self.pictures.caustic(&texture, Some(group), moment);
+            all = all.plus(&caustic);
+            caustics.push((name.clone(), caustic));
+            passes = of_group;
+        }
+        Ok((all, caustics, passes))
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
@@ -95,12 +130,18 @@ impl FrameWriter<'_> {
         (slot, moment): (usize, SegmentTime),
         view: &View,
     ) -> Result<(RepairedSamples, Image)> {
-        let (texture, passes) = self.render.mean(slot)?;
-        let caustic = self.camera.caustic(&texture, moment);
-        let background = &self.camera.background.image;
+        let (caustic, caustics, passes) = self.light(slot, moment)?;
+        let background = &self.pictures.background.image;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
-        let picture = Frame { background, caustic: &caustic, metadata: &metadata };
+        let picture = Frame {
+            layers: &output.layers,
+            background,
+            caustic: &caustic,
+            caustics: &caustics,
+            first_hits: self.first_hits,
+            metadata: &metadata,
+        };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {
@@ -128,6 +169,7 @@ impl FrameWriter<'_> {
             frames_per_second: (output.fps[0] as i32, output.fps[1]),
             seed: *seed,
             passes: passes as u32,
+            camera: self.camera,
             settings,
         }
     }

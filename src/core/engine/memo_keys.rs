@@ -37,6 +37,8 @@ pub(super) struct StillInput {
     pub(super) photons: (u64, u32),
     pub(super) caustics: Vec<CausticDesc>,
     pub(super) shares: Vec<Option<StillShares>>,
+    /// Whether the light of each caustic is wanted by itself.
+    pub(super) apart: bool,
 }
 
 /// Everything that the frames of a segment depend on.

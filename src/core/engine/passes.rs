@@ -3,6 +3,7 @@
 //! All frames refine together, so a run that is stopped has every frame at the quality reached so far. Nothing of a
 //! pass outlives it but its sum in the [`ProgressiveRender`].
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
@@ -11,9 +12,10 @@ use super::energy_balance::{EnergyBalance, between, total};
 use super::fitted_segment::FittedSegment;
 use super::frame_times::FrameTimes;
 use super::job::Job;
-use super::key_photons::{all_flux, all_positions};
+use super::key_photons::{KeyPhotons, all_flux, all_positions, count};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
+use crate::render::splat::OutsidePhotons;
 use crate::render::{ProgressiveRender, Workspace};
 use crate::{Error, Progress, Result};
 
@@ -22,7 +24,9 @@ pub(super) struct Exposures<'a> {
     render: &'a ProgressiveRender,
     /// One is filled while the other is stored.
     works: [Workspace; 2],
-    /// The frame whose light is in the second, not yet stored.
+    /// Textures of each frame: one for all photons, or one for each of their groups.
+    textures: usize,
+    /// The texture whose light is in the second, not yet stored.
     pending: Option<usize>,
     positions: Vec<Vec2>,
     flux: Vec<Vec3>,
@@ -31,10 +35,12 @@ pub(super) struct Exposures<'a> {
 }
 
 impl<'a> Exposures<'a> {
-    pub(super) fn new(render: &'a ProgressiveRender) -> Self {
+    /// `textures` are the number of groups of photons where their light is kept apart, 1 where it is not.
+    pub(super) fn new(render: &'a ProgressiveRender, textures: usize) -> Self {
         Self {
             render,
             works: [(); 2].map(|()| Workspace::new(*render.layout())),
+            textures,
             pending: None,
             positions: Vec::new(),
             flux: Vec::new(),
@@ -59,7 +65,8 @@ impl<'a> Exposures<'a> {
         if segments.is_empty() {
             self.positions = all_positions(walk.at()).collect();
             self.flux = all_flux(walk.at()).collect();
-            self.expose(0, kernel, walk.requested(), |_, _| Ok(()))?;
+            let rows = self.rows(walk.at());
+            self.expose((0, &rows), kernel, walk.requested(), |_, _| Ok(()))?;
             progress.advance(1);
         }
         for (i, fitted) in segments.iter().enumerate() {
@@ -71,7 +78,8 @@ impl<'a> Exposures<'a> {
             let trajectories =
                 SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
             let moments = times.of_segment(i);
-            self.carry(trajectories, photons.requested, kernel, moments, progress)?;
+            let rows = self.rows(&photons.from);
+            self.carry((trajectories, &rows), photons.requested, kernel, moments, progress)?;
         }
         self.pending.take().map_or(Ok(()), |slot| self.render.accumulate(slot, &self.works[1]))
     }
@@ -79,7 +87,7 @@ impl<'a> Exposures<'a> {
     /// Carries the photons through the moments of one segment; `requested` is the flux they should have at its ends.
     fn carry(
         &mut self,
-        mut trajectories: SegmentTrajectories,
+        (mut trajectories, rows): (SegmentTrajectories, &[Range<usize>]),
         requested: [f64; 2],
         kernel: usize,
         moments: impl Iterator<Item = (usize, f64)>,
@@ -88,7 +96,7 @@ impl<'a> Exposures<'a> {
         self.positions.resize(trajectories.len(), Vec2::ZERO);
         self.flux.resize(trajectories.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            self.expose(slot, kernel, between(requested, time), |positions, flux| {
+            self.expose((slot, rows), kernel, between(requested, time), |positions, flux| {
                 trajectories.flux_at(time, flux);
                 trajectories.positions_at(time, positions, &progress.inner())
             })?;
@@ -99,27 +107,48 @@ impl<'a> Exposures<'a> {
         Ok(())
     }
 
-    /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`; `requested` is the flux they
-    /// should have, watts. Meanwhile the frame before goes to the store.
+    /// The rows of the photons of each texture.
+    fn rows(&self, groups: &[KeyPhotons]) -> Vec<Range<usize>> {
+        if self.textures == 1 {
+            return vec![0..count(groups)];
+        }
+        let ends = groups.iter().scan(0, |end, group| {
+            let start = *end;
+            *end += group.positions.len();
+            Some(start..*end)
+        });
+        ends.collect()
+    }
+
+    /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`, a texture for each of `rows`;
+    /// `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
     fn expose(
         &mut self,
-        slot: usize,
+        (slot, rows): (usize, &[Range<usize>]),
         kernel: usize,
         requested: f64,
         place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
     ) -> Result<()> {
-        let Self { render, works: [work, before], pending, positions, flux, balance } = self;
-        let keep = || pending.take().map_or(Ok(()), |slot| render.accumulate(slot, before));
-        let expose = || {
-            place(positions, flux)?;
-            let outside = render.expose(kernel, positions, flux, work);
-            balance.keep(outside, total(flux), requested, work.texture().total().element_sum());
-            Ok(())
-        };
-        let (exposed, kept) = rayon::join(expose, keep);
-        kept.and(exposed)?;
-        self.works.swap(0, 1);
-        self.pending = Some(slot);
+        let mut place = Some(place);
+        let (mut outside, mut lit) = (OutsidePhotons::default(), 0.0);
+        for (texture, rows) in rows.iter().enumerate() {
+            let Self { render, works: [work, before], pending, positions, flux, .. } = self;
+            let keep = || pending.take().map_or(Ok(()), |texture| render.accumulate(texture, before));
+            let expose = || -> Result<_> {
+                place.take().map_or(Ok(()), |place| place(positions, flux))?;
+                let outside = render.expose(kernel, &positions[rows.clone()], &flux[rows.clone()], work);
+                Ok((outside, work.texture().total().element_sum()))
+            };
+            let (exposed, kept) = rayon::join(expose, keep);
+            kept?;
+            let (beyond, total) = exposed?;
+            outside.photons += beyond.photons;
+            outside.flux += beyond.flux;
+            lit += total;
+            self.works.swap(0, 1);
+            self.pending = Some(slot * self.textures + texture);
+        }
+        self.balance.keep(outside, total(&self.flux), requested, lit);
         Ok(())
     }
 }

@@ -7,6 +7,7 @@ use crate::constraint::Constraint;
 use crate::flow::{MotionMethod, TurbulenceSettings};
 use crate::matching::MatchingMethod;
 use crate::project::{Project, Shows};
+use crate::render::RenderSettings;
 use crate::render::frames::FrameStore;
 use crate::{Error, Result};
 
@@ -62,6 +63,8 @@ mod pace {
     pub(super) const PATHS: f64 = 0.3e6;
     /// Pixels gathered, encoded and written per second.
     pub(super) const WRITE: f64 = 4.7e6;
+    /// Pixels of a film encoded per second.
+    pub(super) const FILM: f64 = 8e6;
 }
 
 /// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given;
@@ -86,7 +89,8 @@ pub(super) fn plan(
     };
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
-    plan.scratch_mib = FrameStore::bytes(texels(project, extent) as usize, frames) as f64 / MIB;
+    plan.scratch_mib =
+        FrameStore::bytes(texels(project, extent) as usize, frames * textures(project)) as f64 / MIB;
     plan
 }
 
@@ -99,6 +103,7 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
     let mut parts: Vec<Unneeded> = vec![
         (!scene, "background and camera", "the project has no scene; the plane is seen straight on"),
         (!scene, "photon tracing", "the project has no scene"),
+        (scene && !project.output.shows_background(), "background", "output.layers asks for caustics alone"),
         (scene && !traces, "photon tracing", "no key shows the physical caustic"),
         (still, "matching, fit and advection", "there is one key frame, so nothing moves"),
         (
@@ -144,6 +149,11 @@ fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
     ]
 }
 
+/// Textures of each frame: the named caustics and the rest, where they are written apart.
+fn textures(project: &Project) -> usize {
+    if project.output.separates_caustics() { project.caustics.len() + 1 } else { 1 }
+}
+
 /// About the texels of the receiver texture; its real size follows from the camera.
 fn texels(project: &Project, extent: Vec2) -> f64 {
     let render = &project.render;
@@ -162,7 +172,7 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     let trace = if traced { photons / pace::TRACE } else { 0.0 };
     let mut stages = Vec::new();
     stages.push(("visible", pixels * f64::from(render.camera_samples) / pace::LOOKS));
-    if project.scene.is_some() {
+    if project.scene.is_some() && project.output.shows_background() {
         stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
     }
     if traced {
@@ -176,7 +186,8 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     let per_pass = trace
         + segments * photons / match_pace(project.method)[1]
         + if project.fits() { steps * photons * fields_asked / pace::ADVECT } else { 0.0 }
-        + plan.frames as f64 * (photons / pace::SPLAT + texels(project, extent) / pace::FILTER);
+        + plan.frames as f64
+            * (photons / pace::SPLAT + textures(project) as f64 * texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
@@ -265,6 +276,11 @@ impl Plan {
             free / 1024.0
         );
         Err(Error::Limit { place: "render".into(), what })
+    }
+
+    /// Seconds that a film of all frames takes, about.
+    pub(super) fn film_seconds(&self, render: &RenderSettings) -> f64 {
+        self.frames as f64 * f64::from(render.width) * f64::from(render.height) / pace::FILM
     }
 
     /// Seconds of all stages.

@@ -7,12 +7,14 @@ use glam::Vec2;
 use super::frame_times::FrameTimes;
 use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
+use super::meter::Meter;
 use super::plan::{self, Plan};
 use super::stages::Stages;
 use super::{Quality, active_constraints, grouping};
+use crate::export::caustic_layer_names;
 use crate::flow::{FlowSettings, GridSize};
 use crate::project::{Project, Shows};
-use crate::render::PlaneMaterial;
+use crate::render::{FirstHits, PlaneMaterial};
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -72,6 +74,30 @@ impl Stages {
 }
 
 impl Prepared {
+    /// Textures of each frame: one for each group of photons where the light of caustics is written apart, else 1.
+    pub(super) fn textures(&self) -> usize {
+        if self.project.output.separates_caustics() { self.sources.grouping().count() } else { 1 }
+    }
+
+    /// The names of the layers of single caustics, one for each texture of a frame; none where their light is one.
+    pub(super) fn caustic_layer_names(&self) -> Vec<String> {
+        if !self.project.output.separates_caustics() {
+            return Vec::new();
+        }
+        caustic_layer_names(self.project.caustics.iter().map(|caustic| caustic.name.as_str()))
+    }
+
+    /// Coverage and depth of what the camera sees, where a layer asks for them and there is a scene.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn first_hits(&self, meter: &Meter, progress: &Progress) -> Result<Option<FirstHits>> {
+        let Project { render, output, seed, .. } = &self.project;
+        let Some(scene) = self.scene.as_ref().filter(|_| output.shows_surfaces()) else { return Ok(None) };
+        let size = [render.width as usize, render.height as usize];
+        meter.measure("visible", || FirstHits::new(scene, size, *seed, progress)).map(Some)
+    }
+
     /// The look of light on the plane.
     pub(super) fn plane_material(&self) -> PlaneMaterial {
         self.scene.as_ref().map_or(PlaneMaterial::WHITE, |scene| PlaneMaterial::of(scene.receiver()))

@@ -52,8 +52,16 @@ pub(super) fn shares(project: &Project, grouping: &Grouping) -> Vec<Option<Still
 
 /// The light that does not flow, as the camera sees it.
 pub(super) struct StillLight {
-    /// Groups with equal shares have their pictures in common.
-    layers: Vec<(StillShares, StillPictures)>,
+    /// Groups with equal shares have their pictures in common, unless all are wanted apart.
+    layers: Vec<Layer>,
+}
+
+/// The light of some groups of photons.
+struct Layer {
+    /// By number, in order.
+    groups: Vec<usize>,
+    shares: StillShares,
+    pictures: StillPictures,
 }
 
 impl StillLight {
@@ -67,13 +75,8 @@ impl StillLight {
         (grouping, shares): (&Grouping, &[Option<StillShares>]),
         progress: &Progress,
     ) -> Result<Self> {
-        let mut different: Vec<StillShares> = Vec::new();
-        for shares in shares.iter().flatten() {
-            if !different.contains(shares) {
-                different.push(shares.clone());
-            }
-        }
-        if different.is_empty() {
+        let layers = layers(shares, project.output.separates_caustics());
+        if layers.is_empty() {
             return Ok(Self { layers: Vec::new() });
         }
         let (render, seed) = (&project.render, project.seed);
@@ -81,26 +84,31 @@ impl StillLight {
         let tracer =
             Tracer::of_part((scene, LightPart::Shown), EmissionGuiding::Learned, seed, &progress.inner())?;
         let (photons, _) = tracer.trace(PASS, count as usize, &progress.inner())?;
-        let layer_of = |group: usize| {
-            let own = shares[group].as_ref()?;
-            different.iter().position(|shares| shares == own)
-        };
-        let textures: Vec<StillTextures> = (0..different.len())
-            .map(|layer| {
-                let is_in = |row: &usize| {
-                    layer_of(grouping.group_of(photons.light[*row], photons.mesh[*row])) == Some(layer)
-                };
-                let rows: Vec<usize> = (0..photons.len()).filter(is_in).collect();
-                textures(scene, render.max_texels, &photons, &rows)
-            })
-            .collect();
+        let textures = layers.iter().map(|(groups, _)| {
+            let is_in =
+                |row: &usize| groups.contains(&grouping.group_of(photons.light[*row], photons.mesh[*row]));
+            let rows: Vec<usize> = (0..photons.len()).filter(is_in).collect();
+            textures(scene, render.max_texels, &photons, &rows)
+        });
+        let textures: Vec<StillTextures> = textures.collect();
         let pictures = still_pictures(scene, &textures, render, seed, progress)?;
-        Ok(Self { layers: different.into_iter().zip(pictures).collect() })
+        let layers = layers.into_iter().zip(pictures);
+        let layers =
+            layers.map(|((groups, shares), pictures)| Layer { groups, shares: shares.clone(), pictures });
+        Ok(Self { layers: layers.collect() })
     }
 
-    /// Adds the light of a moment to a picture of the same size.
-    pub(super) fn add_to(&self, picture: &mut Image, SegmentTime { segment, time }: SegmentTime) {
-        for (shares, StillPictures { stays, in_glass }) in &self.layers {
+    /// Adds the light of a moment to a picture of the same size: that of one group, which must be apart, or of all.
+    pub(super) fn add_to(
+        &self,
+        picture: &mut Image,
+        group: Option<usize>,
+        SegmentTime { segment, time }: SegmentTime,
+    ) {
+        let wanted = |layer: &&Layer| group.is_none_or(|group| layer.groups == [group]);
+        for Layer { shares, pictures: StillPictures { stays, in_glass }, .. } in
+            self.layers.iter().filter(wanted)
+        {
             for (share, light) in [(&shares.stays, stays), (&shares.kept, in_glass)] {
                 // A picture may be asked for a moment of a project that has got more keys since.
                 let ends = [segment, segment + 1].map(|key| share[key.min(share.len() - 1)]);
@@ -112,6 +120,19 @@ impl StillLight {
             }
         }
     }
+}
+
+/// The groups that have light that does not flow: those with equal shares together, or each `apart`.
+fn layers(shares: &[Option<StillShares>], apart: bool) -> Vec<(Vec<usize>, &StillShares)> {
+    let mut layers: Vec<(Vec<usize>, &StillShares)> = Vec::new();
+    for (group, shares) in shares.iter().enumerate() {
+        let Some(shares) = shares else { continue };
+        match layers.iter_mut().find(|(_, of)| !apart && *of == shares) {
+            Some((groups, _)) => groups.push(group),
+            None => layers.push((vec![group], shares)),
+        }
+    }
+    layers
 }
 
 /// The light of some photons on the receiver and the floor: what stays, and all.

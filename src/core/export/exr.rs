@@ -1,7 +1,9 @@
-//! OpenEXR, half float: part `rgba` is the beauty, followed by the parts `caustic` and `background`.
+//! OpenEXR: a part for each layer, half float but for the depth.
 //!
-//! Beauty is background + caustic, summed in f32 before each is rounded to half. The files hold no date and no host
-//! name, and their attributes are sorted: equal input gives equal bytes.
+//! The part `rgba` is the beauty with the channels `R`, `G`, `B`, `A`; those of the others bear the name of their layer
+//! before a dot, which Nuke, OpenImageIO and Blender take for the layer's name: `caustic.R`. Beauty is background +
+//! caustic, summed in f32 before each is rounded to half. The files hold no date and no host name, and their attributes
+//! are sorted: equal input gives equal bytes.
 
 use std::collections::HashMap;
 use std::io::{Cursor, Write};
@@ -16,10 +18,14 @@ use glam::Vec3;
 use half::f16;
 
 use super::frame::{Frame, Metadata, RepairedSamples};
+use super::layer::FrameLayer;
+use super::projection;
+use super::time_code::time_code;
+use crate::render::image::Image;
 use crate::{Error, Result};
 
 /// Writes a frame; returns the repaired samples, which the metadata counts too.
-pub fn write(path: &Path, frame: &Frame<'_>) -> Result<RepairedSamples> {
+pub fn write<'a>(path: &Path, frame: &Frame<'a>) -> Result<RepairedSamples> {
     let size = (frame.background.width, frame.background.height);
     assert_eq!(size, (frame.caustic.width, frame.caustic.height), "layers of one size");
     let mut repairs = RepairedSamples::default();
@@ -28,28 +34,55 @@ pub fn write(path: &Path, frame: &Frame<'_>) -> Result<RepairedSamples> {
         repairs.nonfinite_replaced += v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
         Vec3::from(fixed)
     };
-    let caustic: Vec<Vec3> = frame.caustic.pixels.iter().map(|&v| finite(v)).collect();
-    let background: Vec<Vec3> = frame.background.pixels.iter().map(|&v| finite(v)).collect();
+    let mut layer = |image: &Image| -> Vec<Vec3> { image.pixels.iter().map(|&v| finite(v)).collect() };
+    let caustic = layer(frame.caustic);
+    let background = layer(frame.background);
+    let single: Vec<(&str, Vec<Vec3>)> =
+        frame.caustics.iter().map(|(name, image)| (name.as_str(), layer(image))).collect();
     let beauty: Vec<Vec3> = background.iter().zip(&caustic).map(|(b, c)| b + c).collect();
-    let mut halves = |values: &[Vec3], alpha: bool| channels(values, alpha, &mut repairs.half_clamped);
-    let parts = [
-        ("rgba", halves(&beauty, true)),
-        ("caustic", halves(&caustic, false)),
-        ("background", halves(&background, false)),
-    ];
-    let layers = parts.map(|(name, channels)| {
-        Layer::new(size, attributes(name, frame.metadata, repairs), encoding(), channels)
-    });
+    let covered = vec![1.0; caustic.len()];
+    let alpha = frame.first_hits.map_or(&covered, |hits| &hits.coverage);
+    let mut parts: Vec<(&str, Vec<AnyChannel<FlatSamples>>)> = Vec::new();
+    for layer in FrameLayer::ALL.into_iter().filter(|layer| frame.layers.contains(layer)) {
+        let mut colours = |of: &str, values: &[Vec3]| colours(of, values, &mut repairs.half_clamped);
+        let mut with_alpha = |of: &str, values: &[Vec3]| {
+            let mut channels = colours(of, values);
+            channels.push(halves(format!("{of}A"), alpha.iter().copied(), &mut 0));
+            channels
+        };
+        match layer {
+            FrameLayer::Beauty => parts.push(("rgba", with_alpha("", &beauty))),
+            FrameLayer::Caustic => parts.push(("caustic", colours("caustic.", &caustic))),
+            FrameLayer::Caustics => {
+                let part =
+                    |(name, values): &(&'a str, Vec<Vec3>)| (*name, colours(&format!("{name}."), values));
+                parts.extend(single.iter().map(part));
+            }
+            FrameLayer::Background => parts.push(("background", with_alpha("background.", &background))),
+            FrameLayer::Depth => parts.extend(frame.first_hits.map(|hits| {
+                ("depth", vec![AnyChannel::new("depth.Z", FlatSamples::F32(hits.depth.clone()))])
+            })),
+        }
+    }
+    let count = parts.len();
+    let layers: Vec<_> = parts
+        .into_iter()
+        .map(|(name, channels)| {
+            let attributes = attributes(name, frame.metadata, size, repairs);
+            Layer::new(size, attributes, encoding(), AnyChannels::sort(channels.into()))
+        })
+        .collect();
     let mut shared = ImageAttributes::new(IntegerBounds::from_dimensions(size));
     shared.chromaticities = Some(REC709);
-    let image = ExrImage::from_layers(shared, layers.into_iter().collect::<Vec<_>>());
+    shared.time_code = time_code(frame.metadata.frame, frame.metadata.frames_per_second);
+    let image = ExrImage::from_layers(shared, layers);
     let mut bytes = Vec::new();
     image
         .write()
         .non_parallel()
         .to_buffered(Cursor::new(&mut bytes))
         .map_err(|error| Error::format(path, "", format!("cannot be made: {error}")))?;
-    sort_attributes(&mut bytes, 3);
+    sort_attributes(&mut bytes, count);
     crate::files::write_atomic(path, |file| file.write_all(&bytes))?;
     Ok(repairs)
 }
@@ -66,8 +99,18 @@ fn encoding() -> Encoding {
     Encoding { compression: Compression::PIZ, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing }
 }
 
-fn attributes(name: &str, metadata: &Metadata, repairs: RepairedSamples) -> LayerAttributes {
+fn attributes(
+    name: &str,
+    metadata: &Metadata,
+    (width, height): (usize, usize),
+    repairs: RepairedSamples,
+) -> LayerAttributes {
     let mut attributes = LayerAttributes::named(name);
+    if let Some(camera) = &metadata.camera {
+        attributes.world_to_camera = Some(projection::world_to_camera(camera));
+        attributes.world_to_normalized_device =
+            Some(projection::world_to_ndc(camera, width as f32 / height as f32));
+    }
     attributes.software_name = Some(Text::from(concat!("Lightloom ", env!("CARGO_PKG_VERSION"))));
     attributes.frames_per_second = Some(metadata.frames_per_second);
     // UTF-8; the crate's conversion refuses anything but Latin-1.
@@ -87,25 +130,20 @@ fn attributes(name: &str, metadata: &Metadata, repairs: RepairedSamples) -> Laye
     attributes
 }
 
-/// Planes of half floats; alpha is 1 everywhere.
-fn channels(values: &[Vec3], alpha: bool, clamped: &mut u64) -> AnyChannels<FlatSamples> {
+/// The channels R, G and B of a picture in half floats, behind `prefix`.
+fn colours(prefix: &str, values: &[Vec3], clamped: &mut u64) -> Vec<AnyChannel<FlatSamples>> {
+    let plane = |(i, name)| halves(format!("{prefix}{name}"), values.iter().map(|v| v[i]), clamped);
+    ["R", "G", "B"].into_iter().enumerate().map(plane).collect()
+}
+
+/// A channel of half floats; values that are too large are clamped and counted.
+fn halves(name: String, values: impl Iterator<Item = f32>, clamped: &mut u64) -> AnyChannel<FlatSamples> {
     let largest = f16::MAX.to_f32();
-    let mut plane = |name: &str, channel: usize| {
-        let samples = values
-            .iter()
-            .map(|v| {
-                let value = v[channel];
-                *clamped += u64::from(value.abs() > largest);
-                f16::from_f32(value.clamp(-largest, largest))
-            })
-            .collect();
-        AnyChannel::new(name, FlatSamples::F16(samples))
+    let half = |value: f32| {
+        *clamped += u64::from(value.abs() > largest);
+        f16::from_f32(value.clamp(-largest, largest))
     };
-    let mut list = vec![plane("R", 0), plane("G", 1), plane("B", 2)];
-    if alpha {
-        list.push(AnyChannel::new("A", FlatSamples::F16(vec![f16::ONE; values.len()])));
-    }
-    AnyChannels::sort(list.into())
+    AnyChannel::new(name.as_str(), FlatSamples::F16(values.map(half).collect()))
 }
 
 /// Sorts the attributes of each of the `headers` by name. The `exr` crate keeps free attributes in a hash map, whose

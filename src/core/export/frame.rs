@@ -1,14 +1,23 @@
 //! What is written for one frame, and what had to be repaired in it.
 
+use super::layer::FrameLayer;
+use crate::render::first_hits::FirstHits;
 use crate::render::image::Image;
+use crate::scene::camera::Camera;
 
 /// One finished frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// Light without caustics, linear.
+    /// The layers to be written, for formats that have some.
+    pub layers: &'a [FrameLayer],
+    /// Light without caustics, linear; black where no layer shows it.
     pub background: &'a Image,
     /// The caustics alone, linear, of the same size.
     pub caustic: &'a Image,
+    /// The caustics one by one with the names of their layers, of the same size.
+    pub caustics: &'a [(String, Image)],
+    /// Coverage and depth of the surfaces; none where there are none, and everything is covered.
+    pub first_hits: Option<&'a FirstHits>,
     /// Metadata of the file.
     pub metadata: &'a Metadata,
 }
@@ -24,6 +33,8 @@ pub struct Metadata {
     pub seed: u64,
     /// Passes in this frame.
     pub passes: u32,
+    /// The camera; none where the plane is seen straight on.
+    pub camera: Option<Camera>,
     /// Further names and values, such as settings; each name is prefixed with `lightloom:`.
     pub settings: Vec<(String, String)>,
 }

@@ -3,13 +3,17 @@
 pub mod comparison;
 pub mod exr;
 pub mod fields;
+pub mod film;
+pub mod layer;
 pub mod overlay;
 pub mod pattern;
 pub mod png;
 pub mod sheet;
 
 mod frame;
+mod projection;
 mod text;
+mod time_code;
 
 use std::path::Path;
 
@@ -18,7 +22,9 @@ use serde::{Deserialize, Serialize};
 
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use fields::{SegmentFields, load_fields, write_fields};
+pub use film::{FilmFormat, Reel, write_film};
 pub use frame::{Frame, Metadata, RepairedSamples};
+pub use layer::{FrameLayer, caustic_layer_names};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use png::PngDepth;
@@ -31,7 +37,7 @@ use crate::render::view::View;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FrameFormat {
-    /// OpenEXR, half float, linear, with the layers beauty, caustic and background.
+    /// OpenEXR, half float, linear, in layers ([`FrameLayer`]).
     Exr,
     /// PNG through the view transform, ready to be shown.
     Png,

@@ -39,8 +39,8 @@ pub fn encode(encoded: &Image) -> Result<Vec<u8>> {
 }
 
 fn write_to(writer: impl io::Write, encoded: &Image, depth: PngDepth) -> io::Result<()> {
-    let (bits, bytes) = match depth {
-        PngDepth::Eight => (png::BitDepth::Eight, quantize(encoded, 255.0, |v, out| out.push(v as u8))),
+    let (bits, data) = match depth {
+        PngDepth::Eight => (png::BitDepth::Eight, bytes(encoded)),
         PngDepth::Sixteen => {
             let push = |v: u32, out: &mut Vec<u8>| out.extend_from_slice(&(v as u16).to_be_bytes());
             (png::BitDepth::Sixteen, quantize(encoded, 65_535.0, push))
@@ -52,8 +52,13 @@ fn write_to(writer: impl io::Write, encoded: &Image, depth: PngDepth) -> io::Res
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header().map_err(io::Error::other)?;
-    writer.write_image_data(&bytes).map_err(io::Error::other)?;
+    writer.write_image_data(&data).map_err(io::Error::other)?;
     writer.finish().map_err(io::Error::other)
+}
+
+/// The bytes R, G, B of a picture of screen values, as in a PNG of 8 bits.
+pub(super) fn bytes(encoded: &Image) -> Vec<u8> {
+    quantize(encoded, 255.0, |v, out| out.push(v as u8))
 }
 
 fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u8> {
@@ -71,7 +76,7 @@ fn quantize(image: &Image, most: f32, push: impl Fn(u32, &mut Vec<u8>)) -> Vec<u
 }
 
 /// A dither threshold in (0, 1) of low discrepancy: the R2 sequence folded to a triangle wave (Roberts 2018, *The unreasonable effectiveness of quasirandom sequences*).
-fn dither(x: usize, y: usize) -> f32 {
+pub(super) fn dither(x: usize, y: usize) -> f32 {
     let v = (x as f64 * 0.754_877_666_246_693 + y as f64 * 0.569_840_290_998_053).fract();
     let triangle = if v < 0.5 { 2.0 * v } else { 2.0 - 2.0 * v };
     (triangle * 0.998 + 0.001) as f32

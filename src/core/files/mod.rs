@@ -7,6 +7,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Read as _, Write as _};
 use std::path::Path;
 
+use tempfile::NamedTempFile;
+
 use crate::{Error, Result};
 
 /// The content of the regular file at `path`.
@@ -33,23 +35,33 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
 /// Writes `path` atomically: to a temporary file beside it, which is flushed to the disk and then renamed. If `fill` or the
 /// disk fails, the temporary file is removed and an old file of that name is unchanged.
 pub fn write_atomic(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<()> {
-    let folder = folder_of(path);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lightloom-").suffix(".tmp");
-    // Temporary files are private by default; permissions are left to the umask.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let temporary = builder.tempfile_in(folder).map_err(Error::io("create a file in", folder))?;
+    let temporary = temporary_beside(path, ".tmp")?;
     let mut writer = BufWriter::with_capacity(1 << 20, temporary.as_file());
     let filled = fill(&mut writer).and_then(|()| writer.flush());
     drop(writer);
+    filled.map_err(Error::io("write", path))?;
+    keep(temporary, path)
+}
+
+/// A temporary file in the folder of `path`, whose name ends in `suffix`; it is removed unless it is kept.
+pub(crate) fn temporary_beside(path: &Path, suffix: &str) -> Result<NamedTempFile> {
+    let folder = folder_of(path);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lightloom-").suffix(suffix);
+    // Temporary files are private by default; permissions are left to the umask.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder).map_err(Error::io("create a file in", folder))
+}
+
+/// Makes a complete temporary file that at `path`, in one step.
+pub(crate) fn keep(temporary: NamedTempFile, path: &Path) -> Result<()> {
     // The new file keeps the permissions of the old one.
     #[cfg(unix)]
-    let filled = filled.and_then(|()| match std::fs::metadata(path) {
-        Ok(old) if old.is_file() => temporary.as_file().set_permissions(old.permissions()),
-        _ => Ok(()),
-    });
-    filled.and_then(|()| temporary.as_file().sync_all()).map_err(Error::io("write", path))?;
+    if let Some(old) = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file) {
+        temporary.as_file().set_permissions(old.permissions()).map_err(Error::io("write", path))?;
+    }
+    temporary.as_file().sync_all().map_err(Error::io("write", path))?;
     temporary.persist(path).map_err(|failed| Error::io("write", path)(failed.error))?;
     Ok(())
 }

@@ -52,11 +52,11 @@ impl SegmentFlow {
         }
     }
 
-    /// Time steps; none where paths have a closed form.
+    /// Time steps of the photons; none where paths have a closed form.
     pub fn steps(&self) -> Option<usize> {
         match self {
             Self::Fields(fields) => Some(fields.steps()),
-            Self::Meeting(fields) => Some(fields.steps()),
+            Self::Meeting(fields) => Some(fields.moves()),
             Self::Paths => None,
         }
     }

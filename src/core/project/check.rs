@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::caustic::{CausticDesc, unknown_name};
 use super::shows::Shows;
 use super::{Project, VERSION, keyframe};
+use crate::export::FrameLayer;
 use crate::flow::MotionMethod;
 use crate::matching::MatchingMethod;
 use crate::{Error, Result};
@@ -36,7 +37,12 @@ impl Project {
         }
         self.flow.check("flow")?;
         self.render.check("render")?;
-        self.output.check("output")
+        self.output.check("output")?;
+        if self.output.layers.contains(&FrameLayer::Caustics) && self.caustics.is_empty() {
+            let what = "\"caustics\" asks for a layer of each named caustic, but the project names none; use \"caustic\"";
+            return Err(Error::value("output.layers", what));
+        }
+        Ok(())
     }
 
     /// Checks that pairing row by row has point files at every key.

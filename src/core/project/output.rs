@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::frames;
-use crate::export::{FrameFormat, FramePattern, PngDepth};
+use crate::export::{FrameFormat, FrameLayer, FramePattern, PngDepth};
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
@@ -22,8 +22,12 @@ pub struct OutputSettings {
     pub fps: [u32; 2],
     /// Formats: "exr", "png".
     pub formats: Vec<FrameFormat>,
+    /// Layers of EXR files ([`Self::LAYERS`]).
+    pub layers: Vec<FrameLayer>,
     /// Bits per channel of PNG files, 8 or 16.
     pub png_bits: u8,
+    /// Whether sheets show the drawn constraints ([`Self::DRAWS_CONSTRAINTS`]).
+    pub draws_constraints: bool,
 }
 
 settings! { OutputSettings {
@@ -35,11 +39,16 @@ settings! { OutputSettings {
     FPS = Setting::whole("output.fps", [1.0, 1e6], &[24.0, 1.0]);
     /// Formats: "exr" holds the light itself in layers, for compositing; "png" shows it as on a screen. Default both.
     FORMATS = Setting::part("output.formats");
+    /// Layers of EXR files: "beauty", "caustic", "caustics" (one for each named caustic), "background", "depth". Without
+    /// beauty and background none is traced, and PNG files show the caustics alone. Default all but "caustics".
+    LAYERS = Setting::part("output.layers");
     /// Bits per channel of PNG files.
     PNG_BITS = Setting::choice("output.png_bits", &[
         Choice { value: "8", help: "small files" },
         Choice { value: "16", help: "smooth dark gradients, larger files" },
     ]);
+    /// Whether contact sheets and comparison sheets show the drawn lines and walls as thin lines over the light.
+    DRAWS_CONSTRAINTS = Setting::switch("output.draws_constraints", false);
 } }
 
 impl Default for OutputSettings {
@@ -49,7 +58,9 @@ impl Default for OutputSettings {
             frames: None,
             fps: Self::FPS.value(),
             formats: vec![FrameFormat::Exr, FrameFormat::Png],
+            layers: FrameLayer::DEFAULT.to_vec(),
             png_bits: 8,
+            draws_constraints: Self::DRAWS_CONSTRAINTS.is_on(),
         }
     }
 }
@@ -58,6 +69,22 @@ impl OutputSettings {
     /// The depth of PNG files.
     pub fn png_depth(&self) -> PngDepth {
         if self.png_bits == 16 { PngDepth::Sixteen } else { PngDepth::Eight }
+    }
+
+    /// Whether a layer shows the picture without caustics.
+    pub fn shows_background(&self) -> bool {
+        self.layers.iter().any(|layer| layer.shows_background())
+    }
+
+    /// Whether coverage or depth of the surfaces is written.
+    pub fn shows_surfaces(&self) -> bool {
+        let asked = self.shows_background() || self.layers.contains(&FrameLayer::Depth);
+        asked && self.formats.contains(&FrameFormat::Exr)
+    }
+
+    /// Whether each named caustic is written by itself.
+    pub fn separates_caustics(&self) -> bool {
+        self.layers.contains(&FrameLayer::Caustics) && self.formats.contains(&FrameFormat::Exr)
     }
 
     /// Whether `name` matches the file name of a frame.
@@ -81,6 +108,10 @@ impl OutputSettings {
         Self::FPS.check(self.fps, place)?;
         if self.formats.is_empty() {
             return wrong("formats", "the list is empty; name at least one of \"exr\", \"png\"".into());
+        }
+        if self.layers.iter().all(|layer| *layer == FrameLayer::Depth) {
+            let names = FrameLayer::ALL.map(|layer| format!("\"{}\"", layer.name())).join(", ");
+            return wrong("layers", format!("the list shows no light; name at least one of {names}"));
         }
         if ![8, 16].contains(&self.png_bits) {
             return wrong("png_bits", format!("{} is not offered; give 8 or 16", self.png_bits));

@@ -5,12 +5,13 @@
 //! a mirror to a light are left out, because that light is the caustic photons'. The sky emits no photons, so its light
 //! does pass through glass.
 //!
-//! Sampling is adaptive: noisy pixels and their neighbours get more samples. A few samples can miss what is rare and
-//! bright, but hardly in a whole neighbourhood. What still stands out alone in glass is clamped, and counted.
+//! Sampling is adaptive (`adaptive`): pixels get more samples where their neighbours are noisy. A few samples can miss what is
+//! rare and bright, but hardly in a whole neighbourhood. What still stands out alone in glass is clamped, and counted.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
+use super::adaptive::{Estimate, noisy};
 use super::camera_sampler::FAINT as FAINT_WAY;
 use super::fireflies::{ClampedLight, clamp_outliers};
 use super::image::Image;
@@ -30,12 +31,8 @@ const BOUNCES: u32 = 3;
 const MAX_SURFACES: usize = 32;
 /// Throughput below which Russian roulette applies after a matt surface; before it, `FAINT_WAY`.
 const FAINT: f32 = 0.1;
-/// Bounds on the samples of a noisy pixel, in units of the setting.
-const NOISY: [u32; 2] = [8, 64];
-/// Part of these that a pixel gets that sees glass or a mirror, where one sample is several paths.
-const SPECULAR: u32 = 4;
-/// The accepted standard error, relative to a pixel's brightness plus half that of the picture.
-const TOLERANCE: f32 = 0.016;
+/// Times that the samples of a noisy pixel are doubled, at most.
+const ROUNDS: u32 = 6;
 /// Clamp on fireflies: largest luminance of a light seen in glass or a mirror, over the mean of the picture. Lamps are
 /// thousands of times brighter, and one chance reflection of a small lamp would sparkle; this is still white.
 const FIREFLY_LIMIT: f32 = 50.0;
@@ -81,45 +78,38 @@ fn render(
     let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
     let brightness = tracer.brightness(seed);
     tracer.firefly_limit = FIREFLY_LIMIT * brightness;
-    let base = settings.background_samples;
-    progress.begin("background", 2 * height as u64);
+    let first = settings.background_samples;
+    progress.begin("background", height as u64 * u64::from(if adaptive { 2 + ROUNDS } else { 2 }));
     let mut pixels: Vec<Pixel> = (0..width * height)
         .map(|i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64)))
         .collect();
-    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(usize, &Pixel) -> bool + Sync)| {
+    // Until each pixel has as many samples as wanted.
+    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(usize) -> u32 + Sync)| {
         pixels.par_chunks_mut(width).enumerate().try_for_each(|(y, row)| -> Result<()> {
             for (x, pixel) in row.iter_mut().enumerate() {
                 progress.check()?;
-                while wanted(y * width + x, pixel) {
-                    (0..base).for_each(|_| tracer.sample(x, y, pixel));
+                let samples = wanted(y * width + x).saturating_sub(pixel.count);
+                if samples > 0 {
+                    pixel.half = pixel.sum;
+                    (0..samples).for_each(|_| tracer.sample(x, y, pixel));
                 }
             }
             progress.advance(1);
             Ok(())
         })
     };
-    trace(&mut pixels, &|_, pixel| pixel.count == 0)?;
+    // Halves, so that there are two to compare.
+    trace(&mut pixels, &|_| first.div_ceil(2))?;
+    trace(&mut pixels, &|_| first)?;
     let floor = 0.5 * brightness;
-    if !adaptive {
-        return Ok(tracer.finish(&pixels, floor));
+    let mut open = vec![adaptive; pixels.len()];
+    for _ in 0..if adaptive { ROUNDS } else { 0 } {
+        let estimates: Vec<Estimate> = pixels.iter().map(Pixel::estimate).collect();
+        let noisy = noisy(&estimates, width, floor, first);
+        open.iter_mut().zip(noisy).for_each(|(open, noisy)| *open &= noisy);
+        trace(&mut pixels, &|i| if open[i] { 2 * estimates[i].count } else { 0 })?;
     }
-    let noisy = |pixel: &Pixel| pixel.error() > TOLERANCE * (pixel.luminance() + floor);
-    let near_noise = dilated(&pixels.iter().map(noisy).collect::<Vec<_>>(), width);
-    trace(&mut pixels, &|i, pixel| {
-        let [least, most] = NOISY.map(|units| units * base / if pixel.specular { SPECULAR } else { 1 });
-        near_noise[i] && (pixel.count < least || (pixel.count < most && noisy(pixel)))
-    })?;
     Ok(tracer.finish(&pixels, floor))
-}
-
-/// Morphological dilation: whether each pixel or one of its eight neighbours is marked.
-fn dilated(marked: &[bool], width: usize) -> Vec<bool> {
-    let height = marked.len() / width;
-    let around = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
-    (0..marked.len())
-        .into_par_iter()
-        .map(|i| around(i / width, height).any(|y| around(i % width, width).any(|x| marked[y * width + x])))
-        .collect()
 }
 
 /// The accumulated samples of a pixel.
@@ -127,8 +117,8 @@ struct Pixel {
     rng: Stream,
     sampler: Sampler,
     sum: Vec3,
-    /// Sum of squared luminance.
-    square: f32,
+    /// The sum when there were half as many samples.
+    half: Vec3,
     count: u32,
     /// Sum of the luminance that was clamped.
     clamped: f32,
@@ -139,12 +129,12 @@ struct Pixel {
 impl Pixel {
     fn new(mut rng: Stream) -> Self {
         let sampler = Sampler::new(rng.u32());
-        Self { rng, sampler, sum: Vec3::ZERO, square: 0.0, count: 0, clamped: 0.0, specular: false }
+        let sum = Vec3::ZERO;
+        Self { rng, sampler, sum, half: sum, count: 0, clamped: 0.0, specular: false }
     }
 
     fn add(&mut self, value: Vec3) {
         self.sum += value;
-        self.square += luminance(value).powi(2);
         self.count += 1;
     }
 
@@ -156,11 +146,14 @@ impl Pixel {
         luminance(self.mean())
     }
 
-    /// Standard error of the luminance, as of independent samples; stratified ones are better.
-    fn error(&self) -> f32 {
-        let n = self.count.max(2) as f32;
-        let variance = (self.square / n - self.luminance().powi(2)).max(0.0);
-        (variance / (n - 1.0)).sqrt()
+    /// Of a pixel whose samples were doubled last.
+    fn estimate(&self) -> Estimate {
+        let luminance_of_half = luminance(self.half / self.count.div_ceil(2).max(1) as f32);
+        Estimate {
+            luminance: self.luminance(),
+            change: luminance_of_half - self.luminance(),
+            count: self.count,
+        }
     }
 }
 
@@ -213,9 +206,9 @@ impl PathTracer<'_> {
 
     /// One more path through a pixel.
     fn sample(&self, x: usize, y: usize, pixel: &mut Pixel) {
-        let index = pixel.count;
+        let Pixel { sampler, count: index, .. } = *pixel;
         let size = vec2(self.width as f32, self.height as f32);
-        let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(pixel.sampler.pair(index, 0));
+        let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(sampler.pair(index, 0));
         let place: Vec2 = at / size * 2.0 - 1.0;
         let ray = self.scene.camera().ray(place.x, -place.y, size.x / size.y);
         let radiance = self.radiance(ray, index, pixel);

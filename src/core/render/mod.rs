@@ -7,6 +7,7 @@
 
 pub mod background;
 pub mod density;
+pub mod first_hits;
 pub mod frames;
 pub mod gather_matrix;
 pub mod image;
@@ -20,12 +21,14 @@ pub mod still_light;
 pub mod texture;
 pub mod view;
 
+mod adaptive;
 mod camera_sampler;
 mod fireflies;
 mod sampler;
 
 pub use background::{Background, background, rough_background};
 pub use fireflies::ClampedLight;
+pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};
 pub use image::Image;
 pub use orbit_view::{MarkerKind, OrbitLight, SceneMarker, orbit_image, scene_markers};

@@ -54,7 +54,7 @@ pub fn still_pictures(
         let mut row = vec![[Vec3::ZERO; 2]; width * lights.len()];
         for (x, pixel) in row.chunks_exact_mut(lights.len()).enumerate() {
             progress.check()?;
-            let rng = Stream::new(seed, Purpose::Visible, 1, (y * width + x) as u64);
+            let rng = Stream::new(seed, Purpose::Visible, 2, (y * width + x) as u64);
             let taken = camera.pixel([x, y], samples, rng, &mut |seen| {
                 for (light, [stays, in_glass]) in lights.iter().zip(&mut *pixel) {
                     *stays += seen.weight * at(&light.stays, seen.point);

@@ -16,6 +16,7 @@ impl App {
     pub(super) fn apply(&mut self, ctx: &egui::Context, action: Action) {
         match self.editor.apply(action) {
             Some(Action::Command(command)) => self.command(ctx, command),
+            Some(Action::PlayFrames(path)) => self.windows.player.play(ctx, &path),
             Some(Action::Open(path)) => self.leave(ctx, Leave::Open(path)),
             Some(Action::New(template)) => self.leave(ctx, Leave::New(template)),
             Some(Action::PickFile(asset)) => self.pick_file(ctx, asset),
@@ -50,6 +51,7 @@ impl App {
             Command::SaveAs => self.save_as(ctx),
             Command::Quit => self.leave(ctx, Leave::Quit),
             Command::Export => self.windows.export.open = true,
+            Command::Player => self.windows.player.open = !self.windows.player.open,
             Command::Palette => self.windows.palette.open(),
             Command::Shortcuts => self.windows.shortcuts.open = !self.windows.shortcuts.open,
             Command::Preferences => self.windows.preferences = !self.windows.preferences,

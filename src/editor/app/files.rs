@@ -214,6 +214,7 @@ impl App {
             Purpose::OpenProject => self.leave(ctx, Leave::Open(path)),
             Purpose::SaveProject => self.save_to(path, None),
             Purpose::ExportFolder => self.windows.export.set_folder(path),
+            Purpose::Frames => self.windows.player.play(ctx, &path),
             Purpose::Asset(pick) => self.insert(&pick, &path),
         }
     }
@@ -235,7 +236,7 @@ impl App {
         }
     }
 
-    /// A file that was dropped on the window: a project is opened, a mesh comes into the scene, a picture or points become
+    /// A file that was dropped on the window: a project is opened, a folder of frames is played, a mesh comes into the scene, a picture or points become
     /// what the key frame after the playhead shows.
     fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
@@ -243,6 +244,9 @@ impl App {
         let keys = &self.editor.document.project().keys;
         let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
         let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
+        if file.is_dir() {
+            return self.windows.player.play(ctx, &file);
+        }
         if ending.as_deref() == Some("json") {
             return self.leave(ctx, Leave::Open(file));
         }

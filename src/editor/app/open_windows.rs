@@ -2,6 +2,7 @@
 
 use crate::editor::export::ExportWindow;
 use crate::editor::palette::Palette;
+use crate::editor::player::Player;
 use crate::editor::shortcuts::ShortcutSheet;
 use crate::editor::tour::{Anchors, Tour};
 use crate::editor::welcome::Welcome;
@@ -10,6 +11,7 @@ use crate::editor::welcome::Welcome;
 #[derive(Default)]
 pub(super) struct Windows {
     pub(super) export: ExportWindow,
+    pub(super) player: Player,
     pub(super) palette: Palette,
     pub(super) shortcuts: ShortcutSheet,
     pub(super) preferences: bool,

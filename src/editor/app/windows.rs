@@ -1,4 +1,4 @@
-//! The secondary windows: export, palette, shortcuts, preferences, examples, tour.
+//! The secondary windows: export, player, palette, shortcuts, preferences, examples, tour.
 
 use eframe::egui;
 use egui::Key;
@@ -22,6 +22,7 @@ impl App {
         let windows = &mut self.windows;
         windows.export.external = self.external;
         windows.export.show(ctx, &mut editor, &mut self.exports, &mut self.picker);
+        windows.player.show(ctx, &mut self.picker);
         let flow = &editor.document.project().flow;
         let presets = || -> Vec<_> {
             let preset = |preset: &crate::editor::panels::Preset| {

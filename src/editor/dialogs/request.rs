@@ -18,6 +18,8 @@ pub enum Purpose {
     SaveProject,
     /// The output folder for frames.
     ExportFolder,
+    /// A picture of a rendered sequence to play.
+    Frames,
     /// A file for the project to use.
     Asset(AssetUse),
 }
@@ -94,6 +96,7 @@ impl Purpose {
             Self::OpenProject => "Open a project",
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
+            Self::Frames => "Choose a rendered frame",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
             Self::Asset(AssetUse::Points(_)) => "Choose a file of points",
@@ -105,6 +108,7 @@ impl Purpose {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
             Self::ExportFolder => ("Folders", &[]),
+            Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),
             Self::Asset(pick) => pick.files(),
         }
     }

@@ -1,13 +1,17 @@
 //! The settings of a new export.
 
 use egui::{Button, DragValue, Grid, TextEdit, Ui};
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FilmFormat, FrameFormat};
 
 use super::options::ExportOptions;
 use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
+use crate::editor::panels::layer_boxes;
 use crate::editor::playback;
 use crate::editor::reset_label::reset_label;
+
+/// Width of the boxes of layers, points.
+const LAYERS_WIDTH: f32 = 250.0;
 
 /// Shows the options, which reset to the project's `own`, and the time limit in minutes with its switch.
 pub(super) fn show(
@@ -37,6 +41,20 @@ pub(super) fn show(
         });
         let tip = "EXR: linear half floats in layers, for compositing. PNG: display values.";
         row(ui, "Formats", tip, &mut options.formats, &own.formats, formats);
+        let tip = "All frames in one file, film.gif and so on, that plays at the frame rate of the project. MP4 films are written by ffmpeg, where it is installed.";
+        row(ui, "Film", tip, &mut options.film, &own.film, |ui, film| {
+            ui.selectable_value(film, None, "None");
+            for format in FilmFormat::ALL {
+                ui.selectable_value(film, Some(format), format.extension().to_uppercase());
+            }
+        });
+        let tip = "What EXR files hold. Without beauty and background none is traced: PNG files show the caustics on black.";
+        row(ui, "Layers", tip, &mut options.layers, &own.layers, |ui, layers| {
+            ui.set_max_width(LAYERS_WIDTH);
+            ui.horizontal_wrapped(|ui| {
+                layer_boxes(ui, layers, !editor.document.project().caustics.is_empty());
+            });
+        });
         let tip = "Without a limit all passes are rendered. The first pass is always completed.";
         ui.label("Time").on_hover_text(tip);
         ui.horizontal(|ui| {

@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use lightloom_core::engine::{Client, Plan, RenderObserver, Summary, prepare_folder, write_report};
+use lightloom_core::engine::{
+    Client, Output, Plan, RenderObserver, Summary, prepare_film, prepare_folder, write_report,
+};
 use lightloom_core::progress::Snapshot;
 use lightloom_core::project::Project;
 use lightloom_core::render::Image;
@@ -31,6 +33,8 @@ pub struct ExportSettings {
     pub external: bool,
     /// The folder for the frames; made if it is not there.
     pub folder: PathBuf,
+    /// The file of a film of all frames, where one is wanted.
+    pub film: Option<PathBuf>,
     /// Working time after which no further pass is begun; the first is always completed. None for all passes.
     pub limit: Option<Duration>,
     /// The frame that is shown while it grows.
@@ -186,7 +190,12 @@ impl ExportJob {
     pub fn stop(&self) {
         self.stop_asked.store(true, Relaxed);
         self.progress.resume();
-        if self.passes() > 0 {
+        self.end_passes();
+    }
+
+    /// Lets no further pass begin once the first is complete; what is being written is completed.
+    fn end_passes(&self) {
+        if self.passes() > 0 && self.progress.snapshot().stage == Some("render") {
             self.progress.cancel();
         }
     }
@@ -223,10 +232,15 @@ impl ExportJob {
     }
 
     fn render(&self) -> Result<Summary> {
-        let ExportSettings { project, file, external, folder, .. } = &self.settings;
+        let ExportSettings { project, file, external, folder, film, .. } = &self.settings;
         let engine = self.engine.of(file, *external)?.on_behalf_of(Client::Export);
         prepare_folder(folder, file, project, "folder")?;
+        if let Some(film) = film {
+            prepare_film(film, file, project, "film")?;
+        }
         let saved = |_: &Path| self.state().files += 1;
+        let (film, progress) = (film.as_deref(), &self.progress);
+        let output = Output { folder, film, progress, saved: &saved, observer: self };
         // Threads of its own, one less than the machine has: they may rest without those of the preview, and leave
         // the window one to answer with.
         let threads = thread::available_parallelism().map_or(1, |n| n.get().saturating_sub(1).max(1));
@@ -235,8 +249,7 @@ impl ExportJob {
         let pool = pool
             .build()
             .map_err(|e| Error::value("threads", format!("the system does not start them: {e}")))?;
-        let summary =
-            pool.install(|| engine.render_observed(project, folder, &self.progress, &saved, self))?;
+        let summary = pool.install(|| engine.render_to(project, &output))?;
         write_report(folder, "summary.json", &summary.to_json())?;
         Ok(summary)
     }
@@ -248,8 +261,8 @@ impl ExportJob {
             let worked = begun.elapsed().saturating_sub(self.progress.rested());
             let over =
                 self.settings.limit.is_some_and(|limit| worked >= limit) || self.stop_asked.load(Relaxed);
-            if over && self.passes() > 0 {
-                self.progress.cancel();
+            if over {
+                self.end_passes();
             }
             wake();
             thread::park_timeout(TICK);

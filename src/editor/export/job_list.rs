@@ -1,11 +1,13 @@
 //! The list of exports with their status, and the preview picture of the active one.
 
 use egui::{Color32, ColorImage, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, vec2};
+use lightloom_core::export::FrameFormat;
 use lightloom_core::render::Image;
 
-use super::job::{ExportJob, Growing};
+use super::job::{ExportJob, Growing, Status};
 use super::queue::Exports;
 use super::status_line::{colour, controls, words};
+use crate::editor::action::Action;
 
 /// The list of exports.
 #[derive(Default)]
@@ -16,7 +18,13 @@ pub(super) struct JobList {
 
 impl JobList {
     /// Shows the list; the active export previews the frame at `playhead`.
-    pub(super) fn show(&mut self, ui: &mut Ui, playhead: i32, exports: &mut Exports) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        playhead: i32,
+        exports: &mut Exports,
+        actions: &mut Vec<Action>,
+    ) {
         let jobs = exports.jobs().to_vec();
         if jobs.is_empty() {
             ui.weak("Exports run in the background, from the project as it is when they start. Each pass refines all frames, so that you can stop at any time.");
@@ -42,7 +50,7 @@ impl JobList {
                     if index == active {
                         self.picture(ui, index, job);
                     }
-                    card(ui, job);
+                    card(ui, job, actions);
                 });
                 ui.add_space(6.0);
             }
@@ -68,7 +76,7 @@ impl JobList {
     }
 }
 
-fn card(ui: &mut Ui, job: &ExportJob) {
+fn card(ui: &mut Ui, job: &ExportJob, actions: &mut Vec<Action>) {
     let fill = ui.visuals().faint_bg_color;
     egui::Frame::new().fill(fill).corner_radius(4.0).inner_margin(8.0).show(ui, |ui| {
         ui.set_width(ui.available_width());
@@ -76,6 +84,11 @@ fn card(ui: &mut Ui, job: &ExportJob) {
         ui.label(RichText::new(job.settings().folder.to_string_lossy()).small().weak());
         ui.colored_label(colour(&status, ui), words(job));
         if !job.is_open() {
+            let settings = job.settings();
+            let shown = settings.project.output.formats.contains(&FrameFormat::Png);
+            if matches!(job.status(), Status::Done(_)) && shown && ui.button("Play frames").clicked() {
+                actions.push(Action::PlayFrames(settings.folder.clone()));
+            }
             return;
         }
         let bar = egui::ProgressBar::new(job.progress().overall as f32).show_percentage().corner_radius(4);

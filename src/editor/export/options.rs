@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lightloom_core::Error;
 use lightloom_core::Result;
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FilmFormat, FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 
 /// The options that a user can set for an export; all else is taken from the project.
@@ -20,6 +20,10 @@ pub struct ExportOptions {
     pub photons: u64,
     /// Picture formats.
     pub formats: Vec<FrameFormat>,
+    /// Layers of EXR files.
+    pub layers: Vec<FrameLayer>,
+    /// The kind of film of all frames, where one is wanted.
+    pub film: Option<FilmFormat>,
     /// The folder for the frames.
     pub folder: PathBuf,
 }
@@ -36,6 +40,8 @@ impl ExportOptions {
             passes: render.passes,
             photons: render.photons,
             formats: project.output.formats.clone(),
+            layers: project.output.layers.clone(),
+            film: None,
             folder: folder(project, file),
         }
     }
@@ -52,6 +58,8 @@ impl ExportOptions {
         take(&mut self.passes, &before.passes, &now.passes);
         take(&mut self.photons, &before.photons, &now.photons);
         take(&mut self.formats, &before.formats, &now.formats);
+        take(&mut self.layers, &before.layers, &now.layers);
+        take(&mut self.film, &before.film, &now.film);
         take(&mut self.folder, &before.folder, &now.folder);
     }
 
@@ -67,11 +75,17 @@ impl ExportOptions {
         let mut project = project.clone();
         project.output.frames = Some(self.frames.clone());
         project.output.formats.clone_from(&self.formats);
+        project.output.layers.clone_from(&self.layers);
         [project.render.width, project.render.height] = self.size;
         project.render.passes = self.passes;
         project.render.photons = self.photons;
         project.check()?;
         Ok(project)
+    }
+
+    /// The file of the film, in the folder of the frames.
+    pub fn film_file(&self) -> Option<PathBuf> {
+        self.film.map(|format| self.folder.join(format!("film.{}", format.extension())))
     }
 
     /// The command line that renders the same frames of the project file `file`, without the project's own values.
@@ -95,6 +109,13 @@ impl ExportOptions {
         if self.formats != own.formats {
             let names: Vec<_> = self.formats.iter().map(|format| format.extension()).collect();
             line += &format!(" --format {}", names.join(","));
+        }
+        if let Some(film) = self.film_file() {
+            line += &format!(" --film {}", path(&film));
+        }
+        if self.layers != own.layers {
+            let names: Vec<_> = self.layers.iter().map(|layer| layer.name()).collect();
+            line += &format!(" --layers {}", names.join(","));
         }
         line
     }
@@ -166,6 +187,8 @@ mod tests {
             passes: 3,
             photons: 1234,
             formats: vec![FrameFormat::Png],
+            layers: vec![FrameLayer::Caustic, FrameLayer::Depth],
+            film: Some(FilmFormat::Gif),
             folder: folder.path().join("two words $HOME \"and\" quotes'"),
         };
         for options in [own, other] {
@@ -178,6 +201,7 @@ mod tests {
             // All frames by default are those that the window lists.
             assert_eq!(run.frames().unwrap(), wanted.frames().unwrap(), "{line}");
             (run.output.frames, wanted.output.frames) = (None, None);
+            assert_eq!(args.film, options.film_file(), "{line}");
             assert_eq!((run, args.out), (wanted, options.folder), "{line}");
         }
     }

@@ -79,7 +79,7 @@ impl ExportWindow {
                 ui.separator();
                 ui.vertical(|ui| {
                     ui.set_min_width(380.0);
-                    self.jobs.show(ui, editor.session.playhead, exports);
+                    self.jobs.show(ui, editor.session.playhead, exports, editor.actions);
                 });
             });
         });
@@ -120,6 +120,7 @@ impl ExportWindow {
                 file: templates::file_of(editor.document),
                 external: self.external,
                 folder: options.folder.clone(),
+                film: options.film_file(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
                 shown: shown.or(frames.get(frames.len() / 2).copied()).unwrap_or_default(),
             });

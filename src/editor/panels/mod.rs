@@ -22,6 +22,7 @@ pub use control::Control;
 pub(crate) use drawn::row::title;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
+pub(in crate::editor) use render::layer_boxes;
 
 use super::context::EditorContext;
 use super::session::Panel;

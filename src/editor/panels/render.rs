@@ -1,7 +1,7 @@
 //! The picture: its size, its light, its quality, its files.
 
 use egui::Ui;
-use lightloom_core::export::FrameFormat;
+use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{OutputSettings, Project};
 use lightloom_core::render::view::ViewSettings;
 use lightloom_core::render::{RenderSettings, ViewTransform};
@@ -41,14 +41,34 @@ const FILE: Control = Control::new("File name", OutputSettings::NAME);
 const FRAMES: Control = Control::new("Frames", OutputSettings::FRAMES);
 const FPS: Control = Control::new("Frames per s", OutputSettings::FPS);
 const FORMATS: Control = Control::new("Formats", OutputSettings::FORMATS);
+const LAYERS: Control = Control::new("Layers", OutputSettings::LAYERS);
+const CONSTRAINTS: Control = Control::new("Constraints on sheets", OutputSettings::DRAWS_CONSTRAINTS);
 const BITS: Control = Control::new("PNG bits", OutputSettings::PNG_BITS).labels(&["8", "16"]);
 const NAME: Control = Control::new("Project", Project::NAME);
 const SEED: Control = Control::new("Seed", Project::SEED).slider(0.0, 100.0);
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] = &[
-    WIDTH, HEIGHT, EXPOSURE, TRANSFORM, PHOTONS, PASSES, RADIUS, TEXELS, CAMERA, BACKGROUND, KEPT, FILE,
-    FRAMES, FPS, FORMATS, BITS, NAME, SEED,
+    WIDTH,
+    HEIGHT,
+    EXPOSURE,
+    TRANSFORM,
+    PHOTONS,
+    PASSES,
+    RADIUS,
+    TEXELS,
+    CAMERA,
+    BACKGROUND,
+    KEPT,
+    FILE,
+    FRAMES,
+    FPS,
+    FORMATS,
+    LAYERS,
+    BITS,
+    CONSTRAINTS,
+    NAME,
+    SEED,
 ];
 
 /// The render panel.
@@ -129,9 +149,30 @@ fn files(ui: &mut Ui, project: &Project, output: &mut OutputSettings) {
             }
         }
     });
+    LAYERS.line(ui, true, |ui| {
+        ui.horizontal_wrapped(|ui| layer_boxes(ui, &mut output.layers, !project.caustics.is_empty()));
+    });
     let mut bits = output.png_bits;
     if BITS.choose(ui, &mut bits, &[8, 16]) {
         output.png_bits = bits;
+    }
+    CONSTRAINTS.toggle(ui, &mut output.draws_constraints);
+}
+
+/// A box for each layer of EXR files. That of single caustics can be ticked where some are `named`; one that shows light
+/// remains.
+pub(in crate::editor) fn layer_boxes(ui: &mut Ui, layers: &mut Vec<FrameLayer>, named: bool) {
+    for layer in FrameLayer::ALL {
+        let mut on = layers.contains(&layer);
+        let able = named || on || layer != FrameLayer::Caustics;
+        let tick = ui.add_enabled(able, egui::Checkbox::new(&mut on, layer.name()));
+        if tick.on_hover_text(layer.help()).changed() {
+            let wanted = |other: &FrameLayer| if *other == layer { on } else { layers.contains(other) };
+            let chosen: Vec<_> = FrameLayer::ALL.into_iter().filter(wanted).collect();
+            if chosen.iter().any(|layer| *layer != FrameLayer::Depth) {
+                *layers = chosen;
+            }
+        }
     }
 }
 

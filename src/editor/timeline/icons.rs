@@ -7,7 +7,7 @@ use lightloom_core::project::Ease;
 
 /// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Icon {
+pub(in crate::editor) enum Icon {
     First,
     PreviousKey,
     Back,
@@ -22,7 +22,7 @@ pub(super) enum Icon {
 }
 
 /// A button with an icon; `label` is its accessible name.
-pub(super) fn button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+pub(in crate::editor) fn button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
     let visuals = ui.style().interact_selectable(&response, on);

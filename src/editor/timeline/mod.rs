@@ -4,7 +4,7 @@ mod commands;
 mod coverage_bar;
 mod drag;
 mod edits;
-mod icons;
+pub(in crate::editor) mod icons;
 mod key_frames;
 mod lanes;
 mod ruler;

@@ -30,6 +30,8 @@ pub struct Preview {
     pub(super) frames: Vec<Option<Arc<[Vec2]>>>,
     /// By segment; absent until fitted.
     pub(super) segments: Vec<Option<Arc<FittedSegment>>>,
+    /// By segment; absent until fitted.
+    pub(super) ends: Vec<Option<Ends>>,
     pub(super) numbers: Option<FlowNumbers>,
     pub(super) stages: Vec<StageCost>,
     pub(super) notes: Vec<String>,
@@ -41,6 +43,8 @@ pub(super) struct Keys {
     pub(super) extent: Vec2,
     /// Number of the first frame.
     pub(super) first: i32,
+    /// Numbers of the key frames.
+    pub(super) frames: Vec<i32>,
     /// By frame.
     pub(super) moments: Vec<SegmentTime>,
     pub(super) lights: Vec<KeyLight>,
@@ -52,6 +56,9 @@ pub(super) struct Keys {
     /// Brightness requested at later keys than the first.
     pub(super) rho: f64,
 }
+
+/// The photons at both keys of a segment, by group.
+pub(super) type Ends = [Arc<Vec<KeyPhotons>>; 2];
 
 /// The light of all photons at a key frame.
 pub(super) struct KeyLight {

@@ -2,7 +2,7 @@
 
 use super::Preview;
 use super::light::{finest_radius, margin};
-use crate::engine::camera::{CameraPictures, CameraView};
+use crate::engine::camera::{BackgroundQuality, CameraPictures, CameraView};
 use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
@@ -41,7 +41,9 @@ impl Shot {
     /// receiver.
     pub fn picture(&self, light: &ReceiverTexture, preview: &Preview, frame: i32) -> Option<Image> {
         let fits = light.layout() == self.layout();
-        fits.then(|| self.camera.background.image.plus(&self.camera.caustic(light, preview.moment(frame))))
+        fits.then(|| {
+            self.camera.background.image.plus(&self.camera.caustic(light, None, preview.moment(frame)))
+        })
     }
 }
 
@@ -70,7 +72,13 @@ impl Engine {
         let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
         let radii = (margin(extent), finest_radius(extent));
         let layout = layout_for(scene.as_deref(), extent, &project.render, radii);
-        let view = CameraView { project, scene: scene.as_ref(), extent, layout, rough: true };
+        let view = CameraView {
+            project,
+            scene: scene.as_ref(),
+            extent,
+            layout,
+            background: BackgroundQuality::Rough,
+        };
         let slot = Slot { client: self.client, quality: Quality::Preview, index: 0 };
         let camera = self.stages.look(slot, &view, &Meter::quick(), progress)?;
         Ok(Shot { camera, plane: PlaneView::new(scene.as_deref(), extent) })

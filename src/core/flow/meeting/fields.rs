@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use glam::Vec2;
-
 use crate::bridge::CellVelocities;
+use crate::constraint::VisibilityGraph;
 use crate::flow::field::Field;
 use crate::flow::step::StageVelocity;
 use crate::flow::turbulence::Turbulence;
-use crate::flow::walls::Obstacles;
+use crate::flow::walls::{Obstacles, SUBSTEPS};
 
 /// The fields that carry the light of both key frames to the meeting at t = 1/2, where photons of all passes are paired.
 ///
 /// Step n of the first half has the field fitted at its begin; step n of the second half that fitted at its end, where the
-/// light that moves backward comes from. Within a step the field is extrapolated from the last two fits of its half:
-/// second order, and known before the next fit, so that guide photons and those of later passes move alike.
+/// light that moves backward comes from. It stays within a step, so that guide photons and those of later passes move alike;
+/// extrapolated from the last two fits, light that fills cracks would swing.
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],
@@ -55,6 +54,11 @@ impl MeetingFields {
         self.steps
     }
 
+    /// Moves of the photons over the segment, each of which meets no wall: several for each step where walls stand.
+    pub fn moves(&self) -> usize {
+        self.obstacles.as_ref().map_or(self.steps, |obstacles| obstacles.steps())
+    }
+
     /// The fields with their times, rising.
     pub fn nodes(&self) -> impl DoubleEndedIterator<Item = (f64, &Field)> {
         let time = |n: usize| n as f64 / self.steps as f64;
@@ -83,6 +87,11 @@ impl MeetingFields {
         self.obstacles.as_ref()
     }
 
+    /// The walls at the meeting; none where none stands.
+    pub fn walls_at_meeting(&self) -> Option<Arc<VisibilityGraph>> {
+        self.obstacles.as_ref()?.shared_graph(self.steps / 2 * SUBSTEPS)
+    }
+
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
     pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
         self.planned[half].get(done)
@@ -102,29 +111,16 @@ impl MeetingFields {
         if done >= self.halves[half].len() {
             return Vec::new();
         }
-        std::iter::once(self.field(half, done, (since - done as f64) as f32)).chain(self.noise(t)).collect()
-    }
-
-    /// The field of a half after `done` steps and the fraction `x` of the next.
-    fn field(&self, half: usize, done: usize, x: f32) -> Field {
-        let fields = &self.halves[half];
-        let (now, before) = (&fields[done], &fields[done.saturating_sub(1)]);
-        let mut field = now.clone();
-        Field::blend(now, 1.0 + x, before, -x, &mut field);
-        field
+        std::iter::once(self.halves[half][done].clone()).chain(self.noise(t)).collect()
     }
 
     /// The velocities at the begin, middle and end of the step after `done` steps of a half, forward in time.
     pub(super) fn step(&self, half: usize, done: usize) -> [StageVelocity; 3] {
-        [0.0f32, 0.5, 1.0].map(|x| {
-            let since = (done as f64 + f64::from(x)) / self.steps as f64;
+        let field = &self.halves[half][done];
+        [0.0, 0.5, 1.0].map(|x| {
+            let since = (done as f64 + x) / self.steps as f64;
             let t = if half == 0 { since } else { 1.0 - since };
-            StageVelocity { field: self.field(half, done, 0.0 * x), noise: self.noise(t) }
+            StageVelocity { field: field.clone(), noise: self.noise(t) }
         })
-    }
-
-    /// The fitted velocity at `p` and time `t`, turbulence with it.
-    pub fn velocity(&self, t: f64, p: Vec2) -> Vec2 {
-        self.at(t).iter().map(|field| field.velocity(p)).sum()
     }
 }

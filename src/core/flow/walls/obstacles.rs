@@ -1,8 +1,11 @@
 //! The walls of a segment over its steps, and the paths around them.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::Vec2;
 use rayon::prelude::*;
 
+use super::clearance::Clearance;
 use super::path_state::{PathState, PathStatus};
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{ActiveWall, VisibilityGraph, WallPath, stroke};
@@ -31,7 +34,8 @@ struct Epoch {
     first: usize,
     standing: Vec<usize>,
     /// None where no wall stands.
-    graph: Option<VisibilityGraph>,
+    graph: Option<Arc<VisibilityGraph>>,
+    clearance: OnceLock<Clearance>,
 }
 
 impl Obstacles {
@@ -74,7 +78,7 @@ impl Obstacles {
         self.epochs
             .iter()
             .filter_map(|epoch| epoch.graph.as_ref())
-            .map(VisibilityGraph::most_corners)
+            .map(|graph| graph.most_corners())
             .max()
             .unwrap_or(0)
     }
@@ -85,7 +89,19 @@ impl Obstacles {
 
     /// The visibility graph of step `step`; none where no wall stands.
     pub(crate) fn graph(&self, step: usize) -> Option<&VisibilityGraph> {
-        self.epochs[self.index(step)].graph.as_ref()
+        self.epochs[self.index(step)].graph.as_deref()
+    }
+
+    /// As [`Self::graph`], shared.
+    pub(crate) fn shared_graph(&self, step: usize) -> Option<Arc<VisibilityGraph>> {
+        self.epochs[self.index(step)].graph.clone()
+    }
+
+    /// How far the walls of step `step` are; none where none stands.
+    pub(crate) fn clearance(&self, step: usize) -> Option<&Clearance> {
+        let epoch = &self.epochs[self.index(step)];
+        let graph = epoch.graph.as_ref()?;
+        Some(epoch.clearance.get_or_init(|| Clearance::new(graph.barriers(), self.extent)))
     }
 
     /// Steps of the photons over the whole segment.
@@ -95,12 +111,7 @@ impl Obstacles {
 
     /// The runs of steps in which the same walls stand, by their first step, with the visibility graph of each.
     pub(crate) fn epochs(&self) -> impl Iterator<Item = (usize, Option<&VisibilityGraph>)> {
-        self.epochs.iter().map(|epoch| (epoch.first, epoch.graph.as_ref()))
-    }
-
-    /// Whether the same walls stand in two steps.
-    pub(crate) fn same_walls(&self, step: usize, other: usize) -> bool {
-        self.index(step) == self.index(other)
+        self.epochs.iter().map(|epoch| (epoch.first, epoch.graph.as_deref()))
     }
 
     /// Whether step `step` begins with other walls than the step before; true for step 0.
@@ -217,9 +228,9 @@ fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress)
         let here: Vec<&ActiveWall> = standing.iter().map(|&i| &walls[i]).collect();
         let graph = match here.is_empty() {
             true => None,
-            false => Some(VisibilityGraph::new(&here, extent, progress)?),
+            false => Some(Arc::new(VisibilityGraph::new(&here, extent, progress)?)),
         };
-        epochs.push(Epoch { first: step, standing, graph });
+        epochs.push(Epoch { first: step, standing, graph, clearance: OnceLock::new() });
     }
     Ok(epochs)
 }

@@ -1,0 +1,189 @@
+//! The window of the player.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{ColorImage, Context, DragValue, Slider, TextureHandle, TextureOptions, Ui, vec2};
+
+use super::{Clock, Loader, Sequence};
+use crate::editor::dialogs::{PickRequest, Picker, Purpose};
+use crate::editor::theme;
+use crate::editor::timeline::icons::{self, Icon};
+
+/// Height of everything below the picture, points.
+const CONTROLS: f32 = 64.0;
+
+/// The player of rendered frames.
+#[derive(Default)]
+pub struct Player {
+    /// Whether its window is open.
+    pub open: bool,
+    show: Option<Show>,
+    problem: Option<String>,
+    /// The folder or file that was opened last.
+    place: Option<PathBuf>,
+}
+
+/// A sequence that is played.
+struct Show {
+    sequence: Sequence,
+    loader: Loader,
+    clock: Clock,
+    /// Frames per second.
+    rate: f64,
+    /// The picture on the screen, and its index.
+    texture: Option<(usize, TextureHandle)>,
+}
+
+impl Player {
+    /// Opens the window and plays the frames of a folder, or those that a file belongs to.
+    pub fn play(&mut self, ctx: &Context, path: &Path) {
+        self.open = true;
+        self.place = Some(path.to_owned());
+        let ctx = ctx.clone();
+        let begun = Sequence::find(path).and_then(|sequence| {
+            let loader = Loader::start(&sequence, move || ctx.request_repaint())?;
+            let [frames, seconds] = sequence.frames_per_second.map(f64::from);
+            let clock = Clock::new(sequence.holds());
+            Ok(Show { loader, clock, rate: frames / seconds, texture: None, sequence })
+        });
+        (self.show, self.problem) = match begun {
+            Ok(show) => (Some(show), None),
+            Err(problem) => (None, Some(problem)),
+        };
+    }
+
+    /// Shows the window if it is open.
+    pub fn show(&mut self, ctx: &Context, picker: &mut Picker) {
+        if !self.open {
+            // Pictures take memory that nobody looks at.
+            self.show = None;
+            return;
+        }
+        let mut open = true;
+        let window = egui::Window::new("Player").open(&mut open).collapsible(false).resizable(true);
+        window.default_size([760.0, 500.0]).min_size([420.0, 260.0]).show(ctx, |ui| {
+            ui.horizontal(|ui| {
+                if ui.button("Open frames…").clicked() {
+                    let folder = self.place.as_deref().map(|place| match place.is_dir() {
+                        true => place.to_owned(),
+                        false => place.parent().unwrap_or(place).to_owned(),
+                    });
+                    picker.ask(PickRequest::new(Purpose::Frames).in_folder(folder), ctx);
+                }
+                if let Some(place) = &self.place {
+                    ui.weak(place.to_string_lossy());
+                }
+            });
+            if let Some(problem) = &self.problem {
+                ui.colored_label(theme::BAD, problem);
+            }
+            match &mut self.show {
+                Some(show) => show.show(ui),
+                None => {
+                    ui.weak("Choose a picture of a rendered sequence, or drop its folder on the window.");
+                }
+            }
+        });
+        self.open = open;
+    }
+}
+
+impl Show {
+    fn show(&mut self, ui: &mut Ui) {
+        let index = self.clock.index();
+        let slot = self.loader.get(index);
+        // Playback waits for a picture that was not read yet.
+        let waits = slot.is_none() && self.loader.count() < self.sequence.frames.len();
+        if let Some(Ok(picture)) = &slot {
+            self.upload(ui, index, picture);
+        }
+        let room = vec2(ui.available_width(), (ui.available_height() - CONTROLS).max(60.0));
+        ui.allocate_ui_with_layout(
+            room,
+            egui::Layout::centered_and_justified(egui::Direction::TopDown),
+            |ui| {
+                ui.set_min_size(room);
+                match (&slot, &self.texture) {
+                    (Some(Err(problem)), _) => {
+                        ui.colored_label(theme::BAD, problem);
+                    }
+                    (_, Some((_, texture))) => {
+                        let (number, _) = &self.sequence.frames[index];
+                        let picture = egui::Image::new(texture).max_size(room).maintain_aspect_ratio(true);
+                        ui.add(picture.alt_text(format!("Frame {number}")));
+                    }
+                    _ => {
+                        ui.spinner();
+                    }
+                }
+            },
+        );
+        self.scrub(ui, index);
+        ui.horizontal(|ui| self.controls(ui, index));
+        let seconds = if waits { 0.0 } else { ui.input(|input| input.stable_dt).into() };
+        if let Some(next) = self.clock.advance(seconds, self.rate) {
+            ui.ctx().request_repaint_after(Duration::from_secs_f64(next.min(1.0)));
+        }
+    }
+
+    fn upload(&mut self, ui: &Ui, index: usize, picture: &Arc<ColorImage>) {
+        match &mut self.texture {
+            Some((shown, _)) if *shown == index => {}
+            Some((shown, texture)) => {
+                texture.set(picture.clone(), TextureOptions::LINEAR);
+                *shown = index;
+            }
+            none => {
+                let texture = ui.ctx().load_texture("player", picture.clone(), TextureOptions::LINEAR);
+                *none = Some((index, texture));
+            }
+        }
+    }
+
+    /// The slider over all pictures.
+    fn scrub(&mut self, ui: &mut Ui, index: usize) {
+        let mut at = index;
+        ui.spacing_mut().slider_width = ui.available_width() - 8.0;
+        let last = self.sequence.frames.len() - 1;
+        let slider = ui.add(Slider::new(&mut at, 0..=last).show_value(false)).accessible_name("Position");
+        if slider.dragged() || slider.changed() {
+            self.clock.playing = false;
+            self.clock.go(at);
+        }
+    }
+
+    fn controls(&mut self, ui: &mut Ui, index: usize) {
+        let last = self.sequence.frames.len() - 1;
+        let clock = &mut self.clock;
+        let mut step = |ui: &mut Ui, icon: Icon, label: &str, to: usize| {
+            if icons::button(ui, icon, label, false).on_hover_text(label).clicked() {
+                clock.playing = false;
+                clock.go(to);
+            }
+        };
+        step(ui, Icon::First, "First picture", 0);
+        step(ui, Icon::Back, "Previous picture", index.saturating_sub(1));
+        step(ui, Icon::Forward, "Next picture", (index + 1).min(last));
+        step(ui, Icon::Last, "Last picture", last);
+        let (icon, label) = if clock.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
+        if icons::button(ui, icon, label, clock.playing).on_hover_text(label).clicked() {
+            if !clock.playing && index == last {
+                clock.go(0);
+            }
+            clock.playing = !clock.playing;
+        }
+        if icons::button(ui, Icon::Loop, "Loop", clock.looping).on_hover_text("Loop").clicked() {
+            clock.looping = !clock.looping;
+        }
+        let field = DragValue::new(&mut self.rate).range(0.1..=1000.0).speed(0.1).max_decimals(3);
+        let tip = "Frames per second of playback; the files keep theirs.";
+        ui.add(field.suffix(" fps")).on_hover_text(tip).accessible_name("Playback rate");
+        let (number, _) = &self.sequence.frames[index];
+        ui.label(format!("Frame {number}"));
+        let count = self.sequence.frames.len();
+        let read = self.loader.count();
+        ui.weak(if read < count { format!("{read} of {count} read") } else { format!("{count} pictures") });
+    }
+}

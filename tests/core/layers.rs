@@ -1,0 +1,160 @@
+//! The layers of EXR files read back: names, alpha, depth, camera, and frames of single caustics.
+
+use std::path::Path;
+
+use exr::meta::header::Header;
+use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
+use glam::{Mat4, Vec3, Vec4};
+use half::f16;
+use lightloom_core::Progress;
+use lightloom_core::engine::Engine;
+use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::scene::CameraDesc;
+
+/// A goblet in the light of two lamps under an even sky; the caustic of the first lamp is named.
+fn project(layers: &str) -> (Project, std::path::PathBuf) {
+    let text = format!(
+        r#"{{
+          "lightloom": 1,
+          "scene": {{
+            "meshes": [{{ "name": "goblet", "file": "../assets/meshes/goblet.obj" }}],
+            "lights": [
+              {{ "type": "spot", "name": "key", "position": [-0.8, 0.6, -0.7], "target": [0, 0.1, 0], "angle_deg": 8 }},
+              {{ "type": "spot", "name": "rim", "position": [0.8, 0.7, 0.2], "target": [0, 0.1, 0], "angle_deg": 8 }}
+            ],
+            "environment": {{ "zenith": [0.1, 0.2, 0.3], "horizon": [0.1, 0.2, 0.3] }}
+          }},
+          "caustics": [{{ "name": "first light", "light": "key" }}],
+          "keys": [{{ "frame": 1, "shows": "physical_caustic" }}],
+          "render": {{ "width": 64, "height": 36, "photons": 4000, "passes": 2, "background_samples": 1 }},
+          "output": {{ "name": "a.####", "formats": ["exr", "png"], "layers": {layers} }}
+        }}"#
+    );
+    let place = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../projects/layers.json"));
+    (Project::parse(text.as_bytes(), place).unwrap(), place.to_owned())
+}
+
+/// The headers of the rendered frame, and its channels by name.
+struct Read {
+    headers: Vec<Header>,
+    parts: Vec<String>,
+    channels: Vec<(String, Vec<f32>)>,
+    stages: Vec<&'static str>,
+}
+
+impl Read {
+    fn channel(&self, name: &str) -> &[f32] {
+        let found = self.channels.iter().find(|(of, _)| of == name);
+        &found.unwrap_or_else(|| panic!("no {name} among {:?}", self.names())).1
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.channels.iter().map(|(name, _)| name.as_str()).collect()
+    }
+}
+
+fn rendered(layers: &str) -> Read {
+    let folder = tempfile::tempdir().unwrap();
+    let (project, place) = project(layers);
+    let engine = Engine::new(AssetFolder::new(&place, false).unwrap());
+    let summary = engine.render(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
+    let path = folder.path().join("a.0001.exr");
+    let image = read_all_flat_layers_from_file(&path).unwrap();
+    let mut parts = Vec::new();
+    let mut channels = Vec::new();
+    for layer in image.layer_data {
+        parts.extend(layer.attributes.layer_name.map(|name| name.to_string()));
+        for channel in layer.channel_data.list {
+            let values = match channel.sample_data {
+                FlatSamples::F16(values) => values.into_iter().map(f16::to_f32).collect(),
+                FlatSamples::F32(values) => values,
+                FlatSamples::U32(_) => panic!("no whole numbers are written"),
+            };
+            channels.push((channel.name.to_string(), values));
+        }
+    }
+    let headers = MetaData::read_from_file(&path, true).unwrap().headers.to_vec();
+    let stages = summary.stages.iter().map(|cost| cost.stage).collect();
+    Read { headers, parts, channels, stages }
+}
+
+#[test]
+fn every_layer_is_a_part_whose_channels_bear_its_name() {
+    let read = rendered(r#"["beauty", "caustic", "caustics", "background", "depth"]"#);
+    let parts = ["rgba", "caustic", "caustic_first_light", "caustic_rest", "background", "depth"];
+    assert_eq!(read.parts, parts);
+    let names = read.names();
+    assert_eq!(names[..4], ["A", "B", "G", "R"]);
+    assert_eq!(names[4..7], ["caustic.B", "caustic.G", "caustic.R"]);
+    assert_eq!(names[names.len() - 1], "depth.Z");
+
+    let sum = |a: &str, b: &str| -> f32 {
+        let add = |(i, a): (usize, &f32)| a + read.channel(b)[i];
+        let both: Vec<f32> = read.channel(a).iter().enumerate().map(add).collect();
+        let whole = read.channel(if a.starts_with("caustic_") { "caustic.G" } else { "G" });
+        // Each of the two and their sum is rounded to 11 bits.
+        both.iter().zip(whole).map(|(sum, whole)| (sum - whole).abs() / whole.max(1e-3)).fold(0.0, f32::max)
+    };
+    assert!(sum("caustic_first_light.G", "caustic_rest.G") < 2e-3);
+    assert!(sum("background.G", "caustic.G") < 2e-3);
+    let light = |name: &str| read.channel(name).iter().sum::<f32>();
+    assert!(light("caustic_first_light.G") > 0.0 && light("caustic_rest.G") > 0.0);
+}
+
+#[test]
+fn alpha_and_depth_are_those_of_the_surfaces() {
+    let read = rendered(r#"["beauty", "depth"]"#);
+    let (alpha, depth) = (read.channel("A"), read.channel("depth.Z"));
+    // The camera of a scene without one looks down at the receiver: its middle is covered, and the corners are sky.
+    let (middle, corner) = (18 * 64 + 32, 0);
+    assert_eq!((alpha[middle], alpha[corner], depth[corner]), (1.0, 0.0, 1e10));
+    // From (0, 1.2, 1.6) the origin is 2 m away, and the goblet is before it.
+    assert!(depth[middle] > 1.2 && depth[middle] <= 2.01, "{}", depth[middle]);
+    assert!(alpha.iter().any(|a| *a > 0.0 && *a < 1.0), "edges are soft");
+    assert!(alpha.iter().zip(depth).all(|(a, z)| *a > 0.0 || *z == 1e10));
+}
+
+#[test]
+fn the_header_tells_camera_and_time_as_openexr_defines_them() {
+    let read = rendered(r#"["caustic"]"#);
+    assert_eq!(read.headers.len(), 1);
+    let header = &read.headers[0];
+    let code = header.shared_attributes.time_code.unwrap();
+    assert_eq!([code.hours, code.minutes, code.seconds, code.frame], [0, 0, 0, 1]);
+    // Row vectors, row by row: as column vectors these are the columns.
+    let matrix = |values: Option<[f32; 16]>| Mat4::from_cols_array(&values.unwrap());
+    let to_camera = matrix(header.own_attributes.world_to_camera);
+    let to_ndc = matrix(header.own_attributes.world_to_normalized_device);
+    let camera = CameraDesc::default().resolve("").unwrap();
+    // Straight ahead is +z, the space is left-handed.
+    let ahead = to_camera * (camera.position + 2.0 * camera.forward).extend(1.0);
+    assert!(ahead.distance(Vec4::new(0.0, 0.0, 2.0, 1.0)) < 1e-5, "{ahead}");
+    assert!(to_camera.determinant() < 0.0);
+    for point in [Vec3::ZERO, Vec3::new(0.3, 0.1, 0.2), Vec3::new(-0.4, 0.0, -0.3)] {
+        let seen = to_ndc * point.extend(1.0);
+        let place = camera.project(point, 64.0 / 36.0).unwrap();
+        // (0, 0) is the upper left corner.
+        let expected = [0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y];
+        assert!((seen.x / seen.w - expected[0]).abs() < 1e-5 && (seen.y / seen.w - expected[1]).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn the_caustic_alone_traces_no_background_and_is_the_same_light() {
+    let alone = rendered(r#"["caustic"]"#);
+    assert!(!alone.stages.contains(&"background"), "{:?}", alone.stages);
+    let with = rendered(r#"["beauty", "caustic"]"#);
+    assert!(with.stages.contains(&"background"));
+    assert_eq!(alone.channel("caustic.R"), with.channel("caustic.R"));
+}
+
+#[test]
+fn layers_that_cannot_be_are_refused() {
+    let (mut project, _) = project(r#"["caustic"]"#);
+    project.output.layers = vec![lightloom_core::export::FrameLayer::Depth];
+    assert!(project.check().unwrap_err().to_string().starts_with("output.layers: "));
+    project.output.layers = vec![lightloom_core::export::FrameLayer::Caustics];
+    project.caustics.clear();
+    let error = project.check().unwrap_err().to_string();
+    assert!(error.starts_with("output.layers: ") && error.contains("named caustic"), "{error}");
+}
