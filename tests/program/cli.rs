@@ -9,7 +9,6 @@ use lightloom_core::Progress;
 use lightloom_core::export::load_fields;
 use lightloom_core::files::npy;
 use lightloom_core::files::npz::NpzReader;
-use lightloom_core::flow::{FieldTrajectories, Trajectories as _};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -131,23 +130,25 @@ fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
 
 #[test]
 fn fields_that_are_read_back_carry_the_photons_of_the_tracks() {
-    let (folder, project) = letters("flow");
-    let plain = fs::read_to_string(&project).unwrap();
     let swirls = r#""turbulence":{"strength":20,"grids":[20,30],"rate":2.5},"grid":32"#;
-    for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
-        fs::write(&project, text_of).unwrap();
-        let out = folder.path().join("fit");
-        run(&["fit", text(&project), "--out", text(&out)]);
-        let (_, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
-        let rows: Vec<Vec<Vec2>> =
-            tracks.chunks(8000).map(|row| row.chunks(2).map(Vec2::from_slice).collect()).collect();
-        let segments = load_fields(&out.join("fields.npz")).unwrap();
-        assert!(matches!(segments[..], [ref only] if (only.segment, only.caustic) == (0, None)));
-        let mut carrier = FieldTrajectories::new(&segments[0].fields, &rows[0], &rows[8]);
-        let mut positions = vec![Vec2::ZERO; 4000];
-        for (step, wanted) in rows.iter().enumerate() {
-            carrier.positions_at(step as f64 / 8.0, &mut positions, &Progress::new()).unwrap();
-            assert_eq!(&positions, wanted, "step {step}");
+    for method in ["flow", "guided"] {
+        let (folder, project) = letters(method);
+        let plain = fs::read_to_string(&project).unwrap();
+        for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
+            fs::write(&project, text_of).unwrap();
+            let out = folder.path().join("fit");
+            run(&["fit", text(&project), "--out", text(&out)]);
+            let (_, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
+            let rows: Vec<Vec<Vec2>> =
+                tracks.chunks(8000).map(|row| row.chunks(2).map(Vec2::from_slice).collect()).collect();
+            let segments = load_fields(&out.join("fields.npz")).unwrap();
+            assert!(matches!(segments[..], [ref only] if (only.segment, only.caustic) == (0, None)));
+            let mut carrier = segments[0].flow.trajectories(&rows[0], &rows[8], &[], None);
+            let mut positions = vec![Vec2::ZERO; 4000];
+            for (step, wanted) in rows.iter().enumerate() {
+                carrier.positions_at(step as f64 / 8.0, &mut positions, &Progress::new()).unwrap();
+                assert_eq!(&positions, wanted, "{method}, step {step}");
+            }
         }
     }
 }
@@ -165,9 +166,8 @@ fn fields_fitted_between_walls_are_read_back_without_the_walls() {
         tracks[8000 * step..8000 * (step + 1)].chunks(2).map(Vec2::from_slice).collect()
     });
     let segments = load_fields(&folder.path().join("fields.npz")).unwrap();
-    let fields = &segments[0].fields;
-    assert_eq!((fields.steps(), fields.substeps()), (32, 4));
-    let mut carrier = FieldTrajectories::new(fields, &first, &last);
+    assert_eq!(segments[0].flow.steps(), Some(8));
+    let mut carrier = segments[0].flow.trajectories(&first, &last, &[], None);
     let mut positions = vec![Vec2::ZERO; 4000];
     carrier.positions_at(1.0, &mut positions, &Progress::new()).unwrap();
     assert_eq!(positions, last);

@@ -8,7 +8,7 @@ use super::grouping::{CausticFlux, Grouping};
 use super::memo::Same;
 use super::pairing::TransportCost;
 use super::segment_photons::{Maps, Matched};
-use crate::flow::{Fields, FlowReport, FlowSettings, MotionMethod, SegmentFlow};
+use crate::flow::{FlowReport, FlowSettings, MotionMethod, SegmentFlow};
 
 /// The fitted flow of one segment.
 pub(super) struct FittedSegment {
@@ -53,10 +53,10 @@ impl FittedSegment {
 
     /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with
     /// the number of the caustic.
-    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &Fields)> {
+    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &SegmentFlow)> {
         self.layers.iter().filter_map(|layer| {
             let own = layer.groups.iter().copied().find(|&group| grouping.own_flow(group));
-            Some((own, layer.flow.fields()?))
+            layer.flow.steps().map(|_| (own, &*layer.flow))
         })
     }
 }

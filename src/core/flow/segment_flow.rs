@@ -8,6 +8,7 @@ use super::fields::Fields;
 use super::meeting::{HalfTracks, MeetingFields, MeetingTrajectories};
 use super::path_trajectories::PathTrajectories;
 use super::trajectories::Trajectories;
+use super::turbulence::Turbulence;
 
 /// The flow of one segment: fitted fields, or closed-form paths.
 pub enum SegmentFlow {
@@ -49,6 +50,15 @@ impl SegmentFlow {
         match self {
             Self::Fields(fields) => Some(fields),
             Self::Meeting(_) | Self::Paths => None,
+        }
+    }
+
+    /// The turbulence that is added to the fields.
+    pub fn turbulence(&self) -> Option<&Turbulence> {
+        match self {
+            Self::Fields(fields) => fields.turbulence(),
+            Self::Meeting(fields) => fields.turbulence(),
+            Self::Paths => None,
         }
     }
 

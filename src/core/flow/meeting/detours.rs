@@ -59,6 +59,8 @@ impl Detours {
         let mut all =
             Self { beside, steps: [late, count], detours: Vec::new(), violations: WallViolations::default() };
         let rows = all.blocked(fields, halves, &graph, progress)?;
+        // A detour may take so long that other walls stand.
+        let Some(graph) = fields.walls_at_any_time(progress)? else { return Ok(None) };
         let detour = |&row: &u32| detour(fields, halves, &graph, row);
         all.detours = rows.par_iter().map(detour).collect();
         all.violations.unreachable = all.detours.iter().filter(|detour| !detour.clear).count();
@@ -68,6 +70,11 @@ impl Detours {
     /// Photons that no path brings together: they go straight, through the walls.
     pub(super) fn violations(&self) -> WallViolations {
         self.violations
+    }
+
+    /// The photons that go straight through walls, by row.
+    pub(super) fn unreachable(&self) -> impl Iterator<Item = usize> {
+        self.detours.iter().filter(|detour| !detour.clear).map(|detour| detour.row as usize)
     }
 
     /// The share of its gap that photon `row` has made up for at the time `since` the key frame of a half, in halves.

@@ -8,6 +8,7 @@ use crate::flow::field::Field;
 use crate::flow::step::StageVelocity;
 use crate::flow::turbulence::Turbulence;
 use crate::flow::walls::{Obstacles, SUBSTEPS};
+use crate::{Progress, Result};
 
 /// The fields that carry the light of both key frames to the meeting at t = 1/2, where photons of all passes are paired.
 ///
@@ -41,6 +42,23 @@ impl MeetingFields {
             turbulence,
             obstacles,
         }
+    }
+
+    /// Given fields, half of them of the first half and half of the second, by rising time, without walls. None where a field is
+    /// missing.
+    pub fn from_nodes(mut nodes: Vec<Field>, steps: usize, mean_way: f32) -> Option<Self> {
+        if steps == 0 || nodes.len() != steps || !steps.is_multiple_of(2) {
+            return None;
+        }
+        let mut second = nodes.split_off(steps / 2);
+        second.reverse();
+        Some(Self { halves: [nodes, second], ..Self::new(steps, mean_way, None, None) })
+    }
+
+    /// The same fields with this turbulence in place of any other.
+    #[must_use]
+    pub fn with_turbulence(self, turbulence: Option<Turbulence>) -> Self {
+        Self { turbulence, ..self }
     }
 
     /// Appends the next field of a half, with the planned velocities where walls stand.
@@ -90,6 +108,14 @@ impl MeetingFields {
     /// The walls at the meeting; none where none stands.
     pub fn walls_at_meeting(&self) -> Option<Arc<VisibilityGraph>> {
         self.obstacles.as_ref()?.shared_graph(self.steps / 2 * SUBSTEPS)
+    }
+
+    /// All walls that stand at any time; none where there is none.
+    ///
+    /// # Errors
+    /// `Limit` for walls of too many corners; `Cancelled`.
+    pub(super) fn walls_at_any_time(&self, progress: &Progress) -> Result<Option<Arc<VisibilityGraph>>> {
+        self.obstacles.as_ref().map_or(Ok(None), |obstacles| obstacles.graph_of_all(progress))
     }
 
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.

@@ -17,7 +17,7 @@ use crate::flow::fit_segment::fit_settings;
 use crate::flow::observer::FitStatistics;
 use crate::flow::report::FlowReport;
 use crate::flow::turbulence::Turbulence;
-use crate::flow::walls::Obstacles;
+use crate::flow::walls::{Obstacles, SUBSTEPS};
 use crate::{Progress, Result};
 
 /// Cells of the plan for each cell of the field.
@@ -63,7 +63,7 @@ pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<Meet
     let MeetingSegment { extent, settings, number, walls, .. } = *segment;
     let guides = segment.guides()?;
     let even = (settings.steps as usize).next_multiple_of(2);
-    let (obstacles, steps) = Obstacles::new(walls, even, extent, &progress.inner())?;
+    let (obstacles, steps) = Obstacles::new(walls, (even, SUBSTEPS), extent, &progress.inner())?;
     let obstacles = obstacles.map(Arc::new);
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
     let fields = MeetingFields::new(steps.next_multiple_of(2), 0.0, turbulence, obstacles.clone());

@@ -74,6 +74,9 @@ impl<'a> MeetingTrajectories<'a> {
         let mut at = self.source.to_vec();
         let mut next = at.clone();
         let mut count = 0;
+        let mut reachable = vec![true; at.len()];
+        let detours = self.detours.iter().flatten();
+        detours.flat_map(Detours::unreachable).for_each(|row| reachable[row] = false);
         for n in 1..=substeps {
             progress.check()?;
             match n == substeps {
@@ -81,8 +84,9 @@ impl<'a> MeetingTrajectories<'a> {
                 false => self.positions(n as f64 / substeps as f64, &mut next),
             }
             if let Some(graph) = obstacles.graph(n - 1) {
-                let blocked = |(a, b): (&Vec2, &Vec2)| usize::from(graph.barriers().blocks(*a, *b));
-                count += at.par_iter().zip(&next).with_min_len(4096).map(blocked).sum::<usize>();
+                let barriers = graph.barriers();
+                let moves = at.par_iter().zip(&next).zip(&reachable).with_min_len(4096);
+                count += moves.filter(|((a, b), reachable)| **reachable && barriers.blocks(**a, **b)).count();
             }
             at.copy_from_slice(&next);
         }

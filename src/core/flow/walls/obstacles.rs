@@ -40,13 +40,13 @@ struct Epoch {
 
 impl Obstacles {
     /// The walls over `fits` fits of [`SUBSTEPS`] steps each on the rectangle `extent`; none where no wall stands at any
-    /// time. Also returns the number of fits, which grows where paths have more corners than there are steps.
+    /// time. They change at every `granule`-th step at most. Also returns the number of fits, which grows where paths have more corners than there are steps.
     ///
     /// # Errors
     /// `Limit` for walls of too many corners; `Cancelled`.
     pub(crate) fn new(
         walls: &[ActiveWall],
-        fits: usize,
+        (fits, granule): (usize, usize),
         extent: Vec2,
         progress: &Progress,
     ) -> Result<(Option<Self>, usize)> {
@@ -60,7 +60,7 @@ impl Obstacles {
                 walls: walls.to_vec(),
                 extent,
                 steps,
-                epochs: epochs(walls, steps, extent, progress)?,
+                epochs: epochs(walls, (steps, granule), extent, progress)?,
             };
             let needed = 2 + all.most_corners();
             if needed <= steps {
@@ -69,7 +69,7 @@ impl Obstacles {
             }
             steps = needed.next_multiple_of(SUBSTEPS);
         }
-        let epochs = epochs(walls, steps, extent, progress)?;
+        let epochs = epochs(walls, (steps, granule), extent, progress)?;
         Ok((Some(Self { walls: walls.to_vec(), extent, steps, epochs }), steps / SUBSTEPS))
     }
 
@@ -95,6 +95,22 @@ impl Obstacles {
     /// As [`Self::graph`], shared.
     pub(crate) fn shared_graph(&self, step: usize) -> Option<Arc<VisibilityGraph>> {
         self.epochs[self.index(step)].graph.clone()
+    }
+
+    /// The graph of all walls that stand at any time; none where there is none.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn graph_of_all(&self, progress: &Progress) -> Result<Option<Arc<VisibilityGraph>>> {
+        if let [only] = &self.epochs[..] {
+            return Ok(only.graph.clone());
+        }
+        let stands = |i: &usize| self.epochs.iter().any(|epoch| epoch.standing.contains(i));
+        let walls: Vec<&ActiveWall> = (0..self.walls.len()).filter(stands).map(|i| &self.walls[i]).collect();
+        if walls.is_empty() {
+            return Ok(None);
+        }
+        VisibilityGraph::new(&walls, self.extent, progress).map(|graph| Some(Arc::new(graph)))
     }
 
     /// How far the walls of step `step` are; none where none stands.
@@ -215,10 +231,15 @@ impl Obstacles {
 }
 
 /// The runs of steps between changes of the walls.
-fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress) -> Result<Vec<Epoch>> {
+fn epochs(
+    walls: &[ActiveWall],
+    (steps, granule): (usize, usize),
+    extent: Vec2,
+    progress: &Progress,
+) -> Result<Vec<Epoch>> {
     let mut epochs: Vec<Epoch> = Vec::new();
-    for step in 0..steps {
-        let (start, end) = (step as f64 / steps as f64, (step + 1) as f64 / steps as f64);
+    for step in (0..steps).step_by(granule) {
+        let (start, end) = (step as f64 / steps as f64, (step + granule) as f64 / steps as f64);
         // A wall that stands for a part of a step stands for all of it.
         let standing: Vec<usize> =
             (0..walls.len()).filter(|&i| walls[i].window.touches(start, end)).collect();
