@@ -14,7 +14,7 @@ use super::still_light::{StillLight, shares};
 use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    Background, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
+    Background, FirstHits, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
     first_radius, layout_for, rough_background,
 };
 use crate::scene::Scene;
@@ -29,6 +29,8 @@ pub(super) struct CameraView<'a> {
     pub(super) layout: TextureLayout,
     /// How the picture without caustics is made.
     pub(super) background: BackgroundQuality,
+    /// Whether coverage and depth of the surfaces are wanted.
+    pub(super) surfaces: bool,
 }
 
 /// How the picture without caustics is made.
@@ -51,7 +53,8 @@ impl<'a> CameraView<'a> {
         let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
         let shown = project.output.shows_background();
         let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
-        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background }
+        let surfaces = project.output.shows_surfaces();
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background, surfaces }
     }
 }
 
@@ -62,6 +65,8 @@ pub(super) struct CameraPictures {
     pub(super) visible: Arc<GatherMatrix>,
     /// The picture without caustics.
     pub(super) background: Arc<Background>,
+    /// Coverage and depth, where they are wanted and there is a scene.
+    pub(super) first_hits: Option<Arc<FirstHits>>,
     /// Absent without a scene.
     pub(super) still: Option<Arc<StillLight>>,
 }
@@ -93,13 +98,14 @@ impl Stages {
         meter: &Meter,
         progress: &Progress,
     ) -> Result<CameraPictures> {
-        let CameraView { project, scene, extent, layout, background: quality } = *view;
-        let rough = quality == BackgroundQuality::Rough;
+        let CameraView { project, scene, extent, layout, background, surfaces } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
+        let rough = background == BackgroundQuality::Rough;
         let input = ViewInput { scene: scene.map(Same::of), render: seen, extent, seed, layout: None, rough };
-        let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
+        let exact = ViewInput { rough: false, ..input.clone() };
+        let visible = ViewInput { layout: Some(layout), ..exact.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
             meter.measure("visible", || match scene {
                 Some(scene) => {
@@ -108,16 +114,13 @@ impl Stages {
                 None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
-        let background = match scene.filter(|_| quality != BackgroundQuality::None) {
-            None => {
-                let image = Image::new(render.width as usize, render.height as usize);
-                Arc::new(Background { image, clamped: Default::default() })
-            }
-            Some(scene) => self.backgrounds.get(slot, input.clone(), progress, |_| {
-                let draw = if rough { rough_background } else { background };
-                meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
-            })?,
-        };
+        let first_hits = scene.filter(|_| surfaces).map(|scene| {
+            let size = [render.width as usize, render.height as usize];
+            let make = || FirstHits::new(scene, size, seed, progress).map(Arc::new);
+            self.first_hits.get(slot, exact, progress, |_| meter.measure("visible", make))
+        });
+        let first_hits = first_hits.transpose()?;
+        let background = self.without_caustics(slot, view, input.clone(), meter, progress)?;
         let still = match scene {
             Some(scene) if project.traces() => {
                 match self.still_light(slot, (scene, project), input, meter, progress) {
@@ -129,9 +132,35 @@ impl Stages {
             }
             _ => None,
         };
-        Ok(CameraPictures { visible, background, still })
+        Ok(CameraPictures { visible, background, first_hits, still })
     }
 
+    /// The picture without caustics.
+    fn without_caustics(
+        &self,
+        slot: Slot,
+        &CameraView { project, scene, background: quality, .. }: &CameraView,
+        input: ViewInput,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Arc<Background>> {
+        let Project { render, seed, .. } = project;
+        let draw = match quality {
+            BackgroundQuality::Rough => rough_background,
+            BackgroundQuality::None | BackgroundQuality::Final => background,
+        };
+        match scene.filter(|_| quality != BackgroundQuality::None) {
+            None => {
+                let image = Image::new(render.width as usize, render.height as usize);
+                Ok(Arc::new(Background { image, clamped: Default::default() }))
+            }
+            Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
+                meter.measure("background", || draw(scene, render, *seed, progress).map(Arc::new))
+            }),
+        }
+    }
+
+    /// The light that does not flow.
     fn still_light(
         &self,
         slot: Slot,

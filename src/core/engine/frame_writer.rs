@@ -13,7 +13,7 @@ use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
 use crate::project::{Project, SegmentTime};
-use crate::render::{FirstHits, Image, PlaneView, ProgressiveRender, View};
+use crate::render::{Image, PlaneView, ProgressiveRender, View};
 use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
@@ -33,7 +33,6 @@ pub(super) struct FrameWriter<'a> {
     pub(super) render: &'a ProgressiveRender,
     /// What the camera sees apart from the light that flows.
     pub(super) pictures: &'a CameraPictures,
-    pub(super) first_hits: Option<&'a FirstHits>,
     /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
     pub(super) caustic_names: &'a [String],
     pub(super) camera: Option<Camera>,
@@ -139,7 +138,7 @@ impl FrameWriter<'_> {
             background,
             caustic: &caustic,
             caustics: &caustics,
-            first_hits: self.first_hits,
+            first_hits: self.pictures.first_hits.as_deref(),
             metadata: &metadata,
         };
         let pattern = FramePattern::parse(&output.name, "output.name")?;

@@ -97,13 +97,11 @@ impl Engine {
         let textures = prepared.textures();
         let moments = times.moments.len() * textures;
         let render = ProgressiveRender::new(*camera.visible.layout(), first, moments, folder)?;
-        let first_hits = prepared.first_hits(meter, progress)?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
             render: &render,
             pictures: &camera,
-            first_hits: first_hits.as_ref(),
             caustic_names: &prepared.caustic_layer_names(),
             camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
             folder,

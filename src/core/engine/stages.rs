@@ -15,7 +15,7 @@ use super::segment_photons::{MatchInput, Matched};
 use super::still_light::StillLight;
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{Background, GatherMatrix};
+use crate::render::{Background, FirstHits, GatherMatrix};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -32,6 +32,7 @@ pub(super) struct Stages {
     pub(super) continuity: Memo<Same<FittedSegment>, Arc<Figures>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
+    pub(super) first_hits: Memo<ViewInput, Arc<FirstHits>>,
     pub(super) backgrounds: Memo<ViewInput, Arc<Background>>,
     pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
@@ -54,6 +55,7 @@ impl Stages {
             continuity: Memo::default(),
             positions: Memo::default(),
             visible: Memo::default(),
+            first_hits: Memo::default(),
             backgrounds: Memo::default(),
             still: Memo::default(),
         }

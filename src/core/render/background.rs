@@ -153,6 +153,7 @@ impl Pixel {
             luminance: self.luminance(),
             change: luminance_of_half - self.luminance(),
             count: self.count,
+            branches: self.specular,
         }
     }
 }

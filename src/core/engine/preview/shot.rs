@@ -78,6 +78,7 @@ impl Engine {
             extent,
             layout,
             background: BackgroundQuality::Rough,
+            surfaces: false,
         };
         let slot = Slot { client: self.client, quality: Quality::Preview, index: 0 };
         let camera = self.stages.look(slot, &view, &Meter::quick(), progress)?;
