@@ -27,6 +27,16 @@ const SHEET_WIDTH: usize = 480;
 /// Small pictures in screen values with the numbers of their frames.
 pub(super) type Thumbnails = Vec<(i32, Image)>;
 
+/// The light of a frame as the camera sees it.
+struct FrameLight {
+    /// Of all caustics.
+    all: Image,
+    /// Of each by itself with the name of its layer, where they are apart.
+    caustics: Vec<(String, Image)>,
+    /// The passes in it.
+    passes: usize,
+}
+
 /// Everything that the frames of a run are made from.
 pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
@@ -97,17 +107,17 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let (caustic, ..) = self.light(slot, times.moments[slot])?;
-        let beauty = self.pictures.background.image.plus(&caustic);
+        let light = self.light(slot, times.moments[slot])?;
+        let beauty = self.pictures.background.image.plus(&light.all);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
-    /// The light of a slot and moment as the camera sees it: of all caustics, of each by itself where they are apart, and its
-    /// passes.
-    fn light(&self, slot: usize, moment: SegmentTime) -> Result<(Image, Vec<(String, Image)>, usize)> {
+    /// The light of a slot and moment.
+    fn light(&self, slot: usize, moment: SegmentTime) -> Result<FrameLight> {
         if self.caustic_names.is_empty() {
             let (texture, passes) = self.render.mean(slot)?;
-            return Ok((self.pictures.caustic(&texture, None, moment), Vec::new(), passes));
+            let all = self.pictures.caustic(&texture, None, moment);
+            return Ok(FrameLight { all, caustics: Vec::new(), passes });
         }
         let image = &self.pictures.background.image;
         let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
@@ -119,7 +129,7 @@ impl FrameWriter<'_> {
             caustics.push((name.clone(), caustic));
             passes = of_group;
         }
-        Ok((all, caustics, passes))
+        Ok(FrameLight { all, caustics, passes })
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
@@ -129,7 +139,7 @@ impl FrameWriter<'_> {
         (slot, moment): (usize, SegmentTime),
         view: &View,
     ) -> Result<(RepairedSamples, Image)> {
-        let (caustic, caustics, passes) = self.light(slot, moment)?;
+        let FrameLight { all: caustic, caustics, passes } = self.light(slot, moment)?;
         let background = &self.pictures.background.image;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);

@@ -7,7 +7,6 @@ use glam::Vec2;
 use super::frame_times::FrameTimes;
 use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
-use super::meter::Meter;
 use super::plan::{self, Plan};
 use super::stages::Stages;
 use super::{Quality, active_constraints, grouping};

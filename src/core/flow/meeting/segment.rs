@@ -32,7 +32,7 @@ impl MeetingSegment<'_> {
     /// `Value` when a group has no photon at a key frame, or one that is not finite.
     pub(super) fn guides(&self) -> Result<Vec<[Vec<Vec2>; 2]>> {
         let all: usize = self.groups.iter().map(|[earlier, _]| earlier.len()).sum();
-        let share = (self.settings.guides as f64 / all.max(1) as f64).min(1.0);
+        let share = (f64::from(self.settings.guides) / all.max(1) as f64).min(1.0);
         let guides = |photons: &[Vec2]| -> Result<Vec<Vec2>> {
             if photons.is_empty() {
                 let what = "there are no photons to move; check that light reaches the receiver";
