@@ -63,7 +63,7 @@ fn step(stage: &str) -> Option<&'static str> {
     match stage {
         "trace" => Some("1"),
         "plan" | "fit" | "match" => Some("2"),
-        "visible" | "background" | "render" | "write" => Some("3"),
+        "visible" | "background" | "still" | "render" | "write" => Some("3"),
         _ => None,
     }
 }

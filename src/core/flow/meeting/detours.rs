@@ -18,7 +18,7 @@ use crate::flow::walls::{SUBSTEPS, WallViolations};
 const LATE: f64 = 0.8;
 /// Parts of a half at which a detour may leave the track; the last that does not ask for more than this speed, over the mean one.
 const LEAVES: [f64; 5] = [0.8, 0.6, 0.4, 0.2, 0.0];
-const FASTEST: f32 = 2.0;
+const FASTEST: f32 = 3.0;
 
 /// The path of a photon around walls from its track in the first half to that in the second.
 struct Detour {
