@@ -41,7 +41,12 @@ fn a_body_that_is_only_shifted_moves_as_one() {
     let off = film.middle().iter().zip(&half).map(|(a, b)| a.distance_squared(*b)).sum::<f32>();
     let rms = (off / half.len() as f32).sqrt();
     let figures = film.continuity();
-    println!("off {} rms {} cells, {figures:?} gap {}", farthest(film.middle(), &half) / CELL, rms / CELL, film.report.gap);
+    println!(
+        "off {} rms {} cells, {figures:?} gap {}",
+        farthest(film.middle(), &half) / CELL,
+        rms / CELL,
+        film.report.gap
+    );
 }
 
 #[test]
@@ -51,11 +56,13 @@ fn the_film_backwards_is_the_film_of_the_exchanged_keys() {
         let settings = FlowSettings { gamma, ..settings() };
         let tracks = |source: &[Vec2], target: &[Vec2]| {
             let fields = fit(source, target, &settings, &[]).unwrap().fields;
-            [(0, source), (1, target)].map(|(half, at)| HalfTracks::new(&fields, half, at, &Progress::new()).unwrap())
+            [(0, source), (1, target)]
+                .map(|(half, at)| HalfTracks::new(&fields, half, at, &Progress::new()).unwrap())
         };
         let ([forward, backward], [other_forward, other_backward]) = (tracks(&a, &b), tracks(&b, &a));
         for (one, other) in [(forward, other_backward), (backward, other_forward)] {
-            let differ = (0..=one.count()).map(|n| farthest(one.after(n), other.after(n))).fold(0.0, f32::max);
+            let differ =
+                (0..=one.count()).map(|n| farthest(one.after(n), other.after(n))).fold(0.0, f32::max);
             println!("gamma {gamma} differ {} cells", differ / CELL);
         }
     }
@@ -93,7 +100,11 @@ fn odd_keys_and_settings_come_through() {
         ("all in one place", vec![vec2(0.2, 0.7); 500], vec![vec2(0.8, 0.1); 500]),
         ("three photons", corner([0.2, 0.2], 3), tee(3)),
         ("one photon", vec![vec2(0.1, 0.2)], vec![vec2(0.9, 0.7)]),
-        ("at the border", vec![Vec2::ZERO, Vec2::X, vec2(0.0, 0.5)], vec![Vec2::ONE, Vec2::Y, vec2(1.0, 0.5)]),
+        (
+            "at the border",
+            vec![Vec2::ZERO, Vec2::X, vec2(0.0, 0.5)],
+            vec![Vec2::ONE, Vec2::Y, vec2(1.0, 0.5)],
+        ),
     ];
     let plain = || FlowSettings { steps: 8, ..settings() };
     for (name, a, b) in &keys {
@@ -113,7 +124,10 @@ fn odd_keys_and_settings_come_through() {
     ];
     for settings in odd {
         let film = film(&a, &b, &settings, &[]);
-        println!("alpha {} hold {} steps {}: gap {}", settings.alpha, settings.hold, settings.steps, film.report.gap);
+        println!(
+            "alpha {} hold {} steps {}: gap {}",
+            settings.alpha, settings.hold, settings.steps, film.report.gap
+        );
         film.arrives(&a);
     }
 }

@@ -43,12 +43,7 @@ pub(crate) struct Film {
 }
 
 /// The film from `source` to `target`, paired where they meet.
-pub(crate) fn film(
-    source: &[Vec2],
-    target: &[Vec2],
-    settings: &FlowSettings,
-    walls: &[ActiveWall],
-) -> Film {
+pub(crate) fn film(source: &[Vec2], target: &[Vec2], settings: &FlowSettings, walls: &[ActiveWall]) -> Film {
     let progress = Progress::new();
     let MeetingFit { fields, fits, plan } = fit(source, target, settings, walls).unwrap();
     let [forward, backward] =
@@ -98,7 +93,8 @@ impl Film {
         assert_eq!(self.frames[0], source);
         assert_eq!(self.frames.last(), Some(&self.target));
         assert_eq!(self.report.endpoint_error, 0.0);
-        let numbers = [self.report.gap, self.report.peak_speed_ratio, self.report.dispersion, self.plan.error];
+        let numbers =
+            [self.report.gap, self.report.peak_speed_ratio, self.report.dispersion, self.plan.error];
         assert!(numbers.iter().all(|number| number.is_finite()), "{numbers:?}");
     }
 }

@@ -32,7 +32,8 @@ fn crossers(film: &Film, walls: &[ActiveWall], stands: impl Fn(f64) -> bool) -> 
     let moves = film.frames.len() - 1;
     let crosses_any = |a: Vec2, b: Vec2| segments.iter().any(|&[p, q]| crosses(a, b, p, q));
     let stands = |n: &usize| stands((*n as f64 + 0.5) / moves as f64);
-    let crosses_once = |i: usize| (0..moves).filter(stands).any(|n| crosses_any(film.frames[n][i], film.frames[n + 1][i]));
+    let crosses_once =
+        |i: usize| (0..moves).filter(stands).any(|n| crosses_any(film.frames[n][i], film.frames[n + 1][i]));
     (0..film.target.len()).filter(|&i| crosses_once(i)).count()
 }
 
@@ -50,7 +51,14 @@ fn no_light_goes_through_a_wall() {
             let film = film(&a, &b, &FlowSettings { gamma, ..settings() }, &walls);
             film.arrives(&a);
             let found = crossers(&film, &walls, |_| true);
-            println!("{name} {gamma}: {found} {} {} plan {:?} bunch {} gap {}", film.report.wall_crossings, film.report.unreachable, film.plan, fullest(&film), film.report.gap);
+            println!(
+                "{name} {gamma}: {found} {} {} plan {:?} bunch {} gap {}",
+                film.report.wall_crossings,
+                film.report.unreachable,
+                film.plan,
+                fullest(&film),
+                film.report.gap
+            );
         }
     }
 }
@@ -64,7 +72,14 @@ fn light_spreads_into_a_lane_through_a_slit() {
         let film = film(&a, &b, &settings(), &walls);
         film.arrives(&a);
         let found = crossers(&film, &walls, |_| true);
-        println!("slit {width}: {found} {} {} plan {:?} bunch {} gap {}", film.report.wall_crossings, film.report.unreachable, film.plan, fullest(&film), film.report.gap);
+        println!(
+            "slit {width}: {found} {} {} plan {:?} bunch {} gap {}",
+            film.report.wall_crossings,
+            film.report.unreachable,
+            film.plan,
+            fullest(&film),
+            film.report.gap
+        );
     }
 }
 
@@ -80,11 +95,28 @@ fn light_that_a_closed_wall_shuts_off_is_counted_and_arrives_all_the_same() {
 #[test]
 fn light_waits_for_a_wall_to_go() {
     let (a, b) = (disc([0.25, 0.5], 0.1, 5000), disc([0.75, 0.5], 0.1, 5000));
-    for (from, to) in [(0.0, 0.6), (0.0, 0.4), (0.0, 0.5), (0.5, 1.0), (0.6, 1.0), (0.4, 1.0), (0.3, 0.7), (0.1, 0.3), (0.7, 0.9)] {
+    for (from, to) in [
+        (0.0, 0.6),
+        (0.0, 0.4),
+        (0.0, 0.5),
+        (0.5, 1.0),
+        (0.6, 1.0),
+        (0.4, 1.0),
+        (0.3, 0.7),
+        (0.1, 0.3),
+        (0.7, 0.9),
+    ] {
         let walls = [standing(&[[0.5, 0.0], [0.5, 1.0]], between(from, to))];
         let film = film(&a, &b, &settings(), &walls);
         film.arrives(&a);
         let found = crossers(&film, &walls, |t| t > from && t < to);
-        println!("window {from} {to}: {found} {} {} plan {:?} bunch {} gap {}", film.report.wall_crossings, film.report.unreachable, film.plan, fullest(&film), film.report.gap);
+        println!(
+            "window {from} {to}: {found} {} {} plan {:?} bunch {} gap {}",
+            film.report.wall_crossings,
+            film.report.unreachable,
+            film.plan,
+            fullest(&film),
+            film.report.gap
+        );
     }
 }

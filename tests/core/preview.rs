@@ -319,5 +319,8 @@ fn finer_photons_go_along_the_fields_of_the_preview() {
     let at = Vec2::new(0.4, 0.5);
     assert_eq!(fine.fields(20)[0].velocity(at), preview.fields(20)[0].velocity(at));
     project.flow.gamma = 0.5;
-    assert_eq!(stages(&run(&engine, &project, Quality::Fine)), ["load", "plan", "fit", "match", "watch", "carry"]);
+    assert_eq!(
+        stages(&run(&engine, &project, Quality::Fine)),
+        ["load", "plan", "fit", "match", "watch", "carry"]
+    );
 }

@@ -9,6 +9,7 @@ use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::preview::{FlowPicture, LivePreview, Subject, Wanted};
 use lightloom::editor::session::{FieldMap, Session};
 use lightloom_core::constraint::{Barriers, Constraint, Wall, Window};
+use lightloom_core::flow::MotionMethod;
 use lightloom_core::project::Project;
 use tempfile::TempDir;
 
@@ -36,7 +37,7 @@ fn disc(matching: &str, gamma: f32) -> (TempDir, Subject) {
     let text = format!(
         r#"{{ "lightloom": 1, "matching": "{matching}", "keys": [ {{ "frame": 1, "shows": {{ "points": {{ "file": "from.csv" }} }} }},
             {{ "frame": 11, "shows": {{ "points": {{ "file": "to.csv" }} }} }} ],
-            "flow": {{ "gamma": {gamma}, "grid": 24, "steps": 8 }}, "render": {{ "photons": 300 }} }}"#
+            "flow": {{ "gamma": {gamma}, "alpha": 0.001, "grid": 24, "steps": 8 }}, "render": {{ "photons": 300 }} }}"#
     );
     let project: Project = serde_json::from_str(&text).unwrap();
     let base = folder.path().join("project.json");
@@ -68,6 +69,9 @@ fn session(change: impl FnOnce(&mut Session)) -> Session {
 
 fn most(gamma: f32, map: FieldMap) -> f32 {
     let (_folder, subject) = subject(gamma, Vec::new());
+    // On its way to a meeting a liquid gathers, too.
+    let project = Project { method: MotionMethod::Guided, ..(*subject.project).clone() };
+    let subject = Subject { project: Arc::new(project), ..subject };
     let session = session(|session| session.overlays.map = Some(map));
     let flow = seen(&subject, &session, |flow| flow.map.is_some());
     flow.map.as_ref().unwrap().most

@@ -35,6 +35,7 @@ impl FlowCase {
             fit: FitKind::Joint,
             grid: GridSize::Longer(effort.pick(32, 128)),
             steps: effort.pick(8, 20),
+            alpha: 1e-3,
             ..FlowSettings::default()
         };
         let (source, target) = (disc([0.3, 0.4], 0.2, count), ring(count));

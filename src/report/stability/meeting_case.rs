@@ -69,7 +69,8 @@ impl Input for MeetingCase {
         frames.iter().for_each(|frame| observer.observe(frame));
         let ends = frames.iter().last().into_iter().flatten().zip(film.targets());
         let missed = ends.map(|(c, b)| f64::from(c.distance(*b))).fold(0.0, f64::max);
-        let numbers = [report.peak_speed_ratio, report.dispersion, film.plan.seconds[0], film.plan.seconds[1]];
+        let numbers =
+            [report.peak_speed_ratio, report.dispersion, film.plan.seconds[0], film.plan.seconds[1]];
         Ok(Measured {
             finite: observer.is_finite() && numbers.into_iter().all(f64::is_finite),
             endpoint_error: Some(missed.max(report.endpoint_error)),

@@ -7,8 +7,8 @@
 mod case;
 mod fit_case;
 mod flow_case;
-mod meeting_case;
 mod glass;
+mod meeting_case;
 mod picture_case;
 mod rows;
 mod scene_case;

@@ -39,12 +39,8 @@ impl Parameter {
     /// `own` with this parameter from coarse to fine.
     pub(super) fn varied(self, own: Setting, effort: Effort) -> Vec<Setting> {
         match self {
-            Self::Cells => {
-                CELLS[..effort.pick(4, 5)].iter().map(|&cells| Setting { cells, ..own }).collect()
-            }
-            Self::Steps => {
-                STEPS[..effort.pick(3, 4)].iter().map(|&steps| Setting { steps, ..own }).collect()
-            }
+            Self::Cells => CELLS[..effort.pick(4, 5)].iter().map(|&cells| Setting { cells, ..own }).collect(),
+            Self::Steps => STEPS[..effort.pick(3, 4)].iter().map(|&steps| Setting { steps, ..own }).collect(),
             Self::Sweeps => SWEEPS.into_iter().map(|sweeps| Setting { sweeps, ..own }).collect(),
         }
     }

@@ -32,7 +32,9 @@ impl Series {
     /// What is left undone, over the seconds of the plans.
     pub(super) fn plot(&self, project: &str) -> Plot {
         let panels = vec![
-            self.panel("misplaced light of the first plan", Axis::log("share of the light"), |run| run.misplaced),
+            self.panel("misplaced light of the first plan", Axis::log("share of the light"), |run| {
+                run.misplaced
+            }),
             self.panel("gap at the meeting", Axis::log("root mean square (plane)"), |run| run.gap),
             self.panel("cracks", Axis::linear("share of the light"), |run| run.figures.cracks),
             self.panel("fullest cell", Axis::linear("over that of the keys"), |run| run.figures.bunch),
@@ -75,7 +77,9 @@ impl Measured {
 }
 
 fn row(series: &Series, varied: &'static str, run: &Run) -> Vec<Cell> {
-    let Run { setting: Setting { cells, steps, sweeps }, seconds: [plan, fit], misplaced, gap, figures, .. } = run;
+    let Run {
+        setting: Setting { cells, steps, sweeps }, seconds: [plan, fit], misplaced, gap, figures, ..
+    } = run;
     vec![
         series.name().into(),
         varied.into(),

@@ -73,12 +73,7 @@ impl Trial<'_> {
     }
 
     /// The project's own setting where `setting` is none.
-    fn run(
-        &self,
-        setting: Option<Setting>,
-        walls: &[ActiveWall],
-        varied: Option<Parameter>,
-    ) -> Result<Run> {
+    fn run(&self, setting: Option<Setting>, walls: &[ActiveWall], varied: Option<Parameter>) -> Result<Run> {
         let MovingSegment { source, target, extent, number, lines, .. } = self.photons;
         let steps = setting.map_or(self.flow.steps, |setting| setting.steps);
         let flow = FlowSettings { steps, ..self.flow.clone() };

@@ -7,8 +7,8 @@ use super::row::Row;
 use crate::effort::Effort;
 use crate::stability::flow_case::disc;
 use crate::stability::meeting_case::MeetingCase;
-use lightloom_core::continuity::PHOTONS;
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
+use lightloom_core::continuity::PHOTONS;
 
 /// Thickness of the walls, plane units.
 const THICKNESS: f32 = 0.02;
@@ -61,11 +61,12 @@ fn around_walls(effort: Effort) -> Vec<Row> {
         }),
         row("no wall", "the plan is free", |_, _| ()),
         row("a wall far from all light", FAR, |case, _| case.walls = wall(&[[0.02, 0.02], [0.02, 0.1]])),
-        row("a closed wall around the target", CLOSED, move |case, _| case.walls = wall(&around))
-            .limited(move |limits| {
+        row("a closed wall around the target", CLOSED, move |case, _| case.walls = wall(&around)).limited(
+            move |limits| {
                 limits.unreachable = Some([all; 2]);
                 (limits.misplaced, limits.gap) = (None, None);
-            }),
+            },
+        ),
     ]
 }
 
