@@ -20,7 +20,7 @@ const BETA: Control =
 const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0);
 const METHOD: Control =
     Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "Guided", "2016", "Linear"]);
-const HOLD: Control = Control::new("Hold", FlowSettings::HOLD).slider(0.01, 0.2);
+const HOLD: Control = Control::new("Hold", FlowSettings::HOLD).slider(0.04, 0.2);
 const DENSITY: Control = Control::new("Density", FlowSettings::DENSITY).log_slider(1.0, 10.0);
 const FIT: Control = Control::new("Fit", FlowSettings::FIT).labels(&["Separate", "Joint"]);
 const GRID: Control = Control::new("Grid", FlowSettings::GRID).log_slider(16.0, 512.0);
