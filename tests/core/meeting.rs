@@ -116,7 +116,7 @@ fn odd_keys_and_settings_come_through() {
     let odd = [
         FlowSettings { alpha: 1e6, ..plain() },
         FlowSettings { alpha: 1e-12, ..plain() },
-        FlowSettings { hold: 0.01, ..plain() },
+        FlowSettings { hold: 0.04, ..plain() },
         FlowSettings { hold: 0.2, ..plain() },
         FlowSettings { steps: 1, ..settings() },
         FlowSettings { steps: 2, ..settings() },

@@ -106,7 +106,7 @@ fn settings() -> Vec<Row> {
         with("gamma 1", |case| case.settings.gamma = 1.0),
         loose(with("alpha 1e6", |case| case.settings.alpha = 1e6)),
         with("alpha 1e-12", |case| case.settings.alpha = 1e-12),
-        loose(with("hold 0.01", |case| case.settings.hold = 0.01)),
+        with("hold 0.04", |case| case.settings.hold = 0.04),
         with("hold 0.2", |case| case.settings.hold = 0.2),
         loose(with("1 step", |case| case.settings.steps = 1)),
         with("3 steps", |case| case.settings.steps = 3),
