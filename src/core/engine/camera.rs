@@ -12,7 +12,7 @@ use super::stages::Stages;
 use crate::project::Project;
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
+    FirstHits, GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
     rough_background,
 };
 use crate::scene::Scene;
@@ -54,6 +54,29 @@ impl<'a> CameraView<'a> {
 }
 
 impl Stages {
+    /// Coverage and depth of what the camera sees; none without a scene, and where no file asks for them.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn first_hits(
+        &self,
+        slot: Slot,
+        prepared: &Prepared,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Option<Arc<FirstHits>>> {
+        let Project { render, output, seed, .. } = &prepared.project;
+        let Some(scene) = prepared.scene.as_ref().filter(|_| output.shows_surfaces()) else {
+            return Ok(None);
+        };
+        let size = [render.width as usize, render.height as usize];
+        let input = (Same::of(scene), size, *seed);
+        let made = self.first_hits.get(slot, input, progress, |_| {
+            meter.measure("visible", || FirstHits::new(scene, size, *seed, progress).map(Arc::new))
+        });
+        made.map(Some)
+    }
+
     /// The texels that each pixel of the camera sees, and the picture without caustics.
     ///
     /// # Errors

@@ -45,6 +45,16 @@ pub(super) struct FrameWriter<'a> {
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
+/// The light of a frame as the camera sees it.
+struct SeenLight {
+    /// All caustics together.
+    all: Image,
+    /// Each by itself with the name of its layer, where they are apart.
+    caustics: Vec<(String, Image)>,
+    /// Its passes.
+    passes: usize,
+}
+
 impl FrameWriter<'_> {
     /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on the sheet with their
     /// numbers.
@@ -96,12 +106,12 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let beauty = self.background.plus(&self.light(slot)?.0);
+        let beauty = self.background.plus(&self.light(slot)?.all);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
-    /// The light at a moment as the camera sees it: of all caustics, of each by itself where they are apart, and its passes.
-    fn light(&self, moment: usize) -> Result<(Image, Vec<(String, Image)>, usize)> {
+    /// The light at a moment as the camera sees it.
+    fn light(&self, moment: usize) -> Result<SeenLight> {
         let textures = self.caustic_names.len().max(1);
         let gathered = (0..textures).map(|i| {
             let (texture, passes) = self.render.mean(moment * textures + i)?;
@@ -111,17 +121,17 @@ impl FrameWriter<'_> {
         let passes = gathered.first().map_or(0, |(_, passes)| *passes);
         if textures == 1 {
             let all = gathered.swap_remove(0).0;
-            return Ok((all, Vec::new(), passes));
+            return Ok(SeenLight { all, caustics: Vec::new(), passes });
         }
         let mut all = Image::new(self.background.width, self.background.height);
         gathered.iter().for_each(|(image, _)| all = all.plus(image));
         let caustics = self.caustic_names.iter().cloned().zip(gathered.into_iter().map(|(image, _)| image));
-        Ok((all, caustics.collect(), passes))
+        Ok(SeenLight { all, caustics: caustics.collect(), passes })
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
     fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(RepairedSamples, Image)> {
-        let (caustic, caustics, passes) = self.light(slot)?;
+        let SeenLight { all: caustic, caustics, passes } = self.light(slot)?;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
         let picture = Frame {

@@ -110,7 +110,7 @@ impl<'a> Exposures<'a> {
     /// The rows of the photons of each texture.
     fn rows(&self, groups: &[KeyPhotons]) -> Vec<Range<usize>> {
         if self.textures == 1 {
-            return vec![0..count(groups)];
+            return std::iter::once(0..count(groups)).collect();
         }
         let ends = groups.iter().scan(0, |end, group| {
             let start = *end;

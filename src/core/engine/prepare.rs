@@ -7,14 +7,13 @@ use glam::Vec2;
 use super::frame_times::FrameTimes;
 use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
-use super::meter::Meter;
 use super::plan::{self, Plan};
 use super::stages::Stages;
 use super::{Quality, active_constraints, grouping};
 use crate::export::caustic_layer_names;
 use crate::flow::{FlowSettings, GridSize};
 use crate::project::{Project, Shows};
-use crate::render::{FirstHits, PlaneMaterial};
+use crate::render::PlaneMaterial;
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -85,17 +84,6 @@ impl Prepared {
             return Vec::new();
         }
         caustic_layer_names(self.project.caustics.iter().map(|caustic| caustic.name.as_str()))
-    }
-
-    /// Coverage and depth of what the camera sees, where a layer asks for them and there is a scene.
-    ///
-    /// # Errors
-    /// `Cancelled`.
-    pub(super) fn first_hits(&self, meter: &Meter, progress: &Progress) -> Result<Option<FirstHits>> {
-        let Project { render, output, seed, .. } = &self.project;
-        let Some(scene) = self.scene.as_ref().filter(|_| output.shows_surfaces()) else { return Ok(None) };
-        let size = [render.width as usize, render.height as usize];
-        meter.measure("visible", || FirstHits::new(scene, size, *seed, progress)).map(Some)
     }
 
     /// The look of light on the plane.

@@ -97,14 +97,14 @@ impl Engine {
         let textures = prepared.textures();
         let render =
             ProgressiveRender::new(*visible.layout(), first, times.moments.len() * textures, folder)?;
-        let first_hits = prepared.first_hits(meter, progress)?;
+        let first_hits = self.stages.first_hits(slot, prepared, meter, progress)?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
             render: &render,
             visible: &visible,
             background: &background,
-            first_hits: first_hits.as_ref(),
+            first_hits: first_hits.as_deref(),
             caustic_names: &prepared.caustic_layer_names(),
             camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
             folder,

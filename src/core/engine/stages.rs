@@ -13,7 +13,7 @@ use super::memo_keys::{GuideInput, PositionsInput, ViewInput};
 use super::segment_photons::{MatchInput, Matched};
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{GatherMatrix, Image};
+use crate::render::{FirstHits, GatherMatrix, Image};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -29,6 +29,7 @@ pub(super) struct Stages {
     pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
+    pub(super) first_hits: Memo<(Same<Scene>, [usize; 2], u64), Arc<FirstHits>>,
     pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
 }
 
@@ -49,6 +50,7 @@ impl Stages {
             flows: Memo::default(),
             positions: Memo::default(),
             visible: Memo::default(),
+            first_hits: Memo::default(),
             backgrounds: Memo::default(),
         }
     }

@@ -5,8 +5,9 @@ use std::io::Write;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, SrgbRenderingIntent};
 
 use super::delta::Window;
+use super::film_file::Film;
+use super::reel::CHANNELS;
 use super::timing::fraction;
-use super::{CHANNELS, Film};
 use crate::Result;
 
 pub(super) fn write(film: &Film, file: &mut dyn Write) -> Result<()> {

@@ -6,8 +6,8 @@ use std::io::Write;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
-use super::Film;
 use super::delta::Window;
+use super::film_file::Film;
 use super::palette::Palette;
 use super::timing::gif_delays;
 use crate::Result;

@@ -2,15 +2,16 @@
 
 mod apng;
 mod delta;
+mod film_file;
 mod gif;
 mod mp4;
 mod palette;
 mod reel;
 mod timing;
 
-use std::io::{self, Write};
 use std::path::Path;
 
+use film_file::Film;
 pub use reel::Reel;
 pub use timing::holds;
 
@@ -86,44 +87,3 @@ pub fn write_film(
         FilmFormat::Mp4 => mp4::write(&film),
     }
 }
-
-/// A film to be written.
-struct Film<'a> {
-    path: &'a Path,
-    reel: &'a Reel,
-    holds: &'a [u32],
-    frames_per_second: [u32; 2],
-    progress: &'a Progress,
-    /// Whether the work was stopped before.
-    stopped: bool,
-}
-
-impl Film<'_> {
-    /// Writes the file atomically.
-    fn fill(&self, fill: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-        let mut failed = None;
-        let written = crate::files::write_atomic(self.path, |file| {
-            fill(file).map_err(|error| {
-                failed = Some(error);
-                io::Error::other("not completed")
-            })
-        });
-        failed.map_or(written, Err)
-    }
-
-    /// `Err(Cancelled)` once the film is not wanted any more. Blocks while paused.
-    fn check(&self) -> Result<()> {
-        match self.progress.check() {
-            Err(Error::Cancelled) if self.stopped && !self.progress.is_abandoned() => Ok(()),
-            other => other,
-        }
-    }
-
-    /// For `map_err`: the encoder's or the system's reason.
-    fn refused<E: std::error::Error + Send + Sync + 'static>(&self) -> impl Fn(E) -> Error {
-        |error| Error::io("write", self.path)(io::Error::other(error))
-    }
-}
-
-/// Bytes of one pixel in a reel: R, G, B.
-const CHANNELS: usize = 3;

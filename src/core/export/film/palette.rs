@@ -7,7 +7,7 @@ use quantette::color_space::{oklab_to_srgb8, srgb8_to_oklab};
 use quantette::deps::palette::{Oklab, Srgb, cast};
 use quantette::wu::{BinnerF32x3, WuF32x3};
 
-use super::{CHANNELS, Reel};
+use super::reel::{CHANNELS, Reel};
 use crate::Result;
 use crate::export::png;
 

@@ -5,10 +5,12 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::CHANNELS;
 use crate::export::png;
 use crate::render::image::Image;
 use crate::{Error, Result};
+
+/// Bytes of one pixel in a reel: R, G, B.
+pub(super) const CHANNELS: usize = 3;
 
 /// Frames of 8 bits per channel in an unnamed file that disappears with the process.
 #[derive(Debug)]
