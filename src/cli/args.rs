@@ -27,6 +27,9 @@ pub(crate) enum Command {
     Fit(FitArgs),
     /// Render a project by the vector field, by the method of 2016 and by straight lines, side by side on one sheet.
     Compare(CompareArgs),
+    /// Measure how well the light of projects holds together on its way: cracks, torn pieces, bunching, speed. A table with a
+    /// row for each segment; nothing is rendered.
+    Figures(FiguresArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
     /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
@@ -88,6 +91,21 @@ pub(crate) struct CompareArgs {
 }
 
 #[derive(Args)]
+pub(crate) struct FiguresArgs {
+    /// The project files.
+    #[arg(value_name = "PROJECT", required = true)]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Values of gamma in place of the project's own, such as 0,0.5,1: a row for each.
+    #[arg(long, value_delimiter = ',')]
+    pub(crate) gamma: Vec<f32>,
+    /// Methods in place of the project's own, such as flow,linear: a row for each.
+    #[arg(long, value_delimiter = ',')]
+    pub(crate) method: Vec<String>,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+#[derive(Args)]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) project: ProjectArgs,
@@ -111,9 +129,6 @@ pub(crate) struct ProjectArgs {
     /// Photons per pass.
     #[arg(long)]
     photons: Option<u64>,
-    /// Preview: few photons, coarse grid, small picture. Final: as the project says.
-    #[arg(long, value_enum, default_value = "final")]
-    quality: QualityName,
     /// Picture formats, such as exr,png.
     #[arg(long, value_delimiter = ',')]
     format: Vec<String>,
@@ -124,6 +139,16 @@ pub(crate) struct ProjectArgs {
     /// Draw the lines and walls of the project on sheets, thin.
     #[arg(long)]
     draw_constraints: bool,
+    #[command(flatten)]
+    pub(crate) common: CommonArgs,
+}
+
+/// What can differ in a run of any project.
+#[derive(Args)]
+pub(crate) struct CommonArgs {
+    /// Preview: few photons, coarse grid, small picture. Final: as the project says.
+    #[arg(long, value_enum, default_value = "final")]
+    quality: QualityName,
     /// Threads; the result does not depend on their number. Default: one per core.
     #[arg(long)]
     threads: Option<usize>,
@@ -133,7 +158,7 @@ pub(crate) struct ProjectArgs {
     /// Let the project read meshes and pictures from anywhere, not only from its own folder.
     #[arg(long)]
     pub(crate) allow_external: bool,
-    /// Print the summary as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -147,12 +172,8 @@ enum QualityName {
 impl ProjectArgs {
     /// The project as this run shall do it.
     pub(crate) fn load(&self) -> Result<Project> {
-        let quality = match self.quality {
-            QualityName::Preview => Quality::Fine,
-            QualityName::Final => Quality::Final,
-        };
         // What is asked for by name outweighs the quality.
-        let mut project = quality.apply(&Project::load(self.path()?)?);
+        let mut project = self.common.load(self.path()?)?;
         if let Some(frames) = &self.frames {
             frames::parse(frames, "--frames")?;
             project.output.frames = Some(frames.clone());
@@ -162,7 +183,6 @@ impl ProjectArgs {
         }
         project.render.passes = self.passes.unwrap_or(project.render.passes);
         project.render.photons = self.photons.unwrap_or(project.render.photons);
-        project.seed = self.seed.unwrap_or(project.seed);
         if !self.format.is_empty() {
             project.output.formats =
                 self.format.iter().map(|name| parse_format(name)).collect::<Result<_>>()?;
@@ -188,6 +208,18 @@ impl ProjectArgs {
     /// `Value` where a command that can do without one was given none.
     pub(crate) fn path(&self) -> Result<&Path> {
         self.path.as_deref().ok_or_else(|| Error::value("PROJECT", "name a project file"))
+    }
+}
+
+impl CommonArgs {
+    /// The project of a file at the quality and with the seed of this run.
+    pub(crate) fn load(&self, path: &Path) -> Result<Project> {
+        let quality = match self.quality {
+            QualityName::Preview => Quality::Fine,
+            QualityName::Final => Quality::Final,
+        };
+        let project = quality.apply(&Project::load(path)?);
+        Ok(Project { seed: self.seed.unwrap_or(project.seed), ..project })
     }
 
     /// Sets the number of threads for the whole process; it is set once.

@@ -8,11 +8,11 @@ use super::args::CheckArgs;
 use super::progress::Lines;
 
 pub(super) fn run(args: &CheckArgs) -> Result<u8> {
-    args.project.set_threads()?;
+    args.project.common.set_threads()?;
     let project = args.project.load()?;
-    let assets = AssetFolder::new(args.project.path()?, args.project.allow_external)?;
+    let assets = AssetFolder::new(args.project.path()?, args.project.common.allow_external)?;
     let report = Engine::new(assets).check(&project)?;
-    let shown = if args.project.json { report.to_json() } else { report.to_text() };
+    let shown = if args.project.common.json { report.to_json() } else { report.to_text() };
     Lines::Out.say(shown.trim_end());
     Ok(0)
 }

@@ -78,9 +78,9 @@ pub(super) fn run<T: Outcome>(
     out: &Path,
     work: impl FnOnce(&Engine, &Project, &Progress, Saved) -> Result<T>,
 ) -> Result<T> {
-    args.set_threads()?;
+    args.common.set_threads()?;
     let (path, project) = (args.path()?, args.load()?);
-    let assets = AssetFolder::new(path, args.allow_external)?;
+    let assets = AssetFolder::new(path, args.common.allow_external)?;
     prepare_folder(out, path, &project, "--out")?;
     for folder in T::folders() {
         prepare_folder(&out.join(folder), path, &project, "--out")?;
@@ -94,15 +94,18 @@ pub(super) fn watch<T: Outcome>(
     out: &Path,
     work: impl FnOnce(&Progress, Saved) -> Result<T>,
 ) -> Result<T> {
+    let summary = shown(Lines::beside(args.common.json), work)?;
+    conclude(&summary, out, args.common.json)?;
+    Ok(summary)
+}
+
+/// Shows on `lines` how far `work` is, until it ends or Ctrl-C stops it.
+pub(super) fn shown<T>(lines: Lines, work: impl FnOnce(&Progress, Saved) -> Result<T>) -> Result<T> {
     let progress = Progress::new();
     stop_on_interrupt(&progress);
-
-    let display = Display::start(&progress, Lines::beside(args.json));
+    let display = Display::start(&progress, lines);
     let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
-    let summary = work(&progress, &saved)?;
-    drop(display);
-    conclude(&summary, out, args.json)?;
-    Ok(summary)
+    work(&progress, &saved)
 }
 
 /// Ctrl-C asks the work to stop; a second one leaves at once.

@@ -4,6 +4,7 @@ pub(crate) mod args;
 mod check;
 mod compare;
 mod exit_code;
+mod figures;
 mod fit;
 mod job;
 mod progress;
@@ -35,6 +36,7 @@ pub fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Fit(args)) => fit::run(args),
         Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Schema) => schema(),

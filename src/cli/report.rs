@@ -25,7 +25,7 @@ pub(super) fn run(args: &ReportArgs) -> Result<u8> {
 /// The stability table, which needs no project.
 fn run_stability(args: &ReportArgs, effort: Effort) -> Result<u8> {
     let out = &args.out;
-    args.project.set_threads()?;
+    args.project.common.set_threads()?;
     // Before minutes of work go there.
     std::fs::create_dir_all(out).map_err(Error::io("create the folder", out))?;
     let table = job::watch(&args.project, out, |progress, saved| {

@@ -3,13 +3,16 @@
 //! # Layout
 //!
 //! ```text
-//! Project ──► Scene ──► Photons ──► Matching ──► fit ──► Trajectories ──► textures ──► frames
-//! project     scene     photon      targets      flow    flow             render       export
-//!                                   matching
+//! Project ──► Scene ──► Photons ──► plan ────► fit ──► meeting ──► Trajectories ──► textures ──► frames
+//! project     scene     photon      targets    flow    matching    flow             render       export
+//!                                   bridge
 //! ```
 //!
 //! [`engine`] runs these stages and remembers their results; the command line, the editor and the report (the package
 //! `lightloom_report`) ask it.
+//!
+//! By default the light of both key frames is planned as one body ([`bridge`]), fields are fitted to the plan, and photons are
+//! paired where both meet half way ([`flow::meeting`]). The method of the paper pairs first (`"method": "guided"`).
 //!
 //! | of the paper (Baeza et al. 2020) | module |
 //! |---|---|
@@ -22,6 +25,7 @@
 //! | Advection (RK4), fade, flux blending | `flow::step`, [`flow::fade`], [`flow::flux`] |
 //! | Synthetic turbulence | [`flow::turbulence`] |
 //! | Sec. 4, progressive rendering | [`render`], [`engine`] |
+//! | How well light holds together on the way (not in the paper) | [`continuity`] |
 //! | Fig. 1, the previous method (Günther et al. 2016) | `matching::stylized`, `flow::path_trajectories`, `engine::compare` |
 //!
 //! [`setting`] describes every value of a project once: range, default, unit, help. Modules use only those above them in
@@ -48,15 +52,21 @@
 //! | pairing | The choice of a target point for each photon of a segment, by any method ([`project::Project::matching`]). |
 //! | map | A continuous map from the source to the target density, made once per segment ([`matching::ContinuousMap`]). |
 //! | matching | The bijection between source and target points of one pass, near the map ([`matching::Matching`]). |
-//! | guidance | The velocity straight to the target in the time left, Eq. (2) ([`flow::guidance`]). |
+//! | guidance | The velocity straight to the target in the time left, Eq. (2) ([`flow::guidance`]); of the method of the paper. |
 //! | stream function | psi; its co-gradient is the divergence-free part of the field ([`flow::field`]). |
 //! | scalar potential | phi; its gradient is the irrotational part of the field ([`flow::field`]). |
 //! | gamma | Blend of the parts: 0 divergence-free, 1 irrotational ([`flow::FlowSettings::gamma`]). |
 //! | alpha | Smoothness of the field ([`flow::FlowSettings::alpha`]). |
 //! | beta | Strength of directed lines in the fit ([`flow::FlowSettings::beta`]). |
+//! | plan | The motion of the whole body of light between two key frames: a Schroedinger bridge ([`bridge`]). |
+//! | meeting | The time t = 1/2, at which the light of both key frames is paired ([`flow::meeting`]). |
+//! | gap | The distance between the two ends of a photon at the meeting ([`flow::FlowReport::gap`]). |
 //! | guides | The photons to which the field is fitted ([`flow::FlowSettings::guides`]). |
 //! | fade | The transition of the photons from the field to their targets ([`flow::Fade`]). |
 //! | trajectory | The path of one photon through a segment ([`flow::Trajectories`]). |
+//! | crack | A dark seam that opens between parts of a body of light on its way ([`continuity`]). |
+//! | torn | Of a photon: away from the neighbours that it has in a key ([`continuity::Neighbourhoods`]). |
+//! | bunch | Light piled up in one place on its way ([`continuity::Continuity::bunch`]). |
 //! | turbulence | Divergence-free noise added to the field ([`flow::Turbulence`]). |
 //! | directed line | A drawn line along which the field flows ([`constraint::DirectedLine`]). |
 //! | wall | A drawn line that no photon crosses ([`constraint::Wall`]). |
@@ -155,6 +165,8 @@ pub mod setting;
 pub mod files;
 
 pub mod math;
+
+pub mod continuity;
 
 pub mod scene;
 

@@ -152,6 +152,7 @@ pub fn is_on(command: Command, session: &Session) -> Option<bool> {
         Command::ShowDivergence => show.map == Some(FieldMap::Divergence),
         Command::ShowCurl => show.map == Some(FieldMap::Curl),
         Command::ShowResidual => show.map == Some(FieldMap::Residual),
+        Command::ShowTears => show.map == Some(FieldMap::Tears),
         Command::Compare => session.compare.is_some(),
         _ => return None,
     })

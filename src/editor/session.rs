@@ -144,6 +144,8 @@ pub enum FieldMap {
     Curl,
     /// Residual of the fit: field minus the directions of the photons.
     Residual,
+    /// Where light is torn from its neighbours, and where dark cracks open in it.
+    Tears,
 }
 
 /// A wipe between this flow and a comparison.

@@ -150,6 +150,7 @@ impl EditorState {
             Command::ShowDivergence => map(FieldMap::Divergence),
             Command::ShowCurl => map(FieldMap::Curl),
             Command::ShowResidual => map(FieldMap::Residual),
+            Command::ShowTears => map(FieldMap::Tears),
             Command::ShowArrows => toggle(&mut overlays.arrows),
             Command::ShowStreamlines => toggle(&mut overlays.streamlines),
             Command::ShowTrails => toggle(&mut overlays.trails),

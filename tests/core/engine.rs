@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use crate::previews::two_balls;
 use lightloom_core::Progress;
+use lightloom_core::continuity::{Continuity, measure};
 use lightloom_core::engine::{Client, Engine, Summary};
+use lightloom_core::glam::Vec2;
 use lightloom_core::project::Project;
 use tempfile::TempDir;
 
@@ -39,7 +41,8 @@ fn small() -> (impl Sized, Project, Engine) {
 fn a_second_render_makes_only_passes_and_files() {
     let (_stage, project, engine) = small();
     let (first, made) = render(&engine, &project);
-    assert_eq!(made, ["load", "visible", "background", "trace", "match", "fit", "render", "write"]);
+    let all = ["load", "visible", "background", "trace", "match", "fit", "render", "write", "measure"];
+    assert_eq!(made, all);
     let (second, made) = render(&engine.on_behalf_of(Client::Export), &project);
     assert_eq!(made, ["load", "render", "write"]);
     assert_eq!(first.len(), 2);
@@ -52,7 +55,7 @@ fn a_new_gamma_traces_and_matches_nothing_in_a_render_either() {
     render(&engine, &project);
     project.flow.gamma = 0.2;
     let (remembered, made) = render(&engine, &project);
-    assert_eq!(made, ["load", "fit", "render", "write"]);
+    assert_eq!(made, ["load", "fit", "render", "write", "measure"]);
     let (afresh, _) = render(&engine.afresh(), &project);
     assert!(remembered == afresh);
 }
@@ -69,4 +72,28 @@ fn users_at_the_same_time_get_the_same_light() {
         });
         renders.into_iter().for_each(|render| assert!(render.join().unwrap() == alone));
     });
+}
+
+#[test]
+fn the_figures_of_a_project_are_those_of_the_tracks_that_are_written() {
+    let (_stage, mut project, engine) = small();
+    // As many photons as the figures are taken from, and steps that meet the times of all pictures.
+    (project.render.photons, project.flow.steps) = (5000, 20);
+    let out = tempfile::tempdir().unwrap();
+    let summary = engine.fit(&project, out.path(), &Progress::new(), &|_| ()).unwrap();
+    let tracks: Vec<Vec<Vec2>> = crate::tracks::read::<Vec2, 2>(&out.path().join("tracks.npy"));
+    let extent = engine.fitted(&project, &Progress::new()).unwrap().extent();
+    // The first of two segments.
+    let expected = measure(&tracks[..=tracks.len() / 2], extent, &Progress::new());
+    let (found, expected) = (&summary.continuity[0].all, expected.unwrap());
+    let torn = |of: &Continuity| [of.torn_source, of.torn_target, of.torn_target_late];
+    assert_eq!(torn(found), torn(&expected));
+    // Positions at a time do not depend on which others are asked for, but for single precision.
+    assert!((found.cracks - expected.cracks).abs() < 1e-4, "{found:?} {expected:?}");
+    // Between steps light may be denser and faster still.
+    assert!(
+        found.bunch >= expected.bunch && found.fastest > 0.99 * expected.fastest,
+        "{found:?} {expected:?}"
+    );
+    assert_eq!(engine.continuity(&project, &Progress::new()).unwrap(), summary.continuity);
 }

@@ -7,6 +7,7 @@ mod advection;
 mod background;
 mod caustics;
 mod constraints;
+mod continuity;
 mod crossing;
 mod engine;
 mod export;

@@ -95,16 +95,20 @@ fn it_has_no_divergence_anywhere_at_any_time() {
 }
 
 #[test]
-fn its_strength_does_not_pulse() {
+fn it_grows_from_nothing_does_not_pulse_and_is_gone_before_the_target_forms() {
     for (grids, extent) in [(&[8u32, 16][..], Vec2::ONE), (&[9, 13, 30], EXTENT), (&[6], Vec2::new(0.3, 1.0))]
     {
         for number in [0, 3] {
             let turbulence = Turbulence::new(&noise(30.0, grids), extent, number).unwrap();
-            for i in 0..=40 {
-                let measured = speed(&turbulence.at(f64::from(i) / 40.0), extent, 150);
+            let at = |i: i32| speed(&turbulence.at(f64::from(i) / 40.0), extent, 150);
+            for i in 6..=16 {
                 // Asked for are 5 %; it is exact up to the midpoint rule with five points a cell, some 1e-3.
-                assert!((measured / 0.3 - 1.0).abs() < 3e-3, "{grids:?} at {i}: {measured}");
+                assert!((at(i) / 0.3 - 1.0).abs() < 3e-3, "{grids:?} at {i}: {}", at(i));
             }
+            let rising = (0..6).map(at).collect::<Vec<_>>();
+            let falling = (16..=32).map(at).collect::<Vec<_>>();
+            assert!(rising[0] == 0.0 && rising.is_sorted(), "{rising:?}");
+            assert!(falling[16] < 1e-6 && falling.iter().rev().is_sorted(), "{falling:?}");
         }
     }
 }
@@ -207,8 +211,9 @@ fn the_spectrum_has_the_slope_asked_for() {
 #[test]
 fn weights_take_the_place_of_the_slope() {
     let with = |weights: &[f32]| {
-        let settings = TurbulenceSettings { weights: Some(weights.to_vec()), ..noise(20.0, &[8, 40]) };
-        Turbulence::new(&settings, Vec2::ONE, 0).unwrap().at(0.0)
+        let settings =
+            TurbulenceSettings { weights: Some(weights.to_vec()), rate: 4.0, ..noise(20.0, &[8, 40]) };
+        Turbulence::new(&settings, Vec2::ONE, 0).unwrap().at(0.25)
     };
     let fields = with(&[3.0, 4.0]);
     let [coarse, fine] = [&fields[..1], &fields[1..]].map(|field| speed(field, Vec2::ONE, 240));

@@ -14,10 +14,19 @@ use tempfile::TempDir;
 
 /// A disc of photons that goes from left to right, in a folder of its own.
 fn subject(gamma: f32, constraints: Vec<Constraint>) -> (TempDir, Subject) {
+    let (folder, subject) = disc("transport", gamma);
+    let project = Project { constraints, ..(*subject.project).clone() };
+    project.check().unwrap();
+    (folder, Subject { project: Arc::new(project), ..subject })
+}
+
+/// The disc, whose photons are paired as `matching` says; row by row they change places.
+fn disc(matching: &str, gamma: f32) -> (TempDir, Subject) {
     let folder = tempfile::tempdir().unwrap();
-    for (name, centre) in [("from.csv", vec2(0.25, 0.5)), ("to.csv", vec2(0.75, 0.45))] {
+    for (name, centre, step) in [("from.csv", vec2(0.25, 0.5), 1), ("to.csv", vec2(0.75, 0.45), 101)] {
         let mut text = String::from("x,y\n");
-        for i in 0..300 {
+        // 101 is prime to 300: every place is taken once.
+        for i in (0..300).map(|i| i * step % 300) {
             // A sunflower: even in a disc.
             let p = centre + Vec2::from_angle(2.399_963 * i as f32) * (0.15 * (i as f32 / 300.0).sqrt());
             writeln!(text, "{},{}", p.x, p.y).unwrap();
@@ -25,12 +34,11 @@ fn subject(gamma: f32, constraints: Vec<Constraint>) -> (TempDir, Subject) {
         std::fs::write(folder.path().join(name), text).unwrap();
     }
     let text = format!(
-        r#"{{ "lightloom": 1, "keys": [ {{ "frame": 1, "shows": {{ "points": {{ "file": "from.csv" }} }} }},
+        r#"{{ "lightloom": 1, "matching": "{matching}", "keys": [ {{ "frame": 1, "shows": {{ "points": {{ "file": "from.csv" }} }} }},
             {{ "frame": 11, "shows": {{ "points": {{ "file": "to.csv" }} }} }} ],
             "flow": {{ "gamma": {gamma}, "grid": 24, "steps": 8 }}, "render": {{ "photons": 300 }} }}"#
     );
-    let project = Project { constraints, ..serde_json::from_str(&text).unwrap() };
-    project.check().unwrap();
+    let project: Project = serde_json::from_str(&text).unwrap();
     let base = folder.path().join("project.json");
     (folder, Subject { project: Arc::new(project), base, external: false })
 }
@@ -98,6 +106,19 @@ fn the_residual_is_of_the_photons() {
     assert!(map.values.iter().all(|v| *v >= 0.0));
     // No photon is near the corners.
     assert_eq!((map.values[0], map.values[map.values.len() - 1]), (0.0, 0.0));
+}
+
+#[test]
+fn the_map_of_tears_shows_a_body_that_is_scrambled_and_none_that_stays_whole() {
+    let session = session(|session| (session.playhead, session.overlays.map) = (6, Some(FieldMap::Tears)));
+    let torn = |matching: &str| {
+        let (_folder, subject) = disc(matching, 1.0);
+        let flow = seen(&subject, &session, |flow| flow.map.is_some());
+        let map = flow.map.clone().unwrap();
+        map.values.iter().filter(|value| **value > 0.5).count()
+    };
+    let (whole, scrambled) = (torn("transport"), torn("given"));
+    assert!(whole < 10 && scrambled > 100, "{whole} and {scrambled} of 300 photons are torn off");
 }
 
 #[test]

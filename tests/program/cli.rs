@@ -9,7 +9,6 @@ use lightloom_core::Progress;
 use lightloom_core::export::load_fields;
 use lightloom_core::files::npy;
 use lightloom_core::files::npz::NpzReader;
-use lightloom_core::flow::{FieldTrajectories, Trajectories as _};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -81,6 +80,13 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
         assert!(!summary[name].is_null(), "no {name} in {summary}");
     }
     assert!(summary["endpoint_error"].as_f64().unwrap() < 1e-6);
+    let continuity = &summary["continuity"][0];
+    assert_eq!(continuity["frames"], json!([1, 9]));
+    for name in
+        ["cracks", "torn_source", "torn_target", "torn_target_late", "bunch", "fastest", "fastest_999"]
+    {
+        assert!(continuity[name].as_f64().is_some_and(|figure| figure >= 0.0), "no {name} in {summary}");
+    }
     assert!((summary["flux_ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6);
     assert!(
         summary["stages"].as_array().unwrap().iter().all(|stage| stage["seconds"].as_f64().unwrap() >= 0.0)
@@ -124,23 +130,25 @@ fn fit_writes_tracks_flux_and_fields_of_the_promised_shapes() {
 
 #[test]
 fn fields_that_are_read_back_carry_the_photons_of_the_tracks() {
-    let (folder, project) = letters("flow");
-    let plain = fs::read_to_string(&project).unwrap();
     let swirls = r#""turbulence":{"strength":20,"grids":[20,30],"rate":2.5},"grid":32"#;
-    for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
-        fs::write(&project, text_of).unwrap();
-        let out = folder.path().join("fit");
-        run(&["fit", text(&project), "--out", text(&out)]);
-        let (_, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
-        let rows: Vec<Vec<Vec2>> =
-            tracks.chunks(8000).map(|row| row.chunks(2).map(Vec2::from_slice).collect()).collect();
-        let segments = load_fields(&out.join("fields.npz")).unwrap();
-        assert!(matches!(segments[..], [ref only] if (only.segment, only.caustic) == (0, None)));
-        let mut carrier = FieldTrajectories::new(&segments[0].fields, &rows[0], &rows[8]);
-        let mut positions = vec![Vec2::ZERO; 4000];
-        for (step, wanted) in rows.iter().enumerate() {
-            carrier.positions_at(step as f64 / 8.0, &mut positions, &Progress::new()).unwrap();
-            assert_eq!(&positions, wanted, "step {step}");
+    for method in ["flow", "guided"] {
+        let (folder, project) = letters(method);
+        let plain = fs::read_to_string(&project).unwrap();
+        for text_of in [&plain, &plain.replace("\"grid\":32", swirls)] {
+            fs::write(&project, text_of).unwrap();
+            let out = folder.path().join("fit");
+            run(&["fit", text(&project), "--out", text(&out)]);
+            let (_, tracks) = npy::parse(&fs::read(out.join("tracks.npy")).unwrap()).unwrap();
+            let rows: Vec<Vec<Vec2>> =
+                tracks.chunks(8000).map(|row| row.chunks(2).map(Vec2::from_slice).collect()).collect();
+            let segments = load_fields(&out.join("fields.npz")).unwrap();
+            assert!(matches!(segments[..], [ref only] if (only.segment, only.caustic) == (0, None)));
+            let mut carrier = segments[0].flow.trajectories(&rows[0], &rows[8], &[], None);
+            let mut positions = vec![Vec2::ZERO; 4000];
+            for (step, wanted) in rows.iter().enumerate() {
+                carrier.positions_at(step as f64 / 8.0, &mut positions, &Progress::new()).unwrap();
+                assert_eq!(&positions, wanted, "{method}, step {step}");
+            }
         }
     }
 }
@@ -158,9 +166,8 @@ fn fields_fitted_between_walls_are_read_back_without_the_walls() {
         tracks[8000 * step..8000 * (step + 1)].chunks(2).map(Vec2::from_slice).collect()
     });
     let segments = load_fields(&folder.path().join("fields.npz")).unwrap();
-    let fields = &segments[0].fields;
-    assert_eq!((fields.steps(), fields.substeps()), (32, 4));
-    let mut carrier = FieldTrajectories::new(fields, &first, &last);
+    assert_eq!(segments[0].flow.steps(), Some(8));
+    let mut carrier = segments[0].flow.trajectories(&first, &last, &[], None);
     let mut positions = vec![Vec2::ZERO; 4000];
     carrier.positions_at(1.0, &mut positions, &Progress::new()).unwrap();
     assert_eq!(positions, last);
@@ -346,6 +353,26 @@ fn one_photon_runs() {
         "png",
     ]);
     assert!(out.join("frame.0005.png").exists());
+}
+
+#[test]
+fn figures_prints_a_row_for_each_project_method_and_gamma() {
+    let (_folder, project) = letters("flow");
+    let printed =
+        run(&["figures", text(&project), text(&project), "--method", "flow,linear", "--gamma", "0,1"]);
+    let rows: Vec<&str> = printed.lines().skip(2).collect();
+    let named = |row: &str| row.split('|').nth(1).unwrap().trim().to_owned();
+    let of_one = ["flow, gamma 0, 1-9", "flow, gamma 1, 1-9", "linear, 1-9"]
+        .map(|row| format!("Small letters, {row}"));
+    assert_eq!(rows.iter().map(|row| named(row)).collect::<Vec<_>>(), [&of_one[..], &of_one[..]].concat());
+    assert_eq!(rows[0], rows[3], "the same project has the same figures");
+    let json: Value = serde_json::from_str(&run(&["figures", text(&project), "--json"])).unwrap();
+    assert_eq!(json[0]["name"], "Small letters, 1-9");
+    assert!(json[0]["cracks"].as_f64().is_some());
+    assert!(
+        fail(2, &["figures", text(&project), "--method", "magic"]).contains("flow,guided,stylized,linear")
+    );
+    assert!(fail(2, &["figures", text(&project), "--gamma", "7"]).contains("--gamma"));
 }
 
 /// A folder with a program `ffmpeg` that knows libx264, notes its arguments, and copies its input to its last argument.

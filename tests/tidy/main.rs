@@ -15,17 +15,19 @@ use module::Module;
 use package::Package;
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 17] = [
     "error",
     "setting",
     "progress",
     "files",
     "math",
+    "continuity",
     "scene",
     "photon",
     "targets",
     "constraint",
     "matching",
+    "bridge",
     "flow",
     "render",
     "export",
@@ -35,7 +37,7 @@ const ORDER: [&str; 16] = [
 ];
 
 /// Modules that compute on plain slices and know nothing of the scene.
-const SCENELESS: [&str; 4] = ["targets", "constraint", "matching", "flow"];
+const SCENELESS: [&str; 6] = ["continuity", "targets", "constraint", "matching", "bridge", "flow"];
 
 /// A window and a command line.
 const OUTSIDE: [&str; 9] =

@@ -1,7 +1,7 @@
 //! The regions between which light can pass, and what walls shut off.
 
 use super::cells::Cells;
-use super::wall_cells::WallCells;
+use super::wall_cells::{StandingWalls, WallCells};
 
 /// Groups of cells that light can reach from each other over the whole time, by the cells of the earlier and of the later
 /// key frame.
@@ -13,10 +13,10 @@ pub(super) struct Regions {
 }
 
 impl Regions {
-    /// `walls` with the steps from which they stand; `densities` at both key frames.
-    pub(super) fn new(cells: &Cells, walls: &[(usize, Option<WallCells>)], densities: [&[f64]; 2]) -> Self {
+    /// The regions between `walls`; `densities` at both key frames.
+    pub(super) fn new(cells: &Cells, walls: &StandingWalls, densities: [&[f64]; 2]) -> Self {
         // A node for each connected part of each run of steps; runs join where they share a cell.
-        let parts: Vec<Vec<u32>> = walls.iter().map(|(_, walls)| connected(cells, walls.as_ref())).collect();
+        let parts: Vec<Vec<u32>> = walls.runs().map(|walls| connected(cells, walls)).collect();
         let counts: Vec<usize> =
             parts.iter().map(|part| 1 + part.iter().copied().max().unwrap_or(0) as usize).collect();
         let starts: Vec<usize> =

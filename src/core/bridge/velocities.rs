@@ -22,6 +22,11 @@ impl CellVelocities {
         self.cells.side
     }
 
+    /// The velocity at `p`, between those of the cells around it.
+    pub fn at(&self, p: Vec2) -> Vec2 {
+        self.cells.around(p).iter().map(|&(cell, weight)| self.velocities[cell] * weight).sum()
+    }
+
     /// The velocity at `p`, between those of the cells that it sees past `barriers`; zero where it sees none.
     pub fn seen_from(&self, barriers: &Barriers, p: Vec2) -> Vec2 {
         let mut sum = Vec2::ZERO;

@@ -4,6 +4,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::cells::Cells;
+use super::settings::WallsFrom;
 use crate::constraint::barrier::Barriers;
 
 /// Cells from a wall up to which sight is tested.
@@ -92,5 +93,56 @@ impl<'a> WallCells<'a> {
         let distance = |&cell: &usize| self.cells.centre(cell).distance_squared(p);
         all.filter(|&cell| !self.barriers.blocks(p, self.cells.centre(cell)))
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+/// The walls over the steps of a plan.
+pub(super) struct StandingWalls<'a> {
+    steps: usize,
+    /// The walls with the first step in which they stand.
+    runs: Vec<(usize, Option<WallCells<'a>>)>,
+}
+
+impl<'a> StandingWalls<'a> {
+    pub(super) fn new(cells: &Cells, steps: usize, walls: &[WallsFrom<'a>]) -> Self {
+        let first_step = |time: f64| (time * steps as f64).round() as usize;
+        let run = |from: &WallsFrom<'a>| {
+            (first_step(from.time), from.barriers.map(|barriers| WallCells::new(cells, barriers)))
+        };
+        Self { steps, runs: walls.iter().map(run).collect() }
+    }
+
+    /// The same walls on other cells.
+    pub(super) fn on(&self, cells: &Cells, steps: usize) -> Self {
+        let walls: Vec<WallsFrom> = self
+            .runs
+            .iter()
+            .map(|(step, walls)| WallsFrom {
+                time: *step as f64 / self.steps as f64,
+                barriers: walls.as_ref().map(WallCells::barriers),
+            })
+            .collect();
+        Self::new(cells, steps, &walls)
+    }
+
+    /// Whether any wall stands at any time.
+    pub(super) fn any(&self) -> bool {
+        self.runs.iter().any(|(_, walls)| walls.is_some())
+    }
+
+    /// The walls of each run of steps in which the same ones stand.
+    pub(super) fn runs(&self) -> impl Iterator<Item = Option<&WallCells<'a>>> {
+        self.runs.iter().map(|(_, walls)| walls.as_ref())
+    }
+
+    /// The number of the run in which a step is.
+    pub(super) fn run_of(&self, step: usize) -> usize {
+        self.runs.partition_point(|(first, _)| *first <= step).saturating_sub(1)
+    }
+
+    /// The walls that stand around the light of `side` (0 earlier, 1 later) in the step after `done` steps of both.
+    pub(super) fn of(&self, side: usize, done: usize) -> Option<&WallCells<'a>> {
+        let step = if side == 0 { done } else { self.steps - 1 - done };
+        self.runs.get(self.run_of(step))?.1.as_ref()
     }
 }

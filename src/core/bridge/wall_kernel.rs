@@ -1,5 +1,6 @@
 //! The kernel of motion around walls: many short steps, none through a wall, and no cell fuller than its cap.
 
+use glam::Vec2;
 use rayon::prelude::*;
 
 use super::cells::Cells;
@@ -127,7 +128,7 @@ impl StepKernel {
     }
 }
 
-/// The kernel over a window of steps with the factors that keep every cell below its cap.
+/// The kernel over all steps with the factors that keep every cell below its cap.
 pub(super) struct WallKernel {
     /// The kernels, and which of them each step has.
     kernels: Vec<StepKernel>,
@@ -141,7 +142,8 @@ pub(super) struct WallKernel {
     current: Vec<f64>,
     /// Whether both sides have spread, so that the light between them is known.
     known: [bool; 2],
-    first: usize,
+    /// The factors of both ends.
+    ends: [Vec<f64>; 2],
 }
 
 impl WallKernel {
@@ -157,26 +159,22 @@ impl WallKernel {
             work: [vec![0.0; count], vec![0.0; count]],
             current: vec![0.0; count],
             known: [false; 2],
-            first: 0,
+            ends: [vec![0.0; count], vec![0.0; count]],
         }
     }
 
-    /// Sets the window to all steps but the first and the last `first`.
-    pub(super) fn set_window(&mut self, first: usize) {
-        self.first = first;
-    }
-
-    /// `out` = the density of `side` (0: from the begin of the window on, 1: from its end back) at the other end.
+    /// `out` = the density of `side` (0: from the begin on, 1: from the end back) at the other end.
     pub(super) fn spread(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
-        let (begin, end) = (self.first, self.of_step.len() - self.first);
+        let end = self.of_step.len();
         self.current.copy_from_slice(density);
         self.known[side] = true;
+        self.ends[side].copy_from_slice(density);
         let capped = self.known == [true; 2];
-        for k in 0..end - begin {
-            let (step, to) = if side == 0 { (begin + k, begin + k + 1) } else { (end - 1 - k, end - 1 - k) };
+        for k in 0..end {
+            let (step, to) = if side == 0 { (k, k + 1) } else { (end - 1 - k, end - 1 - k) };
             let kernel = &self.kernels[self.of_step[step]];
             kernel.spread(&self.current, &mut self.work, &mut self.from[side][to]);
-            if to == begin || to == end {
+            if to == 0 || to == end {
                 break;
             }
             let [a, b] = &self.from;
@@ -188,23 +186,65 @@ impl WallKernel {
                 *current = *factor * self.from[side][to][i];
             }
         }
-        out.copy_from_slice(&self.from[side][if side == 0 { end } else { begin }]);
+        out.copy_from_slice(&self.from[side][if side == 0 { end } else { 0 }]);
     }
 
-    /// `out` = K `density` with the walls that stand now at the end of `side`, over as many steps as the window has and
-    /// without caps: symmetric.
-    pub(super) fn spread_freely(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
-        self.blur(side, self.of_step.len() - 2 * self.first, density, out);
+    /// What has come from the earlier end to the later one.
+    pub(super) fn reached_later(&self) -> &[f64] {
+        &self.from[0][self.of_step.len()]
     }
 
-    /// `out` = `density` after `times` steps with the walls that stand now at the end of `side`.
-    pub(super) fn blur(&mut self, side: usize, times: usize, density: &[f64], out: &mut [f64]) {
-        let end = self.of_step.len() - self.first;
-        let step = if side == 0 { self.first } else { end - 1 };
+    /// The light between the ends at the begin of step `k`, which is not the first: share of the light in each cell.
+    pub(super) fn density(&self, k: usize) -> Vec<f64> {
+        let [a, b] = &self.from;
+        let columns = a[k].iter().zip(&b[k]).zip(&self.factors[k]);
+        columns.map(|((a, b), factor)| a * b * factor).collect()
+    }
+
+    /// The velocity of the planned light in step `k` in each cell, plane units per step: half the mean move of the light that
+    /// is there from here on, and half that of the light that is there then until now. Zero where there is none.
+    pub(super) fn velocity(&mut self, k: usize, cells: &Cells) -> Vec<Vec2> {
+        let goes = self.factored(1, k + 1);
+        let comes = self.factored(0, k);
+        let [onward, back] = [goes, comes].map(|light| self.mean_moves(k, &light, cells));
+        onward.iter().zip(&back).map(|(onward, back)| 0.5 * (*onward - *back)).collect()
+    }
+
+    /// The density from `side` at the begin of step `k`, times the factor there.
+    fn factored(&self, side: usize, k: usize) -> Vec<f64> {
+        if k == [0, self.of_step.len()][side] {
+            return self.ends[side].clone();
+        }
+        self.from[side][k].iter().zip(&self.factors[k]).map(|(density, factor)| density * factor).collect()
+    }
+
+    /// The mean move from each cell to where `light` is, as far as step `k` reaches.
+    fn mean_moves(&mut self, k: usize, light: &[f64], cells: &Cells) -> Vec<Vec2> {
+        let kernel = &self.kernels[self.of_step[k]];
+        let mut spread = |values: &[f64]| {
+            let mut out = vec![0.0; values.len()];
+            kernel.spread(values, &mut self.work, &mut out);
+            out
+        };
+        let weighted = |axis: usize| -> Vec<f64> {
+            light.iter().enumerate().map(|(i, value)| value * f64::from(cells.centre(i)[axis])).collect()
+        };
+        let (all, x, y) = (spread(light), spread(&weighted(0)), spread(&weighted(1)));
+        let mean = |i: usize| {
+            if all[i] <= LEAST {
+                return Vec2::ZERO;
+            }
+            Vec2::new((x[i] / all[i]) as f32, (y[i] / all[i]) as f32) - cells.centre(i)
+        };
+        (0..all.len()).map(mean).collect()
+    }
+
+    /// `out` = `density` after `times` steps with the walls of step `k`.
+    pub(super) fn blur(&mut self, k: usize, times: usize, density: &[f64], out: &mut [f64]) {
         out.copy_from_slice(density);
         for _ in 0..times {
             self.current.copy_from_slice(out);
-            self.kernels[self.of_step[step]].spread(&self.current, &mut self.work, out);
+            self.kernels[self.of_step[k]].spread(&self.current, &mut self.work, out);
         }
     }
 }

@@ -8,10 +8,11 @@ use serde::Serialize;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::render::{Output, Rendered};
+use super::segment_figures::SegmentContinuity;
 use super::{Engine, Summary, active_constraints};
+use crate::continuity::Continuity;
 use crate::export::{ComparisonSheet, MethodRow, Overlay, OverlayLine, evenly_chosen, write_comparison};
 use crate::flow::MotionMethod;
-use crate::matching::MatchingMethod;
 use crate::project::Project;
 use crate::render::Image;
 use crate::{Error, Progress, Result};
@@ -53,6 +54,8 @@ pub struct Compared {
     /// Mean squared distance of the pairs over a lower bound of the optimum for the same points, the worst of all
     /// segments; absent where rows are paired as given.
     pub transport_cost_ratio: Option<f64>,
+    /// How well its light holds together, the worst of all segments in each figure; absent where nothing moves.
+    pub continuity: Option<Continuity>,
     /// Seconds of the matching of the first pass.
     pub match_seconds: f64,
     /// Seconds of the fit; 0 for methods without.
@@ -118,16 +121,12 @@ fn variants(project: &Project, most: Option<usize>) -> Result<Vec<(MotionMethod,
     let frames = project.frames()?;
     let chosen = evenly_chosen(&frames, most.unwrap_or(frames.len()));
     let list = chosen.iter().map(i32::to_string).collect::<Vec<_>>().join(",");
-    // The method of 2016 finds its own pairs.
-    let able = |method: &MotionMethod| {
-        project.matching == MatchingMethod::Transport || *method != MotionMethod::Stylized
-    };
     let variant = |method| {
         let mut variant = Project { method, ..project.clone() };
         variant.output.frames = Some(list.clone());
         (method, variant)
     };
-    Ok(MotionMethod::ALL.into_iter().filter(able).map(variant).collect())
+    Ok(project.able_methods().map(variant).collect())
 }
 
 /// The stages ahead; camera and background are looked at once.
@@ -224,6 +223,7 @@ impl Compared {
             method,
             crossing_index: summary.flow.as_ref().map(|numbers| numbers.flow.crossing_index),
             transport_cost_ratio: ratios.reduce(f64::max),
+            continuity: SegmentContinuity::worst(&summary.continuity),
             match_seconds: seconds("match"),
             fit_seconds: seconds("fit"),
             summary,
@@ -236,12 +236,14 @@ impl Compared {
         let crossing = self.crossing_index.map_or_else(none, |c| c.map(|c| format!("{c:.4}")).join("  "));
         let cost = self.transport_cost_ratio.map_or_else(none, |ratio| format!("{ratio:.3} \u{d7} optimum"));
         let seconds = |s: f64| if s > 0.0 { format!("{s:.1} s") } else { none() };
-        vec![
-            ("crossing index".into(), crossing),
+        let mut lines = vec![("crossing index".into(), crossing)];
+        lines.extend(self.continuity.iter().flat_map(continuity_lines));
+        lines.extend([
             ("transport cost".into(), cost),
             ("match".into(), seconds(self.match_seconds)),
             ("fit".into(), seconds(self.fit_seconds)),
-        ]
+        ]);
+        lines
     }
 
     /// Its row of the sheet.
@@ -257,4 +259,15 @@ impl Compared {
             pictures: frames.iter().filter_map(picture).map(|(_, p)| small(p)).collect(),
         }
     }
+}
+
+/// The figures of a method in few lines.
+fn continuity_lines(of: &Continuity) -> [(String, String); 4] {
+    let torn = [of.torn_source, of.torn_target, of.torn_target_late].map(|torn| format!("{torn:.3}"));
+    [
+        ("cracks".into(), format!("{:.3}", of.cracks)),
+        ("torn".into(), torn.join("  ")),
+        ("bunch".into(), format!("{:.2}", of.bunch)),
+        ("fastest, 99.9 %".into(), format!("{:.2}  {:.2}", of.fastest, of.fastest_999)),
+    ]
 }

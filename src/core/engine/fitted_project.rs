@@ -21,7 +21,7 @@ use crate::{Error, Progress, Result};
 
 /// A project whose flow is fitted.
 pub struct FittedProject {
-    engine: Engine,
+    pub(super) engine: Engine,
     pub(super) prepared: Prepared,
     pub(super) flow: FittedFlow,
 }

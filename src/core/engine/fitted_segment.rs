@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::active_constraints::ActiveConstraints;
 use super::flow_numbers::FlowNumbers;
 use super::grouping::{CausticFlux, Grouping};
+use super::layer::Layer;
 use super::memo::Same;
 use super::pairing::TransportCost;
 use super::segment_photons::{Maps, Matched};
-use crate::flow::{Fields, FlowReport, FlowSettings, MotionMethod, SegmentFlow};
+use crate::flow::{FlowReport, FlowSettings, MotionMethod, SegmentFlow};
 
 /// The fitted flow of one segment.
 pub(super) struct FittedSegment {
@@ -18,13 +19,6 @@ pub(super) struct FittedSegment {
     pub(super) reports: Vec<FlowReport>,
     /// Transport cost of the pairing of pass 0.
     pub(super) cost: TransportCost,
-}
-
-/// Groups that flow together.
-#[derive(Clone)]
-pub(super) struct Layer {
-    pub(super) groups: Vec<usize>,
-    pub(super) flow: Arc<SegmentFlow>,
 }
 
 /// The fitted flow of a project; no segments where there is one key frame.
@@ -53,10 +47,10 @@ impl FittedSegment {
 
     /// The fields of the segment, where the method has any: those that the caustics share, with `None`, and own ones with
     /// the number of the caustic.
-    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &Fields)> {
+    pub(super) fn fields(&self, grouping: &Grouping) -> impl Iterator<Item = (Option<usize>, &SegmentFlow)> {
         self.layers.iter().filter_map(|layer| {
             let own = layer.groups.iter().copied().find(|&group| grouping.own_flow(group));
-            Some((own, layer.flow.fields()?))
+            layer.flow.steps().map(|_| (own, &*layer.flow))
         })
     }
 }

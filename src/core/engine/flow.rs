@@ -7,10 +7,11 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::active_constraints::{ActiveConstraints, active};
-use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput, Layer};
+use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput};
 use super::flow_numbers::FlowNumbers;
 use super::job::Job;
 use super::key_photons::KeyPhotons;
+use super::layer::Layer;
 use super::memo::Same;
 use super::meter::Meter;
 use super::segment_photons::{MeetingFlow, SegmentPhotons};

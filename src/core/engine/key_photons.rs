@@ -46,6 +46,19 @@ impl KeyPhotons {
             midpoint_offsets: Vec::new(),
         }
     }
+
+    /// Some of the photons, paired as before; the others are left out.
+    pub(super) fn selected(&self, rows: &[usize]) -> Self {
+        fn of<T: Copy>(column: &[T], rows: &[usize]) -> Vec<T> {
+            if column.is_empty() { Vec::new() } else { rows.iter().map(|&row| column[row]).collect() }
+        }
+        Self {
+            positions: of(&self.positions, rows),
+            flux: of(&self.flux, rows),
+            origin: of(&self.origin, rows),
+            midpoint_offsets: of(&self.midpoint_offsets, rows),
+        }
+    }
 }
 
 /// The number of photons in all groups.

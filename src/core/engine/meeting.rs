@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::fitted_segment::Layer;
 use super::job::Job;
+use super::layer::Layer;
 use super::pairing::MeetingInput;
 use super::segment_photons::MeetingFlow;
 use crate::Result;

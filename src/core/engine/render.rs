@@ -122,7 +122,8 @@ impl Engine {
             meter.measure("film", || film.write(progress))?;
             saved(film.path());
         }
-        let done = Done { command: "render", passes, flow, balance, bad_values };
+        let continuity = fitted.measured_unless_stopped(meter, progress)?;
+        let done = Done { command: "render", passes, flow, continuity, balance, bad_values };
         let summary = Summary::new(prepared, done, meter);
         Ok(Rendered { summary, fitted, thumbnails, plane })
     }
@@ -155,7 +156,9 @@ impl Engine {
         let inner = progress.inner();
         let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
         let balance = meter.measure("write", || track_files::write(&job, flow, out, progress, saved))?;
-        let done = Done { command: "fit", passes: 0, flow, balance, bad_values: BadValues::default() };
+        let continuity = fitted.measured_unless_stopped(&meter, progress)?;
+        let bad_values = BadValues::default();
+        let done = Done { command: "fit", passes: 0, flow, continuity, balance, bad_values };
         Ok(Summary::new(prepared, done, &meter))
     }
 }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::fitted_segment::Layer;
 use super::key_photons::KeyPhotons;
 use super::key_sources::KeySource;
+use super::layer::Layer;
 use super::memo::Same;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
 use crate::flow::FlowReport;

@@ -10,6 +10,7 @@ use super::fitted_segment::{FittedSegment, FlowInput};
 use super::key_sources::{self, KeySource, SourceInput};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
 use super::memo_keys::{GuideInput, PositionsInput, ViewInput};
+use super::segment_figures::Figures;
 use super::segment_photons::{MatchInput, Matched};
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
@@ -27,6 +28,7 @@ pub(super) struct Stages {
     pub(super) photons: Memo<(Same<EmissionGuide>, usize), Arc<Photons>>,
     pub(super) matchings: Memo<MatchInput, Arc<Matched>>,
     pub(super) flows: Memo<FlowInput, Arc<FittedSegment>>,
+    pub(super) continuity: Memo<Same<FittedSegment>, Arc<Figures>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
     pub(super) first_hits: Memo<(Same<Scene>, [usize; 2], u64), Arc<FirstHits>>,
@@ -48,6 +50,7 @@ impl Stages {
             photons: Memo::default(),
             matchings: Memo::default(),
             flows: Memo::default(),
+            continuity: Memo::default(),
             positions: Memo::default(),
             visible: Memo::default(),
             first_hits: Memo::default(),

@@ -11,7 +11,9 @@ use super::grouping::{CausticFlux, notes_on_dark};
 use super::meter::{Meter, StageCost};
 use super::plan::LeftOut;
 use super::prepare::Prepared;
+use super::segment_figures::SegmentContinuity;
 use crate::constraint::Constraint;
+use crate::continuity::FIGURES;
 use crate::export::RepairedSamples;
 
 /// The conservation of flux.
@@ -58,6 +60,9 @@ pub struct Summary {
     /// The flow; absent where nothing moves.
     #[serde(flatten)]
     pub flow: Option<FlowNumbers>,
+    /// How well the light holds together in each segment in which it moves; empty in a run that was stopped.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub continuity: Vec<SegmentContinuity>,
     /// The light of each named caustic, and of the rest: their photons follow each other in the tracks. Absent where none
     /// is named.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -96,6 +101,7 @@ pub(super) struct Done<'a> {
     pub(super) command: &'static str,
     pub(super) passes: usize,
     pub(super) flow: &'a FittedFlow,
+    pub(super) continuity: Vec<SegmentContinuity>,
     pub(super) balance: EnergyBalance,
     pub(super) bad_values: BadValues,
 }
@@ -127,6 +133,7 @@ impl Summary {
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
             frames_per_second: project.output.fps,
             flow,
+            continuity: done.continuity,
             caustics: done.flow.caustics.clone(),
             walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
             energy: Energy { texture_ratio: balance.texture_ratio, photons_outside: balance.outside },
@@ -180,6 +187,10 @@ impl Summary {
                 "  walls: {} crossings, {} photons shut off",
                 flow.wall_crossings, flow.unreachable
             );
+        }
+        for (name, figures) in self.continuity.iter().flat_map(SegmentContinuity::named_figures) {
+            let named = FIGURES.iter().filter_map(|f| Some(format!("{} {}", f.name, f.text(figures)?)));
+            let _ = writeln!(text, "  {name}: {}", named.collect::<Vec<_>>().join(", "));
         }
         let BadValues { nonfinite_replaced, half_clamped, frames } = &self.bad_values;
         if !frames.is_empty() {

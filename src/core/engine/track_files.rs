@@ -61,7 +61,7 @@ pub(super) fn write(
         .iter()
         .enumerate()
         .flat_map(|(segment, own)| {
-            own.fields(grouping).map(move |(caustic, fields)| SegmentFields { segment, caustic, fields })
+            own.fields(grouping).map(move |(caustic, flow)| SegmentFields { segment, caustic, flow })
         })
         .collect();
     if !all_fields.is_empty() {

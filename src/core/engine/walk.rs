@@ -13,9 +13,9 @@ use super::pairing::{Pairing, PairingMethod, TransportCost};
 use super::segment_photons::{
     FirstKey, GroupTracks, Maps, MatchInput, Matched, MeetingFlow, Origin, SegmentPhotons,
 };
-use crate::flow::meeting::HalfTracks;
+use crate::flow::meeting::{HalfTracks, MeetingFields};
 use crate::flow::spatial_order;
-use crate::matching::{ContinuousMap, MatchingMethod, mean_square_distance};
+use crate::matching::{ContinuousMap, MatchingMethod, mean_square_distance, transport_map};
 use crate::{Progress, Result};
 
 /// The photons of one pass at a key frame, on their way to the next.
@@ -200,7 +200,7 @@ impl<'a> Walk<'a> {
                 None => [&*at.positions, &*points.positions],
             };
             let made = match maps {
-                MapsFrom::Own { .. } => self.map(group, ends, &progress.inner())?,
+                MapsFrom::Own { .. } => self.map((group, fields), ends, &progress.inner())?,
                 MapsFrom::Others(_) => None,
             };
             let map = match maps {
@@ -213,7 +213,7 @@ impl<'a> Walk<'a> {
                 }
                 _ => None,
             };
-            let pairing = self.pairing(group, ends, map, &progress.inner())?;
+            let pairing = self.pairing((group, fields), ends, map, &progress.inner())?;
             let tracks = tracks.map(|[earlier, later]| match &pairing.order {
                 Some(order) => [earlier, later.permuted(order)],
                 None => [earlier, later],
@@ -240,9 +240,19 @@ impl<'a> Walk<'a> {
 
     /// The map of a group between its photons and points; none where rows are paired as given, where the group rests, and
     /// where it has no photon.
-    fn map(&self, group: usize, ends: [&[Vec2]; 2], progress: &Progress) -> Result<Option<ContinuousMap>> {
+    fn map(
+        &self,
+        (group, meeting): (usize, Option<&MeetingFields>),
+        ends: [&[Vec2]; 2],
+        progress: &Progress,
+    ) -> Result<Option<ContinuousMap>> {
         if self.rests(group) || ends[0].is_empty() {
             return Ok(None);
+        }
+        let walls = meeting.and_then(MeetingFields::walls_at_meeting);
+        if let Some(graph) = walls {
+            let map = transport_map(ends[0], ends[1], self.job.extent, progress)?;
+            return Ok(Some(ContinuousMap::Beside(map, graph)));
         }
         let plane = (self.job.extent, self.job.anchors);
         self.method().map((ends[0], ends[1]), plane, progress)
@@ -252,7 +262,7 @@ impl<'a> Walk<'a> {
     /// were matched before had none.
     fn pairing(
         &self,
-        group: usize,
+        (group, meeting): (usize, Option<&MeetingFields>),
         ends: [&[Vec2]; 2],
         map: Option<&ContinuousMap>,
         progress: &Progress,
@@ -265,7 +275,7 @@ impl<'a> Walk<'a> {
         }
         let own = match map {
             Some(_) => None,
-            None => self.map(group, ends, progress)?,
+            None => self.map((group, meeting), ends, progress)?,
         };
         let Some(map) = map.or(own.as_ref()) else { return Ok(Pairing::default()) };
         let seed = self.job.sources.seed();

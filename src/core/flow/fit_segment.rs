@@ -142,7 +142,7 @@ fn fit(
 fn empty_fields(segment: &Segment, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<Fields> {
     let Segment { extent, settings, number, walls, .. } = *segment;
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
-    let (obstacles, steps) = Obstacles::new(walls, settings.steps as usize, extent, &progress.inner())?;
+    let (obstacles, steps) = Obstacles::new(walls, (settings.steps as usize, 1), extent, &progress.inner())?;
     let mean_length = match &obstacles {
         None => guidance::mean_straight(source, target),
         Some(obstacles) => obstacles.mean_path_length(source, target, progress)?,

@@ -1,8 +1,9 @@
 //! The vector field (Sec. 3): photons flow from one key frame to the next.
 //!
-//! At each time step the field is fitted ([`fit`]) to the [`guidance`] of the photons, then carries them on (`step`,
-//! `photons`); by the [`fade`] they leave it and arrive exactly. [`Fields`] keeps the fields for the photons of all later
-//! passes. The methods for comparison ([`MotionMethod`]) have closed-form paths. [`SegmentFlow`] is either; its
+//! At each time step the field is fitted ([`fit`]), then carries the photons on. By default it is fitted to the velocities of a
+//! plan, from both key frames to their [`meeting`]. In the method of the paper it is fitted to the [`guidance`] of the photons
+//! (`step`, `photons`); by the [`fade`] they leave it and arrive exactly. [`Fields`] and
+//! [`MeetingFields`](meeting::MeetingFields) keep the fields for the photons of all later passes. The methods for comparison ([`MotionMethod`]) have closed-form paths. [`SegmentFlow`] is either; its
 //! [`Trajectories`] give positions at any time.
 //!
 //! # The fade, measured

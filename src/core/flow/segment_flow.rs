@@ -8,6 +8,7 @@ use super::fields::Fields;
 use super::meeting::{HalfTracks, MeetingFields, MeetingTrajectories};
 use super::path_trajectories::PathTrajectories;
 use super::trajectories::Trajectories;
+use super::turbulence::Turbulence;
 
 /// The flow of one segment: fitted fields, or closed-form paths.
 pub enum SegmentFlow {
@@ -52,11 +53,20 @@ impl SegmentFlow {
         }
     }
 
-    /// Time steps; none where paths have a closed form.
+    /// The turbulence that is added to the fields.
+    pub fn turbulence(&self) -> Option<&Turbulence> {
+        match self {
+            Self::Fields(fields) => fields.turbulence(),
+            Self::Meeting(fields) => fields.turbulence(),
+            Self::Paths => None,
+        }
+    }
+
+    /// Time steps of the photons; none where paths have a closed form.
     pub fn steps(&self) -> Option<usize> {
         match self {
             Self::Fields(fields) => Some(fields.steps()),
-            Self::Meeting(fields) => Some(fields.steps()),
+            Self::Meeting(fields) => Some(fields.moves()),
             Self::Paths => None,
         }
     }

@@ -69,12 +69,12 @@ pub struct FlowSettings {
 }
 
 settings! { FlowSettings {
-    /// Kind of flow. At 0 light swirls like a liquid (divergence-free) and cannot gather on its way, so the fade does
-    /// that work; at 1 it spreads and gathers like a gradient (irrotational), without swirls. Adjust it first.
+    /// Kind of flow. At 0 light sets out like a liquid (divergence-free): it swirls, keeps its brightness, and gathers
+    /// only on the way; at 1 it spreads and gathers like a gradient (irrotational), without swirls. Adjust it first.
     GAMMA = Setting::real("flow.gamma", [0.0, 1.0], &[0.5]);
-    /// Smoothness of the field, over a length of about sqrt(alpha) of the plane's longer side (1e-4: 0.01, 1e-3: 0.03,
-    /// 1e-2: 0.1). Low values follow each photon and look busy, high ones carry all light along in wide folds.
-    ALPHA = Setting::real("flow.alpha", [1e-12, 1e6], &[1e-3]);
+    /// Smoothness of the field, over a length of about sqrt(alpha) of the plane's longer side (1e-5: 0.003, 1e-4: 0.01,
+    /// 1e-3: 0.03, 1e-2: 0.1). Low values follow the plan, high ones carry all light along in wide folds and tear it.
+    ALPHA = Setting::real("flow.alpha", [1e-12, 1e6], &[1e-5]);
     /// Strength of directed lines, relative to all photons together, which pull by 1. Raise it where light ignores
     /// a line.
     BETA = Setting::real("flow.beta", [0.0, 1e6], &[1.0]);

@@ -72,14 +72,30 @@ impl Matching {
         progress: &Progress,
     ) -> Result<Self> {
         let apply = |point| map.apply(point, graph);
-        Self::near(source, target, apply, Some(graph), SWEEPS, (seed, pass), progress)
+        Self::near(source, target, apply, Some((graph, Sight::FromMap)), SWEEPS, (seed, pass), progress)
+    }
+
+    /// As [`Self::new`] for points that are near each other, so that few pairs need a path around the walls of `graph`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn beside_walls(
+        source: &[Vec2],
+        target: &[Vec2],
+        (map, graph): (&TransportMap, &VisibilityGraph),
+        seed: u64,
+        pass: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let apply = |point| map.apply(point);
+        Self::near(source, target, apply, Some((graph, Sight::FromSource)), SWEEPS, (seed, pass), progress)
     }
 
     fn near(
         source: &[Vec2],
         target: &[Vec2],
         map: impl Fn(Vec2) -> Vec2 + Sync,
-        walls: Option<&VisibilityGraph>,
+        walls: Option<(&VisibilityGraph, Sight)>,
         sweeps: usize,
         (seed, pass): (u64, u64),
         progress: &Progress,
@@ -94,7 +110,7 @@ impl Matching {
         let mut stream = Stream::new(seed, Purpose::Match, pass, 0);
         for &t in TIMES.iter().cycle().take(sweeps) {
             let shift = Vec2::new(stream.f32(), stream.f32());
-            sweep(&mut pairs, t, shift, WINDOW, walls, progress)?;
+            sweep(&mut pairs, t, shift, WINDOW, walls.map(|(graph, _)| graph), progress)?;
             progress.advance(1);
         }
         let mut target_of = vec![0; pairs.len()];
@@ -144,7 +160,7 @@ fn bisected(
     source: &[Vec2],
     target: &[Vec2],
     map: impl Fn(Vec2) -> Vec2 + Sync,
-    walls: Option<&VisibilityGraph>,
+    walls: Option<(&VisibilityGraph, Sight)>,
     (seed, pass): (u64, u64),
     progress: &Progress,
 ) -> Vec<Pair> {
@@ -169,9 +185,24 @@ fn bisected(
             target: b.position,
             source_row: a.row,
             target_row: b.row,
-            across_wall: walls.is_some_and(|graph| graph.barriers().blocks(a.position, b.position)),
+            across_wall: walls.is_some_and(|(graph, sight)| {
+                let from = match sight {
+                    Sight::FromMap => a.position,
+                    Sight::FromSource => source[a.row as usize],
+                };
+                graph.barriers().blocks(from, b.position)
+            }),
         })
         .collect()
+}
+
+/// The point from which a target must be seen, or it is on the wrong side of a wall.
+#[derive(Clone, Copy)]
+enum Sight {
+    /// The image under a map that goes around walls.
+    FromMap,
+    /// The source point.
+    FromSource,
 }
 
 pub(super) fn require_equal_counts(source: usize, target: usize) -> Result<()> {

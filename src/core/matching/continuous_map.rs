@@ -24,6 +24,8 @@ pub enum ContinuousMap {
     Transport(TransportMap),
     /// The map around walls, with the graph of those walls.
     Walls(WallMap, Arc<VisibilityGraph>),
+    /// The optimal transport map between points that are near each other, beside the walls of this graph.
+    Beside(TransportMap, Arc<VisibilityGraph>),
     /// The thin-plate warp of the 2016 method.
     Stylized(StylizedMap),
 }
@@ -60,6 +62,10 @@ impl ContinuousMap {
                 let matching = Matching::around_walls(source, target, (map, graph), seed, pass, progress)?;
                 Ok(Pairing { matching, midpoint_offsets: Vec::new() })
             }
+            Self::Beside(map, graph) => {
+                let matching = Matching::beside_walls(source, target, (map, graph), seed, pass, progress)?;
+                Ok(Pairing { matching, midpoint_offsets: Vec::new() })
+            }
             Self::Stylized(map) => {
                 let (matching, midpoint_offsets) = map.pair(source, target, progress)?;
                 Ok(Pairing { matching, midpoint_offsets })
@@ -70,7 +76,7 @@ impl ContinuousMap {
     /// Mean squared path length of points paired row by row, plane units squared. Pairs that no path connects count as
     /// straight.
     pub fn cost(&self, source: &[Vec2], targets: &[Vec2]) -> f64 {
-        let Self::Walls(_, graph) = self else {
+        let (Self::Walls(_, graph) | Self::Beside(_, graph)) = self else {
             return mean_square_distance(source, targets.iter().copied());
         };
         let squares = source.par_chunks(CHUNK).zip(targets.par_chunks(CHUNK)).map(|(source, targets)| {
@@ -91,7 +97,9 @@ impl ContinuousMap {
     /// `Cancelled`.
     pub fn lower_bound(&self, source: &[Vec2], target: &[Vec2], progress: &Progress) -> Result<Option<f64>> {
         match self {
-            Self::Transport(map) => dual_bound(map, source, target, progress).map(Some),
+            Self::Transport(map) | Self::Beside(map, _) => {
+                dual_bound(map, source, target, progress).map(Some)
+            }
             Self::Walls(_, graph) => {
                 let map = transport_map(source, target, graph.extent(), progress)?;
                 dual_bound(&map, source, target, progress).map(Some)

@@ -167,6 +167,12 @@ impl Project {
         self.keys.len() > 1 && self.method.fits()
     }
 
+    /// The methods by which its light can move: that of 2016 finds its own pairs, so not where rows are given.
+    pub fn able_methods(&self) -> impl Iterator<Item = MotionMethod> + use<> {
+        let given = self.matching == MatchingMethod::Given;
+        MotionMethod::ALL.into_iter().filter(move |method| !given || *method != MotionMethod::Stylized)
+    }
+
     /// The paths of all files of the project, as written.
     pub fn files(&self) -> Vec<&str> {
         let meshes = self.scene.iter().flat_map(|scene| scene.meshes.iter().map(|mesh| mesh.file.as_str()));

@@ -110,7 +110,7 @@ fn doing(stage: &str) -> &'static str {
         "trace" => "tracing photons",
         "match" => "matching",
         "fit" => "fitting the flow",
-        "watch" => "measuring the flow",
+        "watch" | "measure" => "measuring the flow",
         "visible" | "background" => "rendering the background",
         "render" | "carry" => "moving photons",
         _ => "loading",

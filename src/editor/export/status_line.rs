@@ -98,7 +98,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
         Some("trace") => "Tracing photons",
         Some("match") => "Matching",
         Some("fit") => "Fitting the flow",
-        Some("watch") => "Measuring the flow",
+        Some("watch" | "measure") => "Measuring the flow",
         Some("render") => "Rendering",
         Some("write") => "Writing frames",
         Some("film") => "Writing the film",

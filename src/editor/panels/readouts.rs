@@ -1,7 +1,8 @@
 //! Readouts: the numbers of the frame that is shown.
 
 use egui::{Color32, RichText, Ui};
-use lightloom_core::engine::{Preview, Quality};
+use lightloom_core::continuity::{Continuity, FIGURES, Figure};
+use lightloom_core::engine::{Preview, Quality, SegmentContinuity};
 use lightloom_core::flow::FlowReport;
 use lightloom_core::setting::format::number;
 
@@ -147,6 +148,9 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
         line(ui, readout.name, &readout.value, colour, readout.help);
     }
+    if let Some(segments) = editor.preview.continuity() {
+        show_continuity(ui, &segments, frame);
+    }
     section(ui, "Seconds of each stage");
     for stage in preview.stages() {
         let seconds = number(digits(stage.seconds), false);
@@ -168,6 +172,33 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
             ui.weak(left_out.why);
         }
     });
+}
+
+/// How well the light of the segment of a frame holds together.
+fn show_continuity(ui: &mut Ui, segments: &[SegmentContinuity], frame: i32) {
+    let holds = |segment: &&SegmentContinuity| (segment.frames[0]..=segment.frames[1]).contains(&frame);
+    let Some(segment) = segments.iter().find(holds) else { return };
+    for (name, figures) in segment.named_figures() {
+        section(ui, &format!("Holding together, {name}"));
+        for readout in of_continuity(figures) {
+            let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
+            line(ui, &capitalised(readout.name), &readout.value, colour, readout.help);
+        }
+    }
+}
+
+/// With a capital first letter, as labels have it.
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn of_continuity(figures: &Continuity) -> Vec<Readout> {
+    let readout = |figure: &Figure| {
+        let is_bad = figure.is_seen(figures);
+        Some(Readout { name: figure.name, value: figure.text(figures)?, help: figure.help, is_bad })
+    };
+    FIGURES.iter().filter_map(readout).collect()
 }
 
 fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {

@@ -2,6 +2,7 @@
 
 mod background_worker;
 mod coverage;
+mod figures;
 mod flow;
 pub mod gpu;
 mod orbit_worker;
@@ -17,7 +18,7 @@ use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
-use lightloom_core::engine::{Client, Preview, Shot};
+use lightloom_core::engine::{Client, Preview, SegmentContinuity, Shot};
 use lightloom_core::project::Project;
 pub use orbit_worker::Seen;
 pub use picture_worker::{Painted, Plane};
@@ -26,9 +27,10 @@ pub use subject::Subject;
 pub use target::TargetPicture;
 
 use super::engine::SharedEngine;
-use super::session::{Comparison, Session};
+use super::session::{Comparison, Panel, Session};
 use super::target_image::TargetImage;
 use background_worker::BackgroundWorker;
+use figures::FigureTaker;
 use flow::FlowViewer;
 use orbit_worker::OrbitWorker;
 use picture_worker::PictureWorker;
@@ -48,6 +50,7 @@ pub struct LivePreview {
     orbit: OrbitWorker,
     targets: Targets,
     flow: FlowViewer,
+    figures: FigureTaker,
     requests: Requests,
     /// Whether the graphics card draws the photons.
     by_card: bool,
@@ -81,7 +84,8 @@ impl LivePreview {
             background: BackgroundWorker::new(engine.clone(), wake.clone()),
             orbit: OrbitWorker::new(engine, wake.clone()),
             targets: Targets::new(wake.clone()),
-            flow: FlowViewer::new(wake),
+            flow: FlowViewer::new(wake.clone()),
+            figures: FigureTaker::new(wake),
             requests: Requests::default(),
             by_card: false,
             subject: None,
@@ -108,6 +112,9 @@ impl LivePreview {
     pub fn follow(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
         self.frame = session.playhead;
         if self.subject.as_ref().is_none_or(|last| !last.is(subject)) {
+            if self.subject.as_ref().is_some_and(|last| last.base != subject.base) {
+                self.figures.forget();
+            }
             self.last = self.preview().cloned();
             self.found = Found::default();
             self.subject = Some(subject.clone());
@@ -120,6 +127,7 @@ impl LivePreview {
         self.targets.follow(subject, shown);
         let preview = self.preview().cloned();
         self.flow.follow(preview.as_ref(), &subject.project, session);
+        self.figures.follow(preview.as_ref(), session.panel == Panel::Numbers);
         self.request(subject, session, wanted);
     }
 
@@ -158,6 +166,7 @@ impl LivePreview {
             self.orbit.panicked(),
             self.other.panicked(),
             self.flow.panicked(),
+            self.figures.panicked(),
         ];
         if let Some(words) = self.previews.panicked().or_else(|| panics.into_iter().flatten().next()) {
             self.problem = Some(format!(
@@ -234,6 +243,11 @@ impl LivePreview {
     /// What is seen of the flow at the playhead; empty where nothing is shown of it.
     pub fn flow(&self) -> Arc<FlowPicture> {
         self.flow.found()
+    }
+
+    /// How well the light holds together in each segment, measured while the numbers are shown; none before.
+    pub fn continuity(&self) -> Option<Arc<Vec<SegmentContinuity>>> {
+        self.figures.found()
     }
 
     /// How far each frame is.

@@ -1,5 +1,6 @@
 //! The sections of a report; each file measures one.
 
+mod continuity;
 mod flow_error;
 pub(crate) mod gamma;
 mod growth;
@@ -15,8 +16,9 @@ use lightloom_core::{Error, Result};
 use section_def::SectionDef;
 
 /// All sections, in the order of the report.
-pub(crate) const SECTIONS: [SectionDef; 9] = [
+pub(crate) const SECTIONS: [SectionDef; 10] = [
     render_error::SECTION,
+    continuity::SECTION,
     flow_error::SECTION,
     matching_cost::SECTION,
     study::SECTION,

@@ -30,6 +30,8 @@ pub struct Preview {
     pub(super) frames: Vec<Option<Arc<[Vec2]>>>,
     /// By segment; absent until fitted.
     pub(super) segments: Vec<Option<Arc<FittedSegment>>>,
+    /// By segment; absent until fitted.
+    pub(super) ends: Vec<Option<Ends>>,
     pub(super) numbers: Option<FlowNumbers>,
     pub(super) stages: Vec<StageCost>,
     pub(super) notes: Vec<String>,
@@ -41,6 +43,8 @@ pub(super) struct Keys {
     pub(super) extent: Vec2,
     /// Number of the first frame.
     pub(super) first: i32,
+    /// Numbers of the key frames.
+    pub(super) frames: Vec<i32>,
     /// By frame.
     pub(super) moments: Vec<SegmentTime>,
     pub(super) lights: Vec<KeyLight>,
@@ -52,6 +56,9 @@ pub(super) struct Keys {
     /// Brightness requested at later keys than the first.
     pub(super) rho: f64,
 }
+
+/// The photons at both keys of a segment, by group.
+pub(super) type Ends = [Arc<Vec<KeyPhotons>>; 2];
 
 /// The light of all photons at a key frame.
 pub(super) struct KeyLight {
@@ -139,8 +146,8 @@ impl Preview {
         layers.filter_map(|layer| field(&layer.groups, &layer.flow)).collect()
     }
 
-    /// The residual of the fit at a frame: for each photon, guidance minus the velocity of its field, plane units per
-    /// segment; zero for those that no field moves there. None before the frame is known.
+    /// The residual of the fit at a frame: for each photon, guidance minus the velocity of its field (where key frames meet half way,
+    /// its own velocity minus that), plane units per segment; zero for those that no field moves there. None before the frame is known.
     ///
     /// # Errors
     /// `Cancelled`; around walls ways must be found anew.
@@ -150,20 +157,39 @@ impl Preview {
         let mut residuals = vec![Vec2::ZERO; positions.len()];
         let targets = self.targets(frame);
         for layer in self.segments.get(segment).into_iter().flatten().flat_map(|s| &s.layers) {
-            let Some(fields) = layer.flow.fields() else { continue };
-            let acting = fields.at(time);
+            let acting = layer.flow.at(time);
             for rows in layer.groups.iter().map(|&group| self.keys.groups[group].1.clone()) {
                 if acting.is_empty() {
                     continue;
                 }
                 let at = &positions[rows.clone()];
-                let guidance = fields.guidance(time, at, &targets[rows.clone()], progress)?;
+                let guidance = match layer.flow.fields() {
+                    Some(fields) => fields.guidance(time, at, &targets[rows.clone()], progress)?,
+                    None => self.velocities(frame, rows.clone()),
+                };
                 for ((out, v), &p) in residuals[rows].iter_mut().zip(guidance).zip(at) {
                     *out = v - acting.iter().map(|field| field.velocity(p)).sum::<Vec2>();
                 }
             }
         }
         Ok(Some(residuals))
+    }
+
+    /// The velocities of some photons at a frame, plane units per segment: differences between the neighbouring frames of the
+    /// segment that are known.
+    fn velocities(&self, frame: i32, rows: Range<usize>) -> Vec<Vec2> {
+        let here = self.moment(frame);
+        let beside = |other: i32| {
+            let moment = self.moment(other);
+            let positions = self.positions(other).filter(|_| moment.segment == here.segment);
+            positions.map(|positions| (moment.time, &positions[rows.clone()]))
+        };
+        let [(before, from), (after, to)] = match [beside(frame - 1), beside(frame), beside(frame + 1)] {
+            [Some(a), _, Some(b)] | [Some(a), Some(b), None] | [None, Some(a), Some(b)] => [a, b],
+            _ => return vec![Vec2::ZERO; rows.len()],
+        };
+        let per_time = 1.0 / ((after - before) as f32).max(f32::MIN_POSITIVE);
+        from.iter().zip(to).map(|(a, b)| (*b - *a) * per_time).collect()
     }
 
     /// The targets of the photons at a frame: their positions at the next key frame, row by row.

@@ -8,6 +8,7 @@ use glam::Vec2;
 use super::frames::{Keys, Preview};
 use crate::engine::fitted_segment::FittedSegment;
 use crate::engine::key_photons::{KeyPhotons, all_positions};
+use crate::engine::segment_photons::SegmentPhotons;
 
 /// Snapshots of one preview at most, about: each holds one pointer per frame.
 const SNAPSHOTS: usize = 400;
@@ -33,6 +34,7 @@ impl<'a> Growing<'a> {
         let preview = Preview {
             frames: keys.moments.iter().map(at_key).collect(),
             segments: vec![None; segments],
+            ends: vec![None; segments],
             numbers: None,
             stages: Vec::new(),
             notes: Vec::new(),
@@ -71,9 +73,10 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Adds the flow of a segment.
-    pub(super) fn fitted(&mut self, number: usize, segment: &Arc<FittedSegment>) {
-        self.preview.segments[number] = Some(segment.clone());
+    /// Adds the flow of the segment of some photons.
+    pub(super) fn fitted(&mut self, photons: &SegmentPhotons, segment: &Arc<FittedSegment>) {
+        self.preview.segments[photons.number] = Some(segment.clone());
+        self.preview.ends[photons.number] = Some([photons.from.clone(), photons.to.clone()]);
         self.show();
     }
 

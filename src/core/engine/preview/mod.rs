@@ -1,5 +1,6 @@
 //! The live preview: a project's photons at every frame, coarse at once, then finer.
 
+mod continuity;
 mod field;
 mod frames;
 mod growing;
@@ -150,6 +151,7 @@ impl Run<'_> {
             quality: self.job.quality,
             extent: *extent,
             first: project.keys[0].frame,
+            frames: project.keys.iter().map(|key| key.frame).collect(),
             moments: times.frames.iter().map(|&(_, slot)| times.moments[slot]).collect(),
             lights,
             groups: groups.iter().enumerate().map(group).collect(),

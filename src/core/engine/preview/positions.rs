@@ -70,7 +70,7 @@ impl Growing<'_> {
             }),
         })?;
         slots.iter().zip(&*frames).for_each(|(&slot, positions)| self.add(slot, positions));
-        self.fitted(photons.number, fitted);
+        self.fitted(photons, fitted);
         Ok(())
     }
 }

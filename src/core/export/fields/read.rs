@@ -8,7 +8,8 @@ use super::SegmentFields;
 use crate::files::npz::NpzReader;
 use crate::files::read_regular_file;
 use crate::flow::field::{Field, Grid};
-use crate::flow::{Fade, Fields, Turbulence};
+use crate::flow::meeting::MeetingFields;
+use crate::flow::{Fade, Fields, SegmentFlow, Turbulence};
 use crate::math::bspline::EXTRA;
 use crate::{Error, Result};
 
@@ -28,8 +29,8 @@ pub fn load_fields(path: &Path) -> Result<Vec<SegmentFields>> {
     let suffixes = file.npz.names().filter_map(|name| name.strip_prefix("psi_"));
     let segments = suffixes.map(|suffix| {
         let (segment, caustic) = file.numbers_in(suffix)?;
-        let fields = file.fields(suffix, Vec2::new(extent_x, extent_y))?;
-        Ok(SegmentFields { segment, caustic, fields })
+        let flow = file.flow(suffix, Vec2::new(extent_x, extent_y))?;
+        Ok(SegmentFields { segment, caustic, flow })
     });
     segments.collect()
 }
@@ -46,7 +47,7 @@ struct Stack {
 }
 
 impl FieldsFile<'_> {
-    fn fields(&self, suffix: &str, extent: Vec2) -> Result<Fields> {
+    fn flow(&self, suffix: &str, extent: Vec2) -> Result<SegmentFlow> {
         let name = |array: &str| format!("{array}_{suffix}");
         let (psi, phi) = (self.stack(&name("psi"))?, self.stack(&name("phi"))?);
         let cells = psi.nodes.map(|n| n - EXTRA);
@@ -56,12 +57,19 @@ impl FieldsFile<'_> {
         }
         let nodes = psi.times.iter().zip(&phi.times);
         let nodes = nodes.map(|(psi, phi)| Field::from_potentials(grid, psi, phi)).collect();
+        let meeting = name("meeting");
+        if self.npz.names().any(|own| own == meeting) {
+            let [steps, mean_way] = self.numbers(&meeting)?;
+            let fields = MeetingFields::from_nodes(nodes, steps as usize, mean_way);
+            let fields = fields.ok_or_else(|| self.wrong(&meeting, "asks for other fits than there are"))?;
+            return Ok(SegmentFlow::Meeting(fields.with_turbulence(self.turbulence(suffix)?)));
+        }
         let steps = self.numbers(&name("steps"))?.map(|n| n as usize);
         let [mean_straight] = self.numbers(&name("mean_straight"))?;
         let fields = Fields::from_spaced_nodes(nodes, steps, self.fade(suffix)?, mean_straight);
         let fields =
             fields.ok_or_else(|| self.wrong(&name("steps"), "asks for other fits than there are"))?;
-        Ok(fields.with_turbulence(self.turbulence(suffix)?))
+        Ok(SegmentFlow::Fields(fields.with_turbulence(self.turbulence(suffix)?)))
     }
 
     fn fade(&self, suffix: &str) -> Result<Fade> {

@@ -2,19 +2,19 @@
 
 use std::sync::Arc;
 
-use glam::Vec2;
-
 use crate::bridge::CellVelocities;
+use crate::constraint::VisibilityGraph;
 use crate::flow::field::Field;
 use crate::flow::step::StageVelocity;
 use crate::flow::turbulence::Turbulence;
-use crate::flow::walls::Obstacles;
+use crate::flow::walls::{Obstacles, SUBSTEPS};
+use crate::{Progress, Result};
 
 /// The fields that carry the light of both key frames to the meeting at t = 1/2, where photons of all passes are paired.
 ///
 /// Step n of the first half has the field fitted at its begin; step n of the second half that fitted at its end, where the
-/// light that moves backward comes from. Within a step the field is extrapolated from the last two fits of its half:
-/// second order, and known before the next fit, so that guide photons and those of later passes move alike.
+/// light that moves backward comes from. It stays within a step, so that guide photons and those of later passes move alike;
+/// extrapolated from the last two fits, light that fills cracks would swing.
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],
@@ -44,6 +44,23 @@ impl MeetingFields {
         }
     }
 
+    /// Given fields, half of them of the first half and half of the second, by rising time, without walls. None where a field is
+    /// missing.
+    pub fn from_nodes(mut nodes: Vec<Field>, steps: usize, mean_way: f32) -> Option<Self> {
+        if steps == 0 || nodes.len() != steps || !steps.is_multiple_of(2) {
+            return None;
+        }
+        let mut second = nodes.split_off(steps / 2);
+        second.reverse();
+        Some(Self { halves: [nodes, second], ..Self::new(steps, mean_way, None, None) })
+    }
+
+    /// The same fields with this turbulence in place of any other.
+    #[must_use]
+    pub fn with_turbulence(self, turbulence: Option<Turbulence>) -> Self {
+        Self { turbulence, ..self }
+    }
+
     /// Appends the next field of a half, with the planned velocities where walls stand.
     pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
         self.halves[half].push(field);
@@ -53,6 +70,11 @@ impl MeetingFields {
     /// Time steps of the whole segment, an even number.
     pub fn steps(&self) -> usize {
         self.steps
+    }
+
+    /// Moves of the photons over the segment, each of which meets no wall: several for each step where walls stand.
+    pub fn moves(&self) -> usize {
+        self.obstacles.as_ref().map_or(self.steps, |obstacles| obstacles.steps())
     }
 
     /// The fields with their times, rising.
@@ -83,6 +105,19 @@ impl MeetingFields {
         self.obstacles.as_ref()
     }
 
+    /// The walls at the meeting; none where none stands.
+    pub fn walls_at_meeting(&self) -> Option<Arc<VisibilityGraph>> {
+        self.obstacles.as_ref()?.shared_graph(self.steps / 2 * SUBSTEPS)
+    }
+
+    /// All walls that stand at any time; none where there is none.
+    ///
+    /// # Errors
+    /// `Limit` for walls of too many corners; `Cancelled`.
+    pub(super) fn walls_at_any_time(&self, progress: &Progress) -> Result<Option<Arc<VisibilityGraph>>> {
+        self.obstacles.as_ref().map_or(Ok(None), |obstacles| obstacles.graph_of_all(progress))
+    }
+
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
     pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
         self.planned[half].get(done)
@@ -102,29 +137,16 @@ impl MeetingFields {
         if done >= self.halves[half].len() {
             return Vec::new();
         }
-        std::iter::once(self.field(half, done, (since - done as f64) as f32)).chain(self.noise(t)).collect()
-    }
-
-    /// The field of a half after `done` steps and the fraction `x` of the next.
-    fn field(&self, half: usize, done: usize, x: f32) -> Field {
-        let fields = &self.halves[half];
-        let (now, before) = (&fields[done], &fields[done.saturating_sub(1)]);
-        let mut field = now.clone();
-        Field::blend(now, 1.0 + x, before, -x, &mut field);
-        field
+        std::iter::once(self.halves[half][done].clone()).chain(self.noise(t)).collect()
     }
 
     /// The velocities at the begin, middle and end of the step after `done` steps of a half, forward in time.
     pub(super) fn step(&self, half: usize, done: usize) -> [StageVelocity; 3] {
-        [0.0f32, 0.5, 1.0].map(|x| {
-            let since = (done as f64 + f64::from(x)) / self.steps as f64;
+        let field = &self.halves[half][done];
+        [0.0, 0.5, 1.0].map(|x| {
+            let since = (done as f64 + x) / self.steps as f64;
             let t = if half == 0 { since } else { 1.0 - since };
-            StageVelocity { field: self.field(half, done, 0.0 * x), noise: self.noise(t) }
+            StageVelocity { field: field.clone(), noise: self.noise(t) }
         })
-    }
-
-    /// The fitted velocity at `p` and time `t`, turbulence with it.
-    pub fn velocity(&self, t: f64, p: Vec2) -> Vec2 {
-        self.at(t).iter().map(|field| field.velocity(p)).sum()
     }
 }

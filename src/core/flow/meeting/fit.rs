@@ -12,7 +12,7 @@ use super::tracks::advance;
 use crate::bridge::{Bridge, BridgeSettings, WallsFrom};
 use crate::constraint::VisibilityGraph;
 use crate::flow::field::Grid;
-use crate::flow::fit::{DirectedLines, LineTerm, NoPenetrationRows};
+use crate::flow::fit::{DirectedLines, LineTerm};
 use crate::flow::fit_segment::fit_settings;
 use crate::flow::observer::FitStatistics;
 use crate::flow::report::FlowReport;
@@ -24,6 +24,7 @@ use crate::{Progress, Result};
 const PLAN_CELLS: f32 = 1.5;
 /// Limits of the cells of a plan along the longer side.
 const FINEST: usize = 192;
+const FINEST_WITH_WALLS: usize = 128;
 const COARSEST: usize = 32;
 /// Length over which a liquid is smooth, over that of the pieces that stay together.
 const LIQUID: f64 = 0.6;
@@ -62,7 +63,7 @@ pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<Meet
     let MeetingSegment { extent, settings, number, walls, .. } = *segment;
     let guides = segment.guides()?;
     let even = (settings.steps as usize).next_multiple_of(2);
-    let (obstacles, steps) = Obstacles::new(walls, even, extent, &progress.inner())?;
+    let (obstacles, steps) = Obstacles::new(walls, (even, SUBSTEPS), extent, &progress.inner())?;
     let obstacles = obstacles.map(Arc::new);
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
     let fields = MeetingFields::new(steps.next_multiple_of(2), 0.0, turbulence, obstacles.clone());
@@ -107,17 +108,17 @@ impl<'a> MeetingFitter<'a> {
         let longer = fit.grid.cells.into_iter().max().unwrap_or(COARSEST);
         let plan = BridgeSettings {
             extent,
-            cells: ((longer as f32 * PLAN_CELLS) as usize).clamp(COARSEST, FINEST),
+            cells: ((longer as f32 * PLAN_CELLS) as usize)
+                .clamp(COARSEST, if standing.is_empty() { FINEST } else { FINEST_WITH_WALLS }),
             steps: fields.steps(),
             hold: settings.hold,
             density: settings.density,
         };
-        let bridge = |[a, b]: &[Vec<Vec2>; 2]| Bridge::new(plan, standing, [a, b]);
         let liquid = LIQUID * f64::from(settings.hold);
         let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
         Ok(Self {
             fields,
-            bridges: photons.iter().map(bridge).collect(),
+            bridges: photons.iter().map(|_| Bridge::new(plan, standing)).collect(),
             photons,
             fits: [LeadingFit::new(fit, liquid)?, LeadingFit::new(fit, liquid)?],
             lines: [0, 1].map(of_half),
@@ -176,7 +177,6 @@ impl<'a> MeetingFitter<'a> {
             positions.extend(one_in_each_place(&photons[side], self.grid, extent));
             velocities.extend(positions[first..].iter().map(|&p| sign * bridge.velocity(side, p)));
         }
-        self.set_walls(side, done);
         let steps = self.fields.steps();
         let t = if side == 0 { done as f64 } else { (steps - done) as f64 } / steps as f64;
         let lines = &mut self.lines[side];
@@ -191,21 +191,6 @@ impl<'a> MeetingFitter<'a> {
         self.plan.seconds[1] += start.elapsed().as_secs_f64();
         Ok(())
     }
-
-    /// Sets the no-penetration term of the walls that stand in a step, where they changed.
-    fn set_walls(&mut self, side: usize, done: usize) {
-        let Some(obstacles) = self.fields.obstacles() else { return };
-        let step = SUBSTEPS * if side == 0 { done } else { self.fields.steps() - 1 - done };
-        if done == 0 || !obstacles.same_walls(step, step_before(step, side)) {
-            let (positions, normals, weight) = obstacles.no_penetration(step, self.grid);
-            let rows = NoPenetrationRows { positions: &positions, normals: &normals, weight };
-            self.fits[side].set_no_penetration((!positions.is_empty()).then_some(rows));
-        }
-    }
-}
-
-fn step_before(step: usize, side: usize) -> usize {
-    if side == 0 { step - SUBSTEPS } else { step + SUBSTEPS }
 }
 
 /// The first photon in each quarter of a cell of the fit: even weight over the lit area, or thin light would be dragged along

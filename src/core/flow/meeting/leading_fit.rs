@@ -10,7 +10,7 @@ use glam::Vec2;
 
 use crate::flow::fade::smoothstep;
 use crate::flow::field::Field;
-use crate::flow::fit::{Blend, FitReport, FitSettings, Fitter, LineTerm, NoPenetrationRows, Rows};
+use crate::flow::fit::{Blend, FitReport, FitSettings, Fitter, LineTerm, Rows};
 use crate::{Progress, Result};
 
 /// Part of a half after which both potentials act in full.
@@ -44,12 +44,6 @@ impl LeadingFit {
         let (leads, follows) = if gamma < 0.5 { (0.0, 1.0) } else { (1.0, 0.0) };
         let share = 2.0 * if gamma < 0.5 { gamma } else { 1.0 - gamma };
         Ok(Self { leading: alone(leads, smooth)?, following: alone(follows, 0.0)?, share })
-    }
-
-    /// Sets the no-penetration term of all further fits.
-    pub(super) fn set_no_penetration(&mut self, walls: Option<NoPenetrationRows>) {
-        self.leading.set_no_penetration(walls);
-        self.following.set_no_penetration(walls);
     }
 
     /// Fits both potentials to velocities at positions; `part`, 0 to 1, is how far the half is done.

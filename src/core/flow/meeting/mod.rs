@@ -6,6 +6,7 @@
 //! short, the neighbourhoods of each key frame stay whole in its own half, and both ends are exact. The gap that is left at
 //! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]).
 
+mod detours;
 mod fields;
 mod fit;
 mod leading_fit;

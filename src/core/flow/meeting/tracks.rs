@@ -80,7 +80,10 @@ pub(super) fn advance(
         .map(|photons| {
             progress.check()?;
             match &walls {
-                Some(walls) => photons.iter_mut().for_each(|p| *p = walls.advance(&velocities, h, *p)),
+                Some(walls) => photons.iter_mut().for_each(|p| match walls.is_far(*p) {
+                    true => [*p] = runge_kutta(&velocities, h, [*p]),
+                    false => *p = walls.advance(&velocities, h, *p, 1.0),
+                }),
                 None => {
                     let (batches, rest) = photons.as_chunks_mut::<BATCH>();
                     batches.iter_mut().for_each(|batch| *batch = runge_kutta(&velocities, h, *batch));

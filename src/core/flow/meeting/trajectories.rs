@@ -5,8 +5,10 @@ use std::borrow::Cow;
 use glam::Vec2;
 use rayon::prelude::*;
 
+use super::detours::Detours;
 use super::fields::MeetingFields;
 use super::tracks::HalfTracks;
+use super::wall_motion::WallMotion;
 use crate::flow::observer::{Kinematics, Observer};
 use crate::flow::report::FlowReport;
 use crate::flow::segment::guide_rows;
@@ -25,7 +27,8 @@ pub struct MeetingTrajectories<'a> {
     source: &'a [Vec2],
     targets: &'a [Vec2],
     halves: Option<[Cow<'a, HalfTracks>; 2]>,
-    violations: WallViolations,
+    /// Known with the tracks; none where no wall stands.
+    detours: Option<Option<Detours>>,
 }
 
 impl<'a> MeetingTrajectories<'a> {
@@ -35,7 +38,7 @@ impl<'a> MeetingTrajectories<'a> {
     /// When the columns differ in length.
     pub fn new(fields: &'a MeetingFields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
         assert_eq!(source.len(), targets.len(), "each photon has one target");
-        Self { fields, source, targets, halves: None, violations: WallViolations::default() }
+        Self { fields, source, targets, halves: None, detours: None }
     }
 
     /// As [`Self::new`], with known tracks from both key frames, row by row.
@@ -58,7 +61,36 @@ impl<'a> MeetingTrajectories<'a> {
             let tracks = [tracks(0, self.source)?, tracks(1, self.targets)?];
             self.halves = Some(tracks.map(Cow::Owned));
         }
+        if let (None, Some([forward, backward])) = (&self.detours, &self.halves) {
+            self.detours = Some(Detours::new(self.fields, [forward, backward], progress)?);
+        }
         Ok(())
+    }
+
+    /// Moves of photons through walls, each photon with a path looked at in every substep.
+    fn crossings(&self, progress: &Progress) -> Result<usize> {
+        let Some(obstacles) = self.fields.obstacles() else { return Ok(0) };
+        let substeps = obstacles.steps();
+        let mut at = self.source.to_vec();
+        let mut next = at.clone();
+        let mut count = 0;
+        let mut reachable = vec![true; at.len()];
+        let detours = self.detours.iter().flatten();
+        detours.flat_map(Detours::unreachable).for_each(|row| reachable[row] = false);
+        for n in 1..=substeps {
+            progress.check()?;
+            match n == substeps {
+                true => next.copy_from_slice(self.targets),
+                false => self.positions(n as f64 / substeps as f64, &mut next),
+            }
+            if let Some(graph) = obstacles.graph(n - 1) {
+                let barriers = graph.barriers();
+                let moves = at.par_iter().zip(&next).zip(&reachable).with_min_len(4096);
+                count += moves.filter(|((a, b), reachable)| **reachable && barriers.blocks(**a, **b)).count();
+            }
+            at.copy_from_slice(&next);
+        }
+        Ok(count)
     }
 
     /// Root mean square gap at the meeting, plane units; 0 before the tracks are known.
@@ -69,8 +101,8 @@ impl<'a> MeetingTrajectories<'a> {
         (squares.sum::<f64>() / self.source.len().max(1) as f64).sqrt()
     }
 
-    /// Writes `value` of the place on its half, and of the share of the gap there with its slope, for each photon.
-    fn each(&self, t: f64, out: &mut [Vec2], value: impl Fn(Curve, Vec2, [f32; 2]) -> Vec2 + Sync) {
+    /// Writes `value` of the row, the place on its half, and of the share of the gap there with its slope, for each photon.
+    fn each(&self, t: f64, out: &mut [Vec2], value: impl Fn(usize, Curve, Vec2, [f32; 2]) -> Vec2 + Sync) {
         let Some([forward, backward]) = &self.halves else { return };
         let second = usize::from(t > 0.5);
         let tracks = if second == 0 { forward } else { backward };
@@ -88,7 +120,7 @@ impl<'a> MeetingTrajectories<'a> {
         out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
             for (i, out) in out.iter_mut().enumerate().map(|(i, out)| (chunk * CHUNK + i, out)) {
                 let curve = Curve { points: [before[i], begin[i], end[i], after[i]], at_border, x };
-                *out = value(curve, last[i] - first[i], share);
+                *out = value(i, curve, last[i] - first[i], share);
             }
         });
     }
@@ -151,20 +183,45 @@ impl Trajectories for MeetingTrajectories<'_> {
     }
 
     fn wall_violations(&self) -> WallViolations {
-        self.violations
+        self.detours.iter().flatten().map(Detours::violations).next().unwrap_or_default()
     }
 }
 
 impl Kinematics for MeetingTrajectories<'_> {
     fn positions(&self, t: f64, out: &mut [Vec2]) {
-        self.each(t, out, |curve, gap, [share, _]| curve.position() + share * gap);
+        let second = usize::from(t > 0.5);
+        let since = (if second == 0 { t } else { 1.0 - t }).clamp(0.0, 0.5);
+        let done = ((since * self.fields.steps() as f64) as usize).min(self.fields.steps() / 2 - 1);
+        let Some(walls) = WallMotion::new(self.fields, second, done) else {
+            return self.each(t, out, |_, curve, gap, [share, _]| curve.position() + share * gap);
+        };
+        let stages = self.fields.step(second, done);
+        let h = if second == 0 { 1.0 } else { -1.0 } / self.fields.steps() as f32;
+        let detours = self.detours.as_ref().and_then(Option::as_ref);
+        let sign = if second == 0 { 1.0 } else { -1.0 };
+        self.each(t, out, |row, curve, gap, [early, _]| {
+            let [_, begin, ..] = curve.points;
+            let share =
+                detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
+            let at = match walls.is_far(begin) {
+                true => curve.position(),
+                false => walls.advance(&stages, h, begin, curve.x),
+            };
+            at + share * gap
+        });
+        if let Some(detours) = detours {
+            detours.place(t, out);
+        }
     }
 
     fn velocities(&self, t: f64, out: &mut [Vec2]) {
         let per_time = if t > 0.5 { -1.0 } else { 1.0 } * self.fields.steps() as f32;
-        self.each(t, out, |curve, gap, [_, slope]| per_time * curve.slope() + slope * gap);
+        self.each(t, out, |_, curve, gap, [_, slope]| per_time * curve.slope() + slope * gap);
     }
 }
+
+/// Photons that a report looks at, at most.
+const WATCHED: usize = 20_000;
 
 /// The report on a flow that meets half way, from at most `guides` of its photons, evenly spaced rows. `fits` has the figures
 /// of its fits.
@@ -178,7 +235,7 @@ pub fn meeting_report(
     fits: &FlowReport,
     progress: &Progress,
 ) -> Result<FlowReport> {
-    let rows = guide_rows(source.len(), guides);
+    let rows = guide_rows(source.len(), guides.min(WATCHED));
     let [source, targets] = [source, targets].map(|all| rows.iter().map(|&row| all[row]).collect::<Vec<_>>());
     let mut photons = MeetingTrajectories::new(fields, &source, &targets);
     photons.prepare(progress)?;
@@ -188,6 +245,8 @@ pub fn meeting_report(
         progress.check()?;
         observer.stepped(&photons, n as f64 / steps as f64, 1.0 / steps as f64);
     }
-    let report = observer.finish(&targets, fields.turbulence(), photons.violations, fits.clone());
+    let crossings = photons.crossings(progress)?;
+    let violations = WallViolations { crossings, ..photons.wall_violations() };
+    let report = observer.finish(&targets, fields.turbulence(), violations, fits.clone());
     Ok(FlowReport { gap: photons.gap(), field_share: 1.0, ..report })
 }

@@ -6,9 +6,9 @@
 //!
 //! In time, key noises follow each other `rate` times from key frame to key frame. Two neighbours a, b are blended as
 //! cos(w) a + sin(w) b. Both have unit root mean square velocity over the plane and are orthogonal, so that every blend has
-//! it too: the strength does not pulse. w rises smoothly from 0 to a right angle, and nothing jumps at a key.
+//! it too: the strength does not pulse within a segment, in which it grows from nothing and dies before the target forms. w rises smoothly from 0 to a right angle, and nothing jumps at a key.
 //!
-//! The noise is part of u: it carries guide photons and those of all passes alike, and fades with 1 - s. The fit does not
+//! The noise is part of u: it carries guide photons and those of all passes alike. The fit does not
 //! contain it, but sees where it has carried the photons. Time goes on from segment to segment.
 //!
 //! # The unit and its look
@@ -33,6 +33,17 @@ pub use settings::TurbulenceSettings;
 use self::noise::{NoiseMaker, fields};
 use super::fade::smoothstep;
 use super::field::Field;
+
+/// Times at which the turbulence has grown to full strength, begins to fade, and is gone: the target's outline forms
+/// undisturbed.
+const GROWN: f64 = 0.15;
+const FADES: f64 = 0.4;
+const GONE: f64 = 0.8;
+
+/// The strength at time `t`, 0 to 1.
+fn envelope(t: f64) -> f64 {
+    smoothstep(t / GROWN) * (1.0 - smoothstep((t - FADES) / (GONE - FADES)))
+}
 
 /// The turbulence of one segment.
 pub struct Turbulence {
@@ -69,7 +80,8 @@ impl Turbulence {
         let (key, between) = self.place(t.clamp(0.0, 1.0));
         let index = (key - self.first) as usize;
         let angle = FRAC_PI_2 * smoothstep(between);
-        let (a, b) = (angle.cos() as f32, angle.sin() as f32);
+        let strength = envelope(t);
+        let (a, b) = ((strength * angle.cos()) as f32, (strength * angle.sin()) as f32);
         let pairs = self.keys[index].iter().zip(&self.keys[index + 1]);
         pairs
             .map(|(before, after)| {
@@ -80,7 +92,7 @@ impl Turbulence {
             .collect()
     }
 
-    /// Root mean square speed over the plane, the same at all times, in plane units per unit of t.
+    /// Root mean square speed over the plane at full strength, in plane units per unit of t.
     pub fn speed(&self) -> f32 {
         self.speed
     }

@@ -1,8 +1,11 @@
 //! The walls of a segment over its steps, and the paths around them.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::Vec2;
 use rayon::prelude::*;
 
+use super::clearance::Clearance;
 use super::path_state::{PathState, PathStatus};
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{ActiveWall, VisibilityGraph, WallPath, stroke};
@@ -31,18 +34,19 @@ struct Epoch {
     first: usize,
     standing: Vec<usize>,
     /// None where no wall stands.
-    graph: Option<VisibilityGraph>,
+    graph: Option<Arc<VisibilityGraph>>,
+    clearance: OnceLock<Clearance>,
 }
 
 impl Obstacles {
     /// The walls over `fits` fits of [`SUBSTEPS`] steps each on the rectangle `extent`; none where no wall stands at any
-    /// time. Also returns the number of fits, which grows where paths have more corners than there are steps.
+    /// time. They change at every `granule`-th step at most. Also returns the number of fits, which grows where paths have more corners than there are steps.
     ///
     /// # Errors
     /// `Limit` for walls of too many corners; `Cancelled`.
     pub(crate) fn new(
         walls: &[ActiveWall],
-        fits: usize,
+        (fits, granule): (usize, usize),
         extent: Vec2,
         progress: &Progress,
     ) -> Result<(Option<Self>, usize)> {
@@ -56,7 +60,7 @@ impl Obstacles {
                 walls: walls.to_vec(),
                 extent,
                 steps,
-                epochs: epochs(walls, steps, extent, progress)?,
+                epochs: epochs(walls, (steps, granule), extent, progress)?,
             };
             let needed = 2 + all.most_corners();
             if needed <= steps {
@@ -65,7 +69,7 @@ impl Obstacles {
             }
             steps = needed.next_multiple_of(SUBSTEPS);
         }
-        let epochs = epochs(walls, steps, extent, progress)?;
+        let epochs = epochs(walls, (steps, granule), extent, progress)?;
         Ok((Some(Self { walls: walls.to_vec(), extent, steps, epochs }), steps / SUBSTEPS))
     }
 
@@ -74,7 +78,7 @@ impl Obstacles {
         self.epochs
             .iter()
             .filter_map(|epoch| epoch.graph.as_ref())
-            .map(VisibilityGraph::most_corners)
+            .map(|graph| graph.most_corners())
             .max()
             .unwrap_or(0)
     }
@@ -85,7 +89,35 @@ impl Obstacles {
 
     /// The visibility graph of step `step`; none where no wall stands.
     pub(crate) fn graph(&self, step: usize) -> Option<&VisibilityGraph> {
-        self.epochs[self.index(step)].graph.as_ref()
+        self.epochs[self.index(step)].graph.as_deref()
+    }
+
+    /// As [`Self::graph`], shared.
+    pub(crate) fn shared_graph(&self, step: usize) -> Option<Arc<VisibilityGraph>> {
+        self.epochs[self.index(step)].graph.clone()
+    }
+
+    /// The graph of all walls that stand at any time; none where there is none.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn graph_of_all(&self, progress: &Progress) -> Result<Option<Arc<VisibilityGraph>>> {
+        if let [only] = &self.epochs[..] {
+            return Ok(only.graph.clone());
+        }
+        let stands = |i: &usize| self.epochs.iter().any(|epoch| epoch.standing.contains(i));
+        let walls: Vec<&ActiveWall> = (0..self.walls.len()).filter(stands).map(|i| &self.walls[i]).collect();
+        if walls.is_empty() {
+            return Ok(None);
+        }
+        VisibilityGraph::new(&walls, self.extent, progress).map(|graph| Some(Arc::new(graph)))
+    }
+
+    /// How far the walls of step `step` are; none where none stands.
+    pub(crate) fn clearance(&self, step: usize) -> Option<&Clearance> {
+        let epoch = &self.epochs[self.index(step)];
+        let graph = epoch.graph.as_ref()?;
+        Some(epoch.clearance.get_or_init(|| Clearance::new(graph.barriers(), self.extent)))
     }
 
     /// Steps of the photons over the whole segment.
@@ -95,12 +127,7 @@ impl Obstacles {
 
     /// The runs of steps in which the same walls stand, by their first step, with the visibility graph of each.
     pub(crate) fn epochs(&self) -> impl Iterator<Item = (usize, Option<&VisibilityGraph>)> {
-        self.epochs.iter().map(|epoch| (epoch.first, epoch.graph.as_ref()))
-    }
-
-    /// Whether the same walls stand in two steps.
-    pub(crate) fn same_walls(&self, step: usize, other: usize) -> bool {
-        self.index(step) == self.index(other)
+        self.epochs.iter().map(|epoch| (epoch.first, epoch.graph.as_deref()))
     }
 
     /// Whether step `step` begins with other walls than the step before; true for step 0.
@@ -204,10 +231,15 @@ impl Obstacles {
 }
 
 /// The runs of steps between changes of the walls.
-fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress) -> Result<Vec<Epoch>> {
+fn epochs(
+    walls: &[ActiveWall],
+    (steps, granule): (usize, usize),
+    extent: Vec2,
+    progress: &Progress,
+) -> Result<Vec<Epoch>> {
     let mut epochs: Vec<Epoch> = Vec::new();
-    for step in 0..steps {
-        let (start, end) = (step as f64 / steps as f64, (step + 1) as f64 / steps as f64);
+    for step in (0..steps).step_by(granule) {
+        let (start, end) = (step as f64 / steps as f64, (step + granule) as f64 / steps as f64);
         // A wall that stands for a part of a step stands for all of it.
         let standing: Vec<usize> =
             (0..walls.len()).filter(|&i| walls[i].window.touches(start, end)).collect();
@@ -217,9 +249,9 @@ fn epochs(walls: &[ActiveWall], steps: usize, extent: Vec2, progress: &Progress)
         let here: Vec<&ActiveWall> = standing.iter().map(|&i| &walls[i]).collect();
         let graph = match here.is_empty() {
             true => None,
-            false => Some(VisibilityGraph::new(&here, extent, progress)?),
+            false => Some(Arc::new(VisibilityGraph::new(&here, extent, progress)?)),
         };
-        epochs.push(Epoch { first: step, standing, graph });
+        epochs.push(Epoch { first: step, standing, graph, clearance: OnceLock::new() });
     }
     Ok(epochs)
 }

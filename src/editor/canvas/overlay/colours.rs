@@ -41,7 +41,7 @@ fn cover(share: f32) -> f32 {
 /// The colour of a map's value relative to the largest, -1..=1.
 pub(super) fn of_map(of: FieldMap, share: f32) -> Color32 {
     match of {
-        FieldMap::Divergence | FieldMap::Curl => signed(share),
+        FieldMap::Divergence | FieldMap::Curl | FieldMap::Tears => signed(share),
         FieldMap::Residual => unsigned(share),
     }
 }

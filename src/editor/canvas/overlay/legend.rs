@@ -22,6 +22,7 @@ pub fn legends(painter: &Painter, flow: &FlowPicture) {
             FieldMap::Divergence => ("Divergence, per segment", -1.0),
             FieldMap::Curl => ("Curl, per segment", -1.0),
             FieldMap::Residual => ("Residual, plane units per segment", 0.0),
+            FieldMap::Tears => ("Cracked open (-1), torn off (1)", -1.0),
         };
         legend(painter, corner, title, [lowest * map.most, map.most], |share| {
             colours::of_map(map.of, lowest + (1.0 - lowest) * share)

@@ -3,6 +3,7 @@
 mod followed;
 mod picture;
 mod sample;
+mod tears;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -14,6 +15,7 @@ use crate::editor::session::{FieldMap, Overlays, Session};
 use followed::WallGraph;
 use picture::Request;
 pub use picture::{FlowPicture, Followed, HeatMap};
+use tears::TearFinder;
 
 /// Looks at the newest field.
 pub(super) struct FlowViewer {
@@ -30,13 +32,13 @@ impl FlowViewer {
         let seen = wake.clone();
         let worker = Worker::new("flow view", Share::Half, wake, move || {
             let (found, seen) = (theirs.clone(), seen.clone());
-            let mut graph = WallGraph::default();
+            let (mut graph, mut tears) = (WallGraph::default(), TearFinder::default());
             move |request: Request, turn: &Turn| {
                 let publish = |picture: &FlowPicture| {
                     *found.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(picture.clone());
                     seen();
                 };
-                answer(&request, turn, &mut graph, &publish);
+                answer(&request, turn, (&mut graph, &mut tears), &publish);
             }
         });
         Self { worker, asked: None, found }
@@ -84,12 +86,20 @@ impl FlowViewer {
     }
 }
 
-fn answer(request: &Request, turn: &Turn, graph: &mut WallGraph, publish: &dyn Fn(&FlowPicture)) {
+fn answer(
+    request: &Request,
+    turn: &Turn,
+    (graph, tears): (&mut WallGraph, &mut TearFinder),
+    publish: &dyn Fn(&FlowPicture),
+) {
     let mut picture = turn.shielded(|_| sample::quickly(request));
     publish(&picture);
-    // Around walls these take their time.
-    let map = request.show.map.filter(|map| *map == FieldMap::Residual);
-    let map = map.and_then(|_| sample::residual(request, &turn.progress));
+    // These take their time; the residual does around walls.
+    let map = match request.show.map {
+        Some(FieldMap::Residual) => sample::residual(request, &turn.progress),
+        Some(FieldMap::Tears) => tears.map(request, &turn.progress),
+        _ => None,
+    };
     let followed = request.probe.and_then(|row| graph.follow(request, row, &turn.progress));
     if turn.progress.is_cancelled() || (map.is_none() && followed.is_none()) {
         return;

@@ -112,7 +112,7 @@ fn map(of: FieldMap, extent: Vec2, value: impl Fn(Vec2) -> f32) -> HeatMap {
     HeatMap { of, cells, most: most(values.iter().copied(), SHARE), values }
 }
 
-fn cells(extent: Vec2, longer: f32) -> [usize; 2] {
+pub(super) fn cells(extent: Vec2, longer: f32) -> [usize; 2] {
     [extent.x, extent.y].map(|side| (side / extent.max_element() * longer).round().max(1.0) as usize)
 }
 

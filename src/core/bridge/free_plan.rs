@@ -1,0 +1,199 @@
+//! The plan of free motion, renewed at every step.
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::cells::Cells;
+use super::ends::{End, LEAST, over, scale_in_turn};
+use super::gaussian::Gaussian;
+use super::gradient::{BLUR, floor, gather, gradients};
+use super::settings::BridgeSettings;
+use crate::{Progress, Result};
+
+/// Sweeps of the factors in each renewal, and in the first one, which starts from a plan on half as many cells.
+const SWEEPS: usize = 8;
+const FIRST_SWEEPS: usize = 16;
+/// Sweeps of the coarsest plan, which starts from nothing, and its cells at most.
+const COLD_SWEEPS: usize = 80;
+const COARSEST: usize = 48;
+/// Least variance in squared cells: a narrower kernel is none on the grid.
+const LEAST_VARIANCE: f64 = 0.36;
+/// Diffusion down the relative density, over that of the bridge.
+const DIFFUSION: f64 = 0.5;
+/// Iterations of the self-transport in each renewal; the first starts from nothing.
+const SELF_SWEEPS: usize = 4;
+const FIRST_SELF_SWEEPS: usize = 12;
+
+/// The plan of free motion.
+pub(super) struct FreePlan {
+    settings: BridgeSettings,
+    blur: Gaussian,
+    /// Factors of the later end from the last plan.
+    scale: Option<Vec<f64>>,
+    own: [SelfTransport; 2],
+    /// Blurred density around each photon at its key frame, by side.
+    birth: [Vec<f32>; 2],
+    error: f64,
+}
+
+/// The transport of a density onto itself.
+#[derive(Default)]
+struct SelfTransport {
+    scale: Vec<f64>,
+    reached: Vec<f64>,
+}
+
+impl FreePlan {
+    pub(super) fn new(settings: BridgeSettings, cells: &Cells) -> Self {
+        let blur = Gaussian::new(cells.size, BLUR * BLUR);
+        Self { settings, blur, scale: None, own: Default::default(), birth: Default::default(), error: 0.0 }
+    }
+
+    /// The misplaced share of the light after the last renewal.
+    pub(super) fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Makes the plan anew after `done` steps; the velocities in cells of both sides, each towards the other.
+    pub(super) fn velocities(
+        &mut self,
+        cells: &Cells,
+        done: usize,
+        photons: [&[Vec2]; 2],
+        progress: &Progress,
+    ) -> Result<[Vec<Vec2>; 2]> {
+        let BridgeSettings { hold, steps, .. } = self.settings;
+        let left = 1.0 - 2.0 * done as f64 / steps as f64;
+        let variance = (f64::from(hold / cells.side).powi(2) * left).max(LEAST_VARIANCE);
+        let mut kernel = Gaussian::new(cells.size, variance);
+        let mut ends = photons.map(|photons| End::new(gather(cells, None, photons)));
+        let sweeps = match self.scale.take() {
+            Some(scale) => {
+                ends[1].scale = scale;
+                SWEEPS
+            }
+            None => {
+                ends[1].scale = start(&self.settings, cells, &ends[1].density, photons, progress)?;
+                FIRST_SWEEPS
+            }
+        };
+        let spread = |_: usize, factor: &[f64], out: &mut [f64]| kernel.spread(factor, out);
+        scale_in_turn(&mut ends, (sweeps, 0.0, 1.0), spread, progress)?;
+        self.error = ends[0].error();
+        let drift = variance * f64::from(cells.side).powi(2) / left;
+        let velocities = [0, 1].map(|side| {
+            self.own[side].renew(&ends[side].density, &mut kernel);
+            let relative = self.relative_density(side, cells, &ends[side].density, photons[side]);
+            self.side_velocities(side, cells, drift, (&ends[side].reached, &relative))
+        });
+        let [_, b] = ends;
+        self.scale = Some(b.scale);
+        Ok(velocities)
+    }
+
+    /// `drift` grad ln(reached / own), and -s^2/2 D grad of the relative density, which fills cracks.
+    fn side_velocities(
+        &self,
+        side: usize,
+        cells: &Cells,
+        drift: f64,
+        (reached, relative): (&[f64], &[f64]),
+    ) -> Vec<Vec2> {
+        let known = |reached: f64| if reached > LEAST { reached.ln() } else { f64::NAN };
+        let diffusion = 0.5 * DIFFUSION * f64::from(self.settings.hold).powi(2);
+        let ahead: Vec<f64> = reached
+            .iter()
+            .zip(&self.own[side].reached)
+            .zip(relative)
+            // Far from its own light a cell has no self-transport; nothing moves there.
+            .map(|((reached, own), relative)| drift * (known(*reached) - known(*own)) - diffusion * relative)
+            .collect();
+        gradients(cells, None, &ahead)
+    }
+
+    /// ln of the blurred density in each cell over the mean over its light of that at the key frame; zero before any photon has
+    /// moved.
+    fn relative_density(
+        &mut self,
+        side: usize,
+        cells: &Cells,
+        density: &[f64],
+        photons: &[Vec2],
+    ) -> Vec<f64> {
+        let mut light = vec![0.0; cells.count()];
+        self.blur.spread(density, &mut light);
+        if self.birth[side].is_empty() {
+            let birth = |&p: &Vec2| cells.value(&light, p) as f32;
+            self.birth[side] = photons.par_iter().with_min_len(4096).map(birth).collect();
+            return vec![0.0; cells.count()];
+        }
+        let birth = &self.birth[side];
+        let per_photon = 1.0 / photons.len().max(1) as f32;
+        let weigh = |i: usize, p: Vec2| cells.around(p).map(|(cell, w)| (cell, w * birth[i] * per_photon));
+        let sums = cells.sum(photons, weigh);
+        let mut born = vec![0.0; cells.count()];
+        self.blur.spread(&sums, &mut born);
+        let floor = floor(photons.len());
+        let relative =
+            |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
+        light.iter().zip(&born).map(relative).collect()
+    }
+}
+
+impl SelfTransport {
+    /// Renews the factor for another density, from the last one.
+    fn renew(&mut self, density: &[f64], kernel: &mut Gaussian) {
+        let fresh = self.scale.is_empty();
+        if fresh {
+            self.scale = density.iter().map(|density| density.sqrt()).collect();
+            self.reached = vec![0.0; density.len()];
+        }
+        let least = 1e-6 * self.scale.iter().copied().fold(0.0, f64::max);
+        for (scale, density) in self.scale.iter_mut().zip(density) {
+            *scale = if *density > 0.0 { scale.max(least) } else { 0.0 };
+        }
+        for _ in 0..if fresh { FIRST_SELF_SWEEPS } else { SELF_SWEEPS } {
+            kernel.spread(&self.scale, &mut self.reached);
+            let columns = self.scale.iter_mut().zip(density).zip(&self.reached);
+            // The square root damps the swing of the symmetric iteration.
+            columns
+                .for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
+        }
+        kernel.spread(&self.scale, &mut self.reached);
+    }
+}
+
+/// The first factor of the later end with this density: that of a plan on half as many cells, or of none.
+fn start(
+    settings: &BridgeSettings,
+    cells: &Cells,
+    later: &[f64],
+    photons: [&[Vec2]; 2],
+    progress: &Progress,
+) -> Result<Vec<f64>> {
+    if settings.cells <= COARSEST {
+        return Ok(later.iter().map(|d| f64::from(u8::from(*d > 0.0))).collect());
+    }
+    let half = BridgeSettings { cells: settings.cells / 2, ..*settings };
+    let coarse = Cells::new(half.extent, half.cells);
+    let variance = f64::from(half.hold / coarse.side).powi(2).max(LEAST_VARIANCE);
+    let mut kernel = Gaussian::new(coarse.size, variance);
+    let mut ends = photons.map(|photons| End::new(gather(&coarse, None, photons)));
+    ends[1].scale = start(&half, &coarse, &ends[1].density, photons, progress)?;
+    let sweeps = if half.cells <= COARSEST { COLD_SWEEPS } else { FIRST_SWEEPS };
+    let mut spread = |_: usize, factor: &[f64], out: &mut [f64]| kernel.spread(factor, out);
+    scale_in_turn(&mut ends, (sweeps, 0.0, 1.0), &mut spread, progress)?;
+    let [a, b] = &mut ends;
+    spread(0, &a.scale, &mut b.reached);
+    Ok(finer_scale((&coarse, &b.reached), (cells, later)))
+}
+
+/// The factor of a density on finer cells, from what reached it on coarser ones.
+pub(super) fn finer_scale(
+    (coarse, reached): (&Cells, &[f64]),
+    (fine, density): (&Cells, &[f64]),
+) -> Vec<f64> {
+    let logarithms: Vec<f64> = reached.iter().map(|reached| reached.max(LEAST).ln()).collect();
+    let scale = |cell: usize| over(density[cell], coarse.value(&logarithms, fine.centre(cell)).exp());
+    (0..fine.count()).into_par_iter().with_min_len(1024).map(scale).collect()
+}

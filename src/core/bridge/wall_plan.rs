@@ -1,0 +1,174 @@
+//! The plan of motion around walls, made once and followed.
+
+use glam::Vec2;
+
+use super::cells::Cells;
+use super::ends::{End, scale_in_turn};
+use super::free_plan::finer_scale;
+use super::gradient::{BLUR, floor, gather, gradients};
+use super::regions::Regions;
+use super::settings::BridgeSettings;
+use super::wall_cells::StandingWalls;
+use super::wall_kernel::{StepKernel, WallKernel};
+use crate::{Progress, Result};
+
+/// Sweeps of the factors at most, the misplaced share of the light at which they end, and the over-relaxation: 1.6 needs a
+/// quarter of the sweeps of 1.
+const SWEEPS: usize = 150;
+const TOLERANCE: f64 = 1e-3;
+const RELAXATION: f64 = 1.6;
+/// Cells of the plan from which a finer one starts, at most.
+const COARSEST: usize = 48;
+/// Least variance of a step in squared cells: a narrower kernel is none on the grid.
+const LEAST_VARIANCE: f64 = 0.36;
+/// Diffusion down the density over the planned one, over that of the bridge.
+const FEEDBACK: f64 = 1.0;
+/// Share of the light whose cells set the cap; brighter ones keep their own density.
+const CAP_SHARE: f64 = 0.9;
+
+/// The plan of motion around walls.
+pub(super) struct WallPlan {
+    settings: BridgeSettings,
+    made: Option<Made>,
+}
+
+/// A plan that is made.
+struct Made {
+    kernel: WallKernel,
+    regions: Regions,
+    /// Light of the ends, share in each cell.
+    ends: [Vec<f64>; 2],
+    /// Variance of a step, plane units squared.
+    variance: f64,
+    /// Steps of the kernel that make the blur of densities.
+    blur: usize,
+    error: f64,
+}
+
+impl WallPlan {
+    pub(super) fn new(settings: BridgeSettings) -> Self {
+        Self { settings, made: None }
+    }
+
+    /// The misplaced share of the light.
+    pub(super) fn error(&self) -> f64 {
+        self.made.as_ref().map_or(0.0, |made| made.error)
+    }
+
+    /// Share of the light of either key frame that walls shut off from the other.
+    pub(super) fn shut_off(&self) -> [f64; 2] {
+        self.made.as_ref().map_or([0.0; 2], |made| made.regions.shut_off())
+    }
+
+    /// The velocities in cells of both sides after `done` steps, each towards the other; the first call makes the plan.
+    pub(super) fn velocities(
+        &mut self,
+        (cells, walls): (&Cells, &StandingWalls),
+        done: usize,
+        photons: [&[Vec2]; 2],
+        progress: &Progress,
+    ) -> Result<[Vec<Vec2>; 2]> {
+        if self.made.is_none() {
+            self.made = Some(Made::new(&self.settings, (cells, walls), photons, None, progress)?);
+        }
+        let Some(made) = &mut self.made else { return Err(crate::Error::Cancelled) };
+        let mut velocity =
+            |side: usize| made.side_velocities(&self.settings, (cells, walls), (side, done), photons[side]);
+        Ok([velocity(0), velocity(1)])
+    }
+}
+
+impl Made {
+    /// Makes the plan; `coarse` has coarser cells and what reached the later end on them.
+    fn new(
+        settings: &BridgeSettings,
+        (cells, walls): (&Cells, &StandingWalls),
+        photons: [&[Vec2]; 2],
+        coarse: Option<(&Cells, &[f64])>,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let steps = settings.steps;
+        let mut ends = [0, 1].map(|side| End::new(gather(cells, walls.of(side, 0), photons[side])));
+        let regions = Regions::new(cells, walls, [&ends[0].density, &ends[1].density]);
+        let [a, b] = &mut ends;
+        regions.balance(&a.density, &mut b.density);
+        let whole = f64::from(settings.hold / cells.side).powi(2);
+        let step = (whole / steps as f64).max(LEAST_VARIANCE);
+        let kernels = walls.runs().map(|walls| StepKernel::new(cells, walls, step)).collect();
+        let of_step = (0..steps).map(|step| walls.run_of(step)).collect();
+        let mut kernel =
+            WallKernel::new(kernels, of_step, cap(settings, [&ends[0].density, &ends[1].density]));
+        ends[1].scale = match coarse {
+            Some(coarse) => finer_scale(coarse, (cells, &ends[1].density)),
+            None if settings.cells <= COARSEST => {
+                ends[1].density.iter().map(|d| f64::from(u8::from(*d > 0.0))).collect()
+            }
+            None => {
+                let half = BridgeSettings { cells: settings.cells / 2, ..*settings };
+                let coarse_cells = Cells::new(half.extent, half.cells);
+                let coarse_walls = walls.on(&coarse_cells, steps);
+                let coarse = Self::new(&half, (&coarse_cells, &coarse_walls), photons, None, progress)?;
+                finer_scale((&coarse_cells, coarse.kernel.reached_later()), (cells, &ends[1].density))
+            }
+        };
+        let spread = |side: usize, factor: &[f64], out: &mut [f64]| kernel.spread(side, factor, out);
+        scale_in_turn(&mut ends, (SWEEPS, TOLERANCE, RELAXATION), spread, progress)?;
+        let error = ends[0].error();
+        let blur = (BLUR * BLUR / step).round().max(1.0) as usize;
+        let variance = step * f64::from(cells.side).powi(2);
+        Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error })
+    }
+
+    /// The planned velocity of a side, and diffusion down the density over the planned one.
+    fn side_velocities(
+        &mut self,
+        settings: &BridgeSettings,
+        (cells, walls): (&Cells, &StandingWalls),
+        (side, done): (usize, usize),
+        photons: &[Vec2],
+    ) -> Vec<Vec2> {
+        let steps = settings.steps;
+        let (step, at) = if side == 0 { (done, done) } else { (steps - 1 - done, steps - done) };
+        let here = walls.of(side, done);
+        let planned = match done {
+            0 => self.ends[side].clone(),
+            _ => self.kernel.density(at),
+        };
+        let light = gather(cells, here, photons);
+        let mut blurred = [vec![0.0; cells.count()], vec![0.0; cells.count()]];
+        for (density, out) in [light, planned].iter().zip(&mut blurred) {
+            self.kernel.blur(step, self.blur, density, out);
+        }
+        let floor = floor(photons.len());
+        let [light, planned] = &blurred;
+        let per_time = self.variance * steps as f64;
+        let diffusion = 0.5 * FEEDBACK * per_time;
+        let excess: Vec<f64> = light
+            .iter()
+            .zip(planned)
+            .map(|(light, planned)| ((light + floor) / (planned + floor)).ln())
+            .collect();
+        let per_step = if side == 0 { steps as f32 } else { -(steps as f32) };
+        let back = gradients(cells, here, &excess);
+        let planned = self.kernel.velocity(step, cells);
+        planned.iter().zip(back).map(|(v, back)| per_step * *v - diffusion as f32 * back).collect()
+    }
+}
+
+/// Most light of each cell: `density` times that of the cells in which most of the light is, and in each at least its own at
+/// the key frames.
+fn cap(settings: &BridgeSettings, densities: [&[f64]; 2]) -> Vec<f64> {
+    let typical = |density: &[f64]| {
+        let mut sorted: Vec<f64> = density.iter().copied().filter(|d| *d > 0.0).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let mut sum = 0.0;
+        let within = |d: &&f64| {
+            sum += **d;
+            sum <= CAP_SHARE
+        };
+        sorted.iter().take_while(within).last().copied().unwrap_or(1.0)
+    };
+    let [a, b] = densities;
+    let most = typical(a).max(typical(b));
+    a.iter().zip(b).map(|(a, b)| f64::from(settings.density) * a.max(*b).max(most)).collect()
+}

@@ -1,0 +1,12 @@
+//! Groups of photons that share a flow.
+
+use std::sync::Arc;
+
+use crate::flow::SegmentFlow;
+
+/// Groups that flow together.
+#[derive(Clone)]
+pub(super) struct Layer {
+    pub(super) groups: Vec<usize>,
+    pub(super) flow: Arc<SegmentFlow>,
+}

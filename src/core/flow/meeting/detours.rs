@@ -1,0 +1,210 @@
+//! Photons beside walls near the meeting: they make up for their gap late, and the few whose move would meet a wall go around
+//! it.
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::fields::MeetingFields;
+use super::tracks::HalfTracks;
+use super::wall_motion::WallMotion;
+use crate::Progress;
+use crate::Result;
+use crate::constraint::visibility::SearchBuffers;
+use crate::constraint::{VisibilityGraph, WallPath};
+use crate::flow::fade::smoothstep;
+use crate::flow::walls::{SUBSTEPS, WallViolations};
+
+/// Part of a half after which photons beside walls make up for their gap.
+const LATE: f64 = 0.8;
+/// Parts of a half at which a detour may leave the track; the last that does not ask for more than this speed, over the mean one.
+const LEAVES: [f64; 5] = [0.8, 0.6, 0.4, 0.2, 0.0];
+const FASTEST: f32 = 3.0;
+
+/// The path of a photon around walls from its track in the first half to that in the second.
+struct Detour {
+    row: u32,
+    /// Time at which it begins; it ends as long before the end.
+    begin: f64,
+    /// Places at even times.
+    path: Vec<Vec2>,
+    /// Whether it meets no wall.
+    clear: bool,
+}
+
+/// What walls change about the paths of photons around the meeting.
+pub(super) struct Detours {
+    /// By half, whether each photon comes near a wall.
+    beside: [Vec<bool>; 2],
+    /// Steps of a half before photons beside walls make up for their gap, and all steps of a half.
+    steps: [usize; 2],
+    /// By row, ascending.
+    detours: Vec<Detour>,
+    violations: WallViolations,
+}
+
+impl Detours {
+    /// For photons that move along `halves`; none where no wall stands around the meeting.
+    ///
+    /// # Errors
+    /// `Cancelled`.
+    pub(super) fn new(
+        fields: &MeetingFields,
+        halves: [&HalfTracks; 2],
+        progress: &Progress,
+    ) -> Result<Option<Self>> {
+        let Some(graph) = fields.walls_at_meeting() else { return Ok(None) };
+        let count = halves[0].count();
+        let late = ((count as f64 * LATE) as usize).min(count - 1);
+        let beside = [0, 1].map(|half| beside(fields, half, halves[half]));
+        let mut all =
+            Self { beside, steps: [late, count], detours: Vec::new(), violations: WallViolations::default() };
+        let rows = all.blocked(fields, halves, &graph, progress)?;
+        // A detour may take so long that other walls stand.
+        let Some(graph) = fields.walls_at_any_time(progress)? else { return Ok(None) };
+        let detour = |&row: &u32| detour(fields, halves, &graph, row);
+        all.detours = rows.par_iter().map(detour).collect();
+        all.violations.unreachable = all.detours.iter().filter(|detour| !detour.clear).count();
+        Ok(Some(all))
+    }
+
+    /// Photons that no path brings together: they go straight, through the walls.
+    pub(super) fn violations(&self) -> WallViolations {
+        self.violations
+    }
+
+    /// The photons that go straight through walls, by row.
+    pub(super) fn unreachable(&self) -> impl Iterator<Item = usize> {
+        self.detours.iter().filter(|detour| !detour.clear).map(|detour| detour.row as usize)
+    }
+
+    /// The share of its gap that photon `row` has made up for at the time `since` the key frame of a half, in halves.
+    pub(super) fn share(&self, half: usize, row: usize, since: f64, early: f32) -> f32 {
+        if !self.beside[half][row] {
+            return early;
+        }
+        let late = self.steps[0] as f64 / self.steps[1] as f64;
+        smoothstep(0.5 * (since - late) / (1.0 - late)) as f32
+    }
+
+    /// The photons whose way to their partner, or to it around the meeting, meets a wall.
+    fn blocked(
+        &self,
+        fields: &MeetingFields,
+        halves: [&HalfTracks; 2],
+        graph: &VisibilityGraph,
+        progress: &Progress,
+    ) -> Result<Vec<u32>> {
+        let [late, count] = self.steps;
+        let (x, y) = (halves[0].end(), halves[1].end());
+        let barriers = graph.barriers();
+        let unseen = x.par_iter().zip(y).with_min_len(4096).map(|(a, b)| barriers.blocks(*a, *b));
+        let mut blocked: Vec<bool> = unseen.collect();
+        for half in [0, 1] {
+            let mut at = halves[half].after(late).to_vec();
+            for done in late..count {
+                progress.check()?;
+                let Some(walls) = WallMotion::new(fields, half, done) else { continue };
+                let stages = fields.step(half, done);
+                let h = if half == 0 { 1.0 } else { -1.0 } / fields.steps() as f32;
+                let begins = halves[half].after(done);
+                let each = (at.par_iter_mut(), blocked.par_iter_mut(), begins.par_iter());
+                each.into_par_iter().enumerate().with_min_len(1024).for_each(
+                    |(row, (at, blocked, begin))| {
+                        if *blocked || !self.beside[half][row] || walls.is_far(*begin) {
+                            *at = halves[half].after(done + 1)[row];
+                            return;
+                        }
+                        let gap = if half == 0 { y[row] - x[row] } else { x[row] - y[row] };
+                        let mut place = *begin;
+                        for part in 0..SUBSTEPS {
+                            place = walls.substep(&stages, h / SUBSTEPS as f32, place, part);
+                            let since = (done as f64 + (part + 1) as f64 / SUBSTEPS as f64) / count as f64;
+                            let next = place + self.share(half, row, since, 0.0) * gap;
+                            *blocked |= walls.blocks(*at, next);
+                            *at = next;
+                        }
+                    },
+                );
+            }
+        }
+        Ok((0u32..).zip(blocked).filter_map(|(row, blocked)| blocked.then_some(row)).collect())
+    }
+
+    /// Puts the photons that are on a detour at time `t` where they are.
+    pub(super) fn place(&self, t: f64, out: &mut [Vec2]) {
+        for Detour { row, begin, path, .. } in &self.detours {
+            if t <= *begin || t >= 1.0 - begin {
+                continue;
+            }
+            let at = (t - begin) / (1.0 - 2.0 * begin) * (path.len() - 1) as f64;
+            let first = (at as usize).min(path.len().saturating_sub(2));
+            out[*row as usize] = path[first].lerp(path[first + 1], (at - first as f64) as f32);
+        }
+    }
+}
+
+/// The detour of a photon: as late as its speed allows, straight through the walls where no path leads around.
+fn detour(fields: &MeetingFields, halves: [&HalfTracks; 2], graph: &VisibilityGraph, row: u32) -> Detour {
+    let [forward, backward] = halves;
+    let count = forward.count();
+    let limit = FASTEST * fields.mean_way();
+    let mut last = None;
+    for leaves in LEAVES {
+        let done = ((count as f64 * leaves) as usize).min(count - 1);
+        let (from, to) = (forward.after(done)[row as usize], backward.after(done)[row as usize]);
+        let points = 2 * SUBSTEPS * (count - done);
+        let begin = done as f64 / fields.steps() as f64;
+        let Some(path) = around(graph, from, to, points) else {
+            last = last.or_else(|| {
+                let path = (0..=points).map(|i| from.lerp(to, i as f32 / points as f32)).collect();
+                Some(Detour { row, begin, path, clear: false })
+            });
+            continue;
+        };
+        let length: f32 = path.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
+        let found = Detour { row, begin, path, clear: true };
+        if length <= limit * (1.0 - 2.0 * begin) as f32 {
+            return found;
+        }
+        last = Some(found);
+    }
+    last.unwrap_or(Detour { row, begin: 0.5, path: Vec::new(), clear: false })
+}
+
+/// Whether each photon comes near a wall on its track.
+fn beside(fields: &MeetingFields, half: usize, tracks: &HalfTracks) -> Vec<bool> {
+    let mut beside = vec![false; tracks.end().len()];
+    for done in 0..tracks.count() {
+        let Some(walls) = WallMotion::new(fields, half, done) else { continue };
+        let each = beside.par_iter_mut().zip(tracks.after(done)).with_min_len(4096);
+        each.for_each(|(beside, p)| *beside |= !walls.is_far(*p));
+    }
+    beside
+}
+
+/// The shortest path from `a` to `b` as `points` even moves, each of which meets no wall: a corner is always one of the ends. None
+/// where walls separate them, or the path has more corners than moves.
+fn around(graph: &VisibilityGraph, a: Vec2, b: Vec2, points: usize) -> Option<Vec<Vec2>> {
+    let mut path: WallPath = graph.path(a, b, &mut SearchBuffers::default())?;
+    let mut corners = vec![a];
+    while !path.is_straight() {
+        corners.push(graph.next_point(path, b));
+        path = graph.after_corner(path);
+    }
+    corners.push(b);
+    let legs = corners.len() - 1;
+    let lengths: Vec<f32> = corners.windows(2).map(|leg| leg[0].distance(leg[1])).collect();
+    let all: f32 = lengths.iter().sum::<f32>().max(f32::MIN_POSITIVE);
+    // Whole moves for each leg, at least one, by its share of the length.
+    let spare = points.checked_sub(legs)?;
+    let mut moves: Vec<usize> =
+        lengths.iter().map(|length| 1 + (spare as f32 * length / all) as usize).collect();
+    let missing = points - moves.iter().sum::<usize>().min(points);
+    let longest = (0..legs).max_by(|&i, &k| lengths[i].total_cmp(&lengths[k]))?;
+    moves[longest] += missing;
+    let mut places = vec![a];
+    for (leg, count) in corners.windows(2).zip(moves) {
+        places.extend((1..=count).map(|i| leg[0].lerp(leg[1], i as f32 / count as f32)));
+    }
+    Some(places)
+}

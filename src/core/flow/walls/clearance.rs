@@ -1,0 +1,30 @@
+//! Distances to the nearest wall, on a grid.
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use crate::bridge::Cells;
+use crate::constraint::barrier::Barriers;
+
+/// Cells along the plane's longer side.
+const CELLS: usize = 192;
+
+/// The distance to the nearest wall all over the plane, between the centres of cells: exact to a fraction of a cell.
+pub(crate) struct Clearance {
+    cells: Cells,
+    distances: Vec<f64>,
+}
+
+impl Clearance {
+    pub(crate) fn new(barriers: &Barriers, extent: Vec2) -> Self {
+        let cells = Cells::new(extent, CELLS);
+        let distance = |cell: usize| f64::from(barriers.distance(cells.centre(cell)));
+        let distances = (0..cells.count()).into_par_iter().map(distance).collect();
+        Self { cells, distances }
+    }
+
+    /// The distance from `p` to the nearest wall, plane units.
+    pub(crate) fn at(&self, p: Vec2) -> f32 {
+        self.cells.value(&self.distances, p) as f32
+    }
+}
