@@ -7,7 +7,7 @@ use glam::{Vec3, vec2};
 use lightloom_core::render::{
     GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, layout_for,
 };
-use lightloom_core::scene::light::{LightDesc, PointLight, RectangleLight};
+use lightloom_core::scene::light::{LightDesc, LightRole, PointLight, RectangleLight};
 use lightloom_core::scene::material::{Diffuse, Glass, Material, Mirror};
 use lightloom_core::scene::mesh::Transform;
 use lightloom_core::scene::{EnvironmentDesc, MeshDesc, Scene, SceneDesc};
@@ -89,7 +89,7 @@ fn settings(samples: u32) -> RenderSettings {
 }
 
 fn render(scene: &Scene, samples: u32) -> Image {
-    background(scene, &settings(samples), 11, &Progress::new()).unwrap()
+    background(scene, &settings(samples), 11, &Progress::new()).unwrap().image
 }
 
 /// The place of the receiver that a pixel of [`settings`] sees, in metres from its centre.
@@ -217,6 +217,19 @@ fn the_camera_sees_the_texture_directly_through_a_pane_and_in_a_mirror() {
     // A mirror that shows the receiver its own back side shows no light.
     let mirror = scene(Some((slab(), Material::Mirror(Mirror::default()), at(-1.0, 1.0))), Vec::new(), 0.0);
     assert!(look(&mirror).at(32, 32).distance(albedo / PI) < 1e-4);
+}
+
+#[test]
+fn a_lamp_of_caustics_alone_leaves_the_background_dark() {
+    let lamp = |role| {
+        let point = PointLight { role, position: [0.0, 2.0, 0.5], ..PointLight::default() };
+        let panel = RectangleLight { role, position: [0.5, 2.0, 0.0], ..RectangleLight::default() };
+        let ball = (ball(), Material::Glass(Glass::default()), at(1.0, 0.5));
+        render(&scene(Some(ball), vec![LightDesc::Point(point), LightDesc::Rectangle(panel)], 0.0), 4)
+    };
+    assert!(lamp(LightRole::Caustics).pixels.iter().all(|pixel| *pixel == Vec3::ZERO));
+    let lit = lamp(LightRole::All);
+    assert!(lit.at(5, 5).x > 0.0 && lit.pixels == lamp(LightRole::Background).pixels);
 }
 
 #[test]

@@ -13,6 +13,10 @@ use lightloom_core::scene::CameraDesc;
 
 /// A goblet in the light of two lamps under an even sky; the caustic of the first lamp is named.
 fn project(layers: &str) -> (Project, std::path::PathBuf) {
+    project_of(layers, r#"{ "frame": 1, "shows": "physical_caustic" }"#)
+}
+
+fn project_of(layers: &str, keys: &str) -> (Project, std::path::PathBuf) {
     let text = format!(
         r#"{{
           "lightloom": 1,
@@ -25,7 +29,7 @@ fn project(layers: &str) -> (Project, std::path::PathBuf) {
             "environment": {{ "zenith": [0.1, 0.2, 0.3], "horizon": [0.1, 0.2, 0.3] }}
           }},
           "caustics": [{{ "name": "first light", "light": "key" }}],
-          "keys": [{{ "frame": 1, "shows": "physical_caustic" }}],
+          "keys": [{keys}],
           "render": {{ "width": 64, "height": 36, "photons": 4000, "passes": 2, "background_samples": 1 }},
           "output": {{ "name": "a.####", "formats": ["exr", "png"], "layers": {layers} }}
         }}"#
@@ -54,11 +58,19 @@ impl Read {
 }
 
 fn rendered(layers: &str) -> Read {
-    let folder = tempfile::tempdir().unwrap();
     let (project, place) = project(layers);
-    let engine = Engine::new(AssetFolder::new(&place, false).unwrap());
+    last_frame(&project, &place)
+}
+
+/// The last frame of a project.
+fn last_frame(project: &Project, place: &Path) -> Read {
+    let folder = tempfile::tempdir().unwrap();
+    let frame = project.keys.last().unwrap().frame;
+    let mut project = project.clone();
+    project.output.frames = Some(frame.to_string());
+    let engine = Engine::new(AssetFolder::new(place, false).unwrap());
     let summary = engine.render(&project, folder.path(), &Progress::new(), &|_| ()).unwrap();
-    let path = folder.path().join("a.0001.exr");
+    let path = folder.path().join(format!("a.{frame:04}.exr"));
     let image = read_all_flat_layers_from_file(&path).unwrap();
     let mut parts = Vec::new();
     let mut channels = Vec::new();
@@ -99,6 +111,29 @@ fn every_layer_is_a_part_whose_channels_bear_its_name() {
     assert!(sum("background.G", "caustic.G") < 2e-3);
     let light = |name: &str| read.channel(name).iter().sum::<f32>();
     assert!(light("caustic_first_light.G") > 0.0 && light("caustic_rest.G") > 0.0);
+}
+
+#[test]
+fn what_glass_keeps_is_in_the_layer_of_its_own_caustic() {
+    let keys = r#"
+      { "frame": 1, "shows": "physical_caustic" },
+      { "frame": 9, "shows": "physical_caustic", "caustics": {
+        "first light": { "shows": { "image": { "file": "../assets/targets/star.png" } } } } }"#;
+    let (mut project, place) = project_of(r#"["caustic", "caustics"]"#, keys);
+    let [kept, left] = [1.0, 0.0].map(|share| {
+        project.render.kept_in_glass = share;
+        last_frame(&project, &place)
+    });
+    for read in [&kept, &left] {
+        let parts = read.channel("caustic_first_light.G").iter().zip(read.channel("caustic_rest.G"));
+        let worst =
+            parts.zip(read.channel("caustic.G")).map(|((a, b), all)| (a + b - all).abs() / all.max(1e-3));
+        // Each of the two and their sum is rounded to 11 bits.
+        assert!(worst.fold(0.0, f32::max) < 2e-3);
+    }
+    let light = |read: &Read, name: &str| read.channel(name).iter().sum::<f32>();
+    assert!(light(&kept, "caustic_first_light.G") > 1.01 * light(&left, "caustic_first_light.G"));
+    assert_eq!(kept.channel("caustic_rest.G"), left.channel("caustic_rest.G"));
 }
 
 #[test]

@@ -161,6 +161,7 @@ fn slab(material: Material) -> (Photons, TraceReport) {
         .desc
         .lights
         .push(LightDesc::Directional(DirectionalLight { irradiance: 1.0, ..Default::default() }));
+    stage.desc.receiver.border = 0.0;
     trace(&stage.load(), 200_000)
 }
 
@@ -194,6 +195,7 @@ fn a_mirror_images_the_light() {
     stage.mesh("mirror", obj(&corners, None, &[[0, 3, 2], [0, 2, 1]]), silver);
     stage.desc.lights.push(point(4.0 * std::f32::consts::PI, [1.0, 1.0, 0.0]));
     stage.desc.receiver.size = [0.5, 0.25];
+    stage.desc.receiver.border = 0.0;
     let (photons, _) = trace(&stage.load(), 200_000);
     // Irradiance of intensity 1 W/sr from (-3, 1, 0) at (x, 0, z): cosine / distance^2, by the midpoint rule.
     let n = 64;
@@ -316,6 +318,7 @@ fn a_light_inside_glass_shines_out() {
     stage.mesh("bulb", sphere_obj(5, Vec3::new(0.0, 1.0, 0.0), 0.2), glass(1.5));
     stage.desc.lights.push(point(4.0 * std::f32::consts::PI, [0.0, 1.0, 0.0]));
     stage.desc.receiver.size = [0.2, 0.2];
+    stage.desc.receiver.border = 0.0;
     let scene = stage.load();
     assert!(scene.media_at(Vec3::Y).glass(scene.meshes()).is_some());
     assert!(scene.media_at(Vec3::Y * 1.3).is_empty());

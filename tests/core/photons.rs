@@ -5,9 +5,9 @@ use std::f32::consts::PI;
 use crate::scenes::{Stage, box_obj, glass, mirror, point, sphere_obj, wine_glass_obj};
 use glam::{DVec3, Vec3};
 use lightloom_core::math::rng::{Purpose, Stream};
-use lightloom_core::photon::{EmissionGuiding, Photons, Tracer};
+use lightloom_core::photon::{EmissionGuiding, LightPart, Photons, Tracer};
 use lightloom_core::scene::light::{
-    DirectionalLight, PointLight, RectangleLight, Sphere, SphereLight, SpotLight,
+    DirectionalLight, LightRole, PointLight, RectangleLight, Sphere, SphereLight, SpotLight,
 };
 use lightloom_core::scene::material::{Diffuse, Glass, Material};
 use lightloom_core::scene::{LightDesc, Ray, Scene};
@@ -288,6 +288,9 @@ fn a_missing_caustic_is_explained() {
     assert!(away.contains("100 % leaves the scene"), "{away}");
     let behind = complaint(|stage| stage.desc.receiver.rotate = [180.0, 0.0, 0.0]);
     assert!(behind.contains("receiver's back"), "{behind}");
+    let softbox = PointLight { role: LightRole::Background, ..Default::default() };
+    let none_casts = complaint(|stage| stage.desc.lights = vec![LightDesc::Point(softbox)]);
+    assert!(none_casts.contains("role \"background\""), "{none_casts}");
     let shaded = complaint(|stage| {
         let lid = box_obj(Vec3::new(-2.0, 1.0, -2.0), Vec3::new(2.0, 1.1, 2.0));
         stage.mesh("lid", lid, Some(Material::Diffuse(Diffuse::default())));
@@ -295,6 +298,41 @@ fn a_missing_caustic_is_explained() {
     assert!(shaded.contains("something matt stands between"), "{shaded}");
     let black = complaint(|stage| stage.desc.meshes[0].material = mirror(0.0));
     assert!(black.contains("100 % is absorbed"), "{black}");
+}
+
+#[test]
+fn what_flows_and_what_stays_are_all_the_light_and_fade_into_each_other() {
+    let mut stage = Stage::new();
+    stage.mesh("wine glass", wine_glass_obj(48, 80), glass(1.5));
+    stage.desc.lights.push(point(3.0, [-0.3, 0.5, 0.1]));
+    stage.desc.receiver.size = [0.5, 0.4];
+    stage.desc.receiver.surround = 0.3;
+    stage.desc.receiver.border = 0.2;
+    let scene = stage.load();
+    let receiver = scene.receiver();
+    let by = |part| {
+        let seen = Tracer::of_part((&scene, part), EmissionGuiding::Learned, 3, &Progress::new()).unwrap();
+        trace(&seen, 0, 200_000)
+    };
+    let (flowing, shown) = (by(LightPart::Flowing), by(LightPart::Shown));
+    let power = |photons: &Photons, share: &dyn Fn(glam::Vec2) -> f32| -> f64 {
+        let rows = photons.positions.iter().zip(&photons.flux);
+        rows.map(|(at, flux)| f64::from(flux.element_sum() * share(*at))).sum()
+    };
+    let (all, in_flow) = (power(&shown, &|_| 1.0), power(&flowing, &|_| 1.0));
+    let expected = power(&shown, &|at| receiver.flowing_share(at));
+    // Some 100 000 photons each: 0.5 % apart.
+    assert!((in_flow / expected - 1.0).abs() < 0.01, "{in_flow} {expected}");
+    assert!((0.1..0.9).contains(&(in_flow / all)), "the border takes part of the light: {in_flow} of {all}");
+    assert!(flowing.positions.iter().all(|at| receiver.contains(*at)));
+    assert!(shown.positions.iter().any(|at| !receiver.contains(*at)), "the floor beside it is lit, too");
+    // Both shares are smooth: over the edge, over the corner, and out to where light is shown no more.
+    let steps = (0..=1000).map(|i| glam::vec2(0.5, 0.4).lerp(glam::vec2(1.6, 1.3), i as f32 / 1000.0));
+    let shares: Vec<[f32; 2]> =
+        steps.map(|at| [receiver.flowing_share(at), receiver.shown_share(at)]).collect();
+    // A smoothstep over 0.2 rises by 1.5 / 0.2 per unit; two of them, over steps of 0.0014.
+    let jump = |pair: &[[f32; 2]]| (0..2).any(|i| (pair[1][i] - pair[0][i]).abs() > 0.025);
+    assert!(!shares.windows(2).any(jump) && shares[0] == [1.0, 1.0] && shares[1000] == [0.0, 0.0]);
 }
 
 #[test]

@@ -79,20 +79,20 @@ fn a_shot_takes_the_light_of_a_sketch() {
     let shot = engine.shot(&project, [64, 36], 2, &Progress::new()).unwrap();
     let mut exposure = PreviewExposure::default();
     let light = exposure.expose(&preview, 9, shot.resolution(), &[]).unwrap();
-    let picture = shot.picture(light).unwrap();
+    let picture = shot.picture(light, &preview, 9).unwrap();
     assert_eq!([picture.width, picture.height], [64, 36]);
     // Light is added where the square is seen, and none to speak of between the squares; no pixel gets darker.
     let added = |p: Vec2| {
         let pixel = shot.plane.pixel_from_plane(p, [64, 36]).unwrap();
         let [x, y] = pixel.to_array().map(|v| v as usize);
-        (picture.at(x, y) - shot.background.at(x, y)).element_sum()
+        (picture.at(x, y) - shot.background().at(x, y)).element_sum()
     };
     let [square, middle] = [Vec2::new(0.2, 0.8), Vec2::new(0.5, 0.5)].map(added);
     assert!(square > 10.0 * middle && square > 0.0, "{square} {middle}");
     let darker = |(a, b): (&Vec3, &Vec3)| a.cmplt(*b).any();
-    assert!(!picture.pixels.iter().zip(&shot.background.pixels).any(darker));
+    assert!(!picture.pixels.iter().zip(&shot.background().pixels).any(darker));
     let other = exposure.expose(&preview, 9, shot.resolution() + 8, &[]).unwrap();
-    assert!(shot.picture(other).is_none(), "a texture of another resolution is refused");
+    assert!(shot.picture(other, &preview, 9).is_none(), "a texture of another resolution is refused");
 }
 
 #[test]

@@ -96,7 +96,7 @@ pub struct Bridge<'a> {
 }
 
 enum Plan {
-    Free(FreePlan),
+    Free(Box<FreePlan>),
     Walls(Box<WallPlan>),
 }
 
@@ -108,7 +108,7 @@ impl<'a> Bridge<'a> {
         let walls = StandingWalls::new(&cells, settings.steps, walls);
         let plan = match walls.any() {
             true => Plan::Walls(Box::new(WallPlan::new(settings))),
-            false => Plan::Free(FreePlan::new(settings, &cells)),
+            false => Plan::Free(Box::new(FreePlan::new(settings, &cells))),
         };
         let still = || vec![Vec2::ZERO; cells.count()];
         Self { walls, plan, velocities: [still(), still()], limit: f32::INFINITY, done: 0, cells }

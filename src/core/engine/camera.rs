@@ -1,22 +1,24 @@
-//! The camera's stages: the visible points of the receiver, and the picture without caustics. Photons change neither.
+//! The camera's stages: the visible points of the receiver, the picture without caustics, and the light that does not flow.
 
 use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::grouping::Grouping;
 use super::memo::{Same, Slot};
-use super::memo_keys::ViewInput;
+use super::memo_keys::{StillInput, ViewInput};
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::stages::Stages;
-use crate::project::Project;
+use super::still_light::{StillLight, shares};
+use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{
-    FirstHits, GatherMatrix, Image, RenderSettings, TextureLayout, background, first_radius, layout_for,
-    rough_background,
+    Background, FirstHits, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
+    first_radius, layout_for, rough_background,
 };
 use crate::scene::Scene;
-use crate::{Progress, Result};
+use crate::{Error, Progress, Result};
 
 /// A project's camera, receiver and the texture that lies on it.
 pub(super) struct CameraView<'a> {
@@ -27,6 +29,8 @@ pub(super) struct CameraView<'a> {
     pub(super) layout: TextureLayout,
     /// How the picture without caustics is made.
     pub(super) background: BackgroundQuality,
+    /// Whether coverage and depth of the surfaces are wanted.
+    pub(super) surfaces: bool,
 }
 
 /// How the picture without caustics is made.
@@ -49,35 +53,41 @@ impl<'a> CameraView<'a> {
         let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
         let shown = project.output.shows_background();
         let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
-        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background }
+        let surfaces = project.output.shows_surfaces();
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background, surfaces }
+    }
+}
+
+/// What the camera sees apart from the light that flows.
+#[derive(Clone)]
+pub(super) struct CameraPictures {
+    /// The texels that each pixel sees.
+    pub(super) visible: Arc<GatherMatrix>,
+    /// The picture without caustics.
+    pub(super) background: Arc<Background>,
+    /// Coverage and depth, where they are wanted and there is a scene.
+    pub(super) first_hits: Option<Arc<FirstHits>>,
+    /// Absent without a scene.
+    pub(super) still: Option<Arc<StillLight>>,
+}
+
+impl CameraPictures {
+    /// The caustics at a moment, from the texture of the light that flows: that of one group of photons, whose light must be
+    /// apart, or of all.
+    pub(super) fn caustic(
+        &self,
+        light: &ReceiverTexture,
+        group: Option<usize>,
+        moment: SegmentTime,
+    ) -> Image {
+        let mut caustic = self.visible.gather(light);
+        self.still.iter().for_each(|still| still.add_to(&mut caustic, group, moment));
+        caustic
     }
 }
 
 impl Stages {
-    /// Coverage and depth of what the camera sees; none without a scene, and where no file asks for them.
-    ///
-    /// # Errors
-    /// `Cancelled`.
-    pub(super) fn first_hits(
-        &self,
-        slot: Slot,
-        prepared: &Prepared,
-        meter: &Meter,
-        progress: &Progress,
-    ) -> Result<Option<Arc<FirstHits>>> {
-        let Project { render, output, seed, .. } = &prepared.project;
-        let Some(scene) = prepared.scene.as_ref().filter(|_| output.shows_surfaces()) else {
-            return Ok(None);
-        };
-        let size = [render.width as usize, render.height as usize];
-        let input = (Same::of(scene), size, *seed);
-        let made = self.first_hits.get(slot, input, progress, |_| {
-            meter.measure("visible", || FirstHits::new(scene, size, *seed, progress).map(Arc::new))
-        });
-        made.map(Some)
-    }
-
-    /// The texels that each pixel of the camera sees, and the picture without caustics.
+    /// The camera's pictures.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -87,20 +97,15 @@ impl Stages {
         view: &CameraView,
         meter: &Meter,
         progress: &Progress,
-    ) -> Result<(Arc<GatherMatrix>, Arc<Image>)> {
-        let CameraView { project, scene, extent, layout, background: quality } = *view;
+    ) -> Result<CameraPictures> {
+        let CameraView { project, scene, extent, layout, background, surfaces } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
-        let input = ViewInput {
-            scene: scene.map(Same::of),
-            render: seen,
-            extent,
-            seed,
-            layout: None,
-            rough: quality == BackgroundQuality::Rough,
-        };
-        let visible = ViewInput { layout: Some(layout), rough: false, ..input.clone() };
+        let rough = background == BackgroundQuality::Rough;
+        let input = ViewInput { scene: scene.map(Same::of), render: seen, extent, seed, layout: None, rough };
+        let exact = ViewInput { rough: false, ..input.clone() };
+        let visible = ViewInput { layout: Some(layout), ..exact.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
             meter.measure("visible", || match scene {
                 Some(scene) => {
@@ -109,13 +114,69 @@ impl Stages {
                 None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
             })
         })?;
-        let background = match scene.filter(|_| quality != BackgroundQuality::None) {
-            None => Arc::new(Image::new(render.width as usize, render.height as usize)),
-            Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
-                let draw = if quality == BackgroundQuality::Rough { rough_background } else { background };
-                meter.measure("background", || draw(scene, render, seed, progress).map(Arc::new))
-            })?,
+        let first_hits = scene.filter(|_| surfaces).map(|scene| {
+            let size = [render.width as usize, render.height as usize];
+            let make = || FirstHits::new(scene, size, seed, progress).map(Arc::new);
+            self.first_hits.get(slot, exact, progress, |_| meter.measure("visible", make))
+        });
+        let first_hits = first_hits.transpose()?;
+        let background = self.without_caustics(slot, view, input.clone(), meter, progress)?;
+        let still = match scene {
+            Some(scene) if project.traces() => {
+                match self.still_light(slot, (scene, project), input, meter, progress) {
+                    Ok(still) => Some(still),
+                    // A scene that casts no caustic can be looked at while it is built.
+                    Err(error) if !rough || matches!(error, Error::Cancelled) => return Err(error),
+                    Err(_) => None,
+                }
+            }
+            _ => None,
         };
-        Ok((visible, background))
+        Ok(CameraPictures { visible, background, first_hits, still })
+    }
+
+    /// The picture without caustics.
+    fn without_caustics(
+        &self,
+        slot: Slot,
+        &CameraView { project, scene, background: quality, .. }: &CameraView,
+        input: ViewInput,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Arc<Background>> {
+        let Project { render, seed, .. } = project;
+        let draw = match quality {
+            BackgroundQuality::Rough => rough_background,
+            BackgroundQuality::None | BackgroundQuality::Final => background,
+        };
+        match scene.filter(|_| quality != BackgroundQuality::None) {
+            None => {
+                let image = Image::new(render.width as usize, render.height as usize);
+                Ok(Arc::new(Background { image, clamped: Default::default() }))
+            }
+            Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
+                meter.measure("background", || draw(scene, render, *seed, progress).map(Arc::new))
+            }),
+        }
+    }
+
+    /// The light that does not flow.
+    fn still_light(
+        &self,
+        slot: Slot,
+        (scene, project): (&Arc<Scene>, &Project),
+        view: ViewInput,
+        meter: &Meter,
+        progress: &Progress,
+    ) -> Result<Arc<StillLight>> {
+        let grouping = Grouping::resolve(project, Some(scene))?;
+        let shares = shares(project, &grouping);
+        let photons = (project.render.photons, project.render.passes);
+        let apart = project.output.separates_caustics();
+        let input = StillInput { view, photons, caustics: project.caustics.clone(), shares, apart };
+        self.still.get(slot, input, progress, |StillInput { shares, .. }| {
+            let make = || StillLight::new(scene, project, (&grouping, shares), progress);
+            meter.measure("still", make).map(Arc::new)
+        })
     }
 }

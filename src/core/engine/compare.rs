@@ -132,7 +132,7 @@ fn variants(project: &Project, most: Option<usize>) -> Result<Vec<(MotionMethod,
 /// The stages ahead; camera and background are looked at once.
 fn stages_ahead(prepared: &[(Prepared, Meter)]) -> Vec<(&'static str, f64)> {
     let stages = prepared.iter().enumerate().flat_map(|(i, (prepared, _))| {
-        let once = |stage: &str| ["visible", "background"].contains(&stage);
+        let once = |stage: &str| ["visible", "background", "still"].contains(&stage);
         prepared.plan.stages.iter().copied().filter(move |(stage, _)| i == 0 || !once(stage))
     });
     stages.collect()

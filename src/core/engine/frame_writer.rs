@@ -5,14 +5,15 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
+use super::camera::CameraPictures;
 use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
     Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
 };
-use crate::project::Project;
-use crate::render::{FirstHits, GatherMatrix, Image, PlaneView, ProgressiveRender, View};
+use crate::project::{Project, SegmentTime};
+use crate::render::{Image, PlaneView, ProgressiveRender, View};
 use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
@@ -26,13 +27,22 @@ const SHEET_WIDTH: usize = 480;
 /// Small pictures in screen values with the numbers of their frames.
 pub(super) type Thumbnails = Vec<(i32, Image)>;
 
+/// The light of a frame as the camera sees it.
+struct FrameLight {
+    /// Of all caustics.
+    all: Image,
+    /// Of each by itself with the name of its layer, where they are apart.
+    caustics: Vec<(String, Image)>,
+    /// The passes in it.
+    passes: usize,
+}
+
 /// Everything that the frames of a run are made from.
 pub(super) struct FrameWriter<'a> {
     pub(super) project: &'a Project,
     pub(super) render: &'a ProgressiveRender,
-    pub(super) visible: &'a GatherMatrix,
-    pub(super) background: &'a Image,
-    pub(super) first_hits: Option<&'a FirstHits>,
+    /// What the camera sees apart from the light that flows.
+    pub(super) pictures: &'a CameraPictures,
     /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
     pub(super) caustic_names: &'a [String],
     pub(super) camera: Option<Camera>,
@@ -45,19 +55,9 @@ pub(super) struct FrameWriter<'a> {
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
-/// The light of a frame as the camera sees it.
-struct SeenLight {
-    /// All caustics together.
-    all: Image,
-    /// Each by itself with the name of its layer, where they are apart.
-    caustics: Vec<(String, Image)>,
-    /// Its passes.
-    passes: usize,
-}
-
 impl FrameWriter<'_> {
-    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on the sheet with their
-    /// numbers.
+    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on
+    /// the sheet with their numbers.
     pub(super) fn run(
         &self,
         times: &FrameTimes,
@@ -77,7 +77,8 @@ impl FrameWriter<'_> {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
-                let (repairs, beauty) = self.frame(frame, slot, &view)?;
+                let moment = times.moments[slot];
+                let (repairs, beauty) = self.frame(frame, (slot, moment), &view)?;
                 if let Some(film) = film {
                     film.keep(index, &view.apply(&beauty))?;
                 }
@@ -106,40 +107,48 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let beauty = self.background.plus(&self.light(slot)?.all);
+        let light = self.light(slot, times.moments[slot])?;
+        let beauty = self.pictures.background.image.plus(&light.all);
         Ok(Some(self.project.render.view.view().apply(&beauty)))
     }
 
-    /// The light at a moment as the camera sees it.
-    fn light(&self, moment: usize) -> Result<SeenLight> {
-        let textures = self.caustic_names.len().max(1);
-        let gathered = (0..textures).map(|i| {
-            let (texture, passes) = self.render.mean(moment * textures + i)?;
-            Ok((self.visible.gather(&texture), passes))
-        });
-        let mut gathered = gathered.collect::<Result<Vec<_>>>()?;
-        let passes = gathered.first().map_or(0, |(_, passes)| *passes);
-        if textures == 1 {
-            let all = gathered.swap_remove(0).0;
-            return Ok(SeenLight { all, caustics: Vec::new(), passes });
+    /// The light of a slot and moment.
+    fn light(&self, slot: usize, moment: SegmentTime) -> Result<FrameLight> {
+        if self.caustic_names.is_empty() {
+            let (texture, passes) = self.render.mean(slot)?;
+            let all = self.pictures.caustic(&texture, None, moment);
+            return Ok(FrameLight { all, caustics: Vec::new(), passes });
         }
-        let mut all = Image::new(self.background.width, self.background.height);
-        gathered.iter().for_each(|(image, _)| all = all.plus(image));
-        let caustics = self.caustic_names.iter().cloned().zip(gathered.into_iter().map(|(image, _)| image));
-        Ok(SeenLight { all, caustics: caustics.collect(), passes })
+        let image = &self.pictures.background.image;
+        let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
+        let mut caustics = Vec::new();
+        for (group, name) in self.caustic_names.iter().enumerate() {
+            let (texture, of_group) = self.render.mean(slot * self.caustic_names.len() + group)?;
+            let caustic = self.pictures.caustic(&texture, Some(group), moment);
+            all = all.plus(&caustic);
+            caustics.push((name.clone(), caustic));
+            passes = of_group;
+        }
+        Ok(FrameLight { all, caustics, passes })
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
-    fn frame(&self, frame: i32, slot: usize, view: &View) -> Result<(RepairedSamples, Image)> {
-        let SeenLight { all: caustic, caustics, passes } = self.light(slot)?;
+    fn frame(
+        &self,
+        frame: i32,
+        (slot, moment): (usize, SegmentTime),
+        view: &View,
+    ) -> Result<(RepairedSamples, Image)> {
+        let FrameLight { all: caustic, caustics, passes } = self.light(slot, moment)?;
+        let background = &self.pictures.background.image;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
         let picture = Frame {
             layers: &output.layers,
-            background: self.background,
+            background,
             caustic: &caustic,
             caustics: &caustics,
-            first_hits: self.first_hits,
+            first_hits: self.pictures.first_hits.as_deref(),
             metadata: &metadata,
         };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
@@ -149,7 +158,7 @@ impl FrameWriter<'_> {
             all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }
-        Ok((all, self.background.plus(&caustic)))
+        Ok((all, background.plus(&caustic)))
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {

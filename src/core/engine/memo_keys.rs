@@ -5,6 +5,8 @@ use glam::Vec2;
 use super::fitted_segment::FittedSegment;
 use super::memo::Same;
 use super::segment_photons::Matched;
+use super::still_light::StillShares;
+use crate::project::CausticDesc;
 use crate::render::{RenderSettings, TextureLayout};
 use crate::scene::{Geometry, LightDesc, ReceiverDesc, Scene};
 
@@ -26,6 +28,17 @@ pub(super) struct ViewInput {
     pub(super) seed: u64,
     pub(super) layout: Option<TextureLayout>,
     pub(super) rough: bool,
+}
+
+/// Everything that the light depends on that does not flow.
+#[derive(PartialEq)]
+pub(super) struct StillInput {
+    pub(super) view: ViewInput,
+    pub(super) photons: (u64, u32),
+    pub(super) caustics: Vec<CausticDesc>,
+    pub(super) shares: Vec<Option<StillShares>>,
+    /// Whether the light of each caustic is wanted by itself.
+    pub(super) apart: bool,
 }
 
 /// Everything that the frames of a segment depend on.

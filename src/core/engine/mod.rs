@@ -48,6 +48,7 @@ mod render;
 mod segment_figures;
 mod segment_photons;
 mod stages;
+mod still_light;
 mod summary;
 mod track_files;
 mod trajectories;

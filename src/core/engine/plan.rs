@@ -176,6 +176,8 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
         stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
     }
     if traced {
+        // A quarter of the samples, and several light paths in glass.
+        stages.push(("still", trace + pixels * f64::from(render.camera_samples) / 2.0 / pace::LOOKS));
         stages.push(("trace", trace));
     }
     stages.extend(motion_stages(project, extent, photons, &layers));

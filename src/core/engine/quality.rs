@@ -36,6 +36,8 @@ const WALLED_PHOTONS: usize = 60_000;
 const TOLERANCE: f32 = 1e-3;
 /// Longest side of a picture below the final quality, pixels.
 const SIDE: f64 = 480.0;
+/// Widest kernel, plane units.
+const WIDEST_KERNEL: f32 = 0.5;
 /// Light paths per pixel of the background below the final quality.
 const BACKGROUND_SAMPLES: u32 = 16;
 
@@ -88,6 +90,9 @@ impl Quality {
         let shrink = (SIDE / f64::from(render.width.max(render.height).max(1))).min(1.0);
         let side = |pixels: u32| (f64::from(pixels) * shrink).round().max(f64::from(pixels.min(16))) as u32;
         (render.width, render.height) = (side(render.width), side(render.height));
+        let fewer = render.photons.max(1) as f32 / render.photons.clamp(1, photons as u64) as f32;
+        // A kernel chosen for more photons is widened until as many lie under it.
+        render.radius = render.radius.map(|radius| (radius * fewer.sqrt()).min(WIDEST_KERNEL));
         render.photons = render.photons.min(photons as u64);
         render.passes = 1;
         render.background_samples = render.background_samples.min(BACKGROUND_SAMPLES);

@@ -11,7 +11,7 @@ use super::memo::Slot;
 use super::meter::Meter;
 use super::observer::RenderObserver;
 use super::prepare::Prepared;
-use super::summary::{BadValues, Done, Summary};
+use super::summary::{Done, Summary};
 use super::{Engine, Quality, active_constraints, track_files};
 use crate::export::FilmFormat;
 use crate::project::Project;
@@ -88,23 +88,20 @@ impl Engine {
         let &Output { folder, film, progress, saved, observer } = output;
         let view = CameraView::of_render(&prepared);
         let slot = Slot { client: self.client, quality: Quality::Final, index: 0 };
-        let (visible, background) = self.stages.look(slot, &view, meter, progress)?;
+        let camera = self.stages.look(slot, &view, meter, progress)?;
         let fitted = self.fit_prepared(prepared, meter, progress)?;
 
         let FittedProject { prepared, flow, .. } = &fitted;
         let (project, times) = (&prepared.project, &prepared.times);
         let first = first_radius(&project.render, prepared.extent);
         let textures = prepared.textures();
-        let render =
-            ProgressiveRender::new(*visible.layout(), first, times.moments.len() * textures, folder)?;
-        let first_hits = self.stages.first_hits(slot, prepared, meter, progress)?;
+        let moments = times.moments.len() * textures;
+        let render = ProgressiveRender::new(*camera.visible.layout(), first, moments, folder)?;
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
             render: &render,
-            visible: &visible,
-            background: &background,
-            first_hits: first_hits.as_deref(),
+            pictures: &camera,
             caustic_names: &prepared.caustic_layer_names(),
             camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
             folder,
@@ -123,7 +120,8 @@ impl Engine {
             saved(film.path());
         }
         let continuity = fitted.measured_unless_stopped(meter, progress)?;
-        let done = Done { command: "render", passes, flow, continuity, balance, bad_values };
+        let clamped = camera.background.clamped;
+        let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
         let summary = Summary::new(prepared, done, meter);
         Ok(Rendered { summary, fitted, thumbnails, plane })
     }
@@ -157,8 +155,8 @@ impl Engine {
         let job = Job { progress: &inner, ..self.job(prepared, &meter, progress)? };
         let balance = meter.measure("write", || track_files::write(&job, flow, out, progress, saved))?;
         let continuity = fitted.measured_unless_stopped(&meter, progress)?;
-        let bad_values = BadValues::default();
-        let done = Done { command: "fit", passes: 0, flow, continuity, balance, bad_values };
+        let (bad_values, clamped) = Default::default();
+        let done = Done { command: "fit", passes: 0, flow, continuity, balance, bad_values, clamped };
         Ok(Summary::new(prepared, done, &meter))
     }
 }

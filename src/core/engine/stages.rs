@@ -9,12 +9,13 @@ use super::Quality;
 use super::fitted_segment::{FittedSegment, FlowInput};
 use super::key_sources::{self, KeySource, SourceInput};
 use super::memo::{Client, FileStamp, Memo, Same, Slot};
-use super::memo_keys::{GuideInput, PositionsInput, ViewInput};
+use super::memo_keys::{GuideInput, PositionsInput, StillInput, ViewInput};
 use super::segment_figures::Figures;
 use super::segment_photons::{MatchInput, Matched};
+use super::still_light::StillLight;
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{FirstHits, GatherMatrix, Image};
+use crate::render::{Background, FirstHits, GatherMatrix};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -31,8 +32,9 @@ pub(super) struct Stages {
     pub(super) continuity: Memo<Same<FittedSegment>, Arc<Figures>>,
     pub(super) positions: Memo<PositionsInput, Arc<Vec<Arc<[Vec2]>>>>,
     pub(super) visible: Memo<ViewInput, Arc<GatherMatrix>>,
-    pub(super) first_hits: Memo<(Same<Scene>, [usize; 2], u64), Arc<FirstHits>>,
-    pub(super) backgrounds: Memo<ViewInput, Arc<Image>>,
+    pub(super) first_hits: Memo<ViewInput, Arc<FirstHits>>,
+    pub(super) backgrounds: Memo<ViewInput, Arc<Background>>,
+    pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
 
 /// A result, and notes for the artist.
@@ -55,6 +57,7 @@ impl Stages {
             visible: Memo::default(),
             first_hits: Memo::default(),
             backgrounds: Memo::default(),
+            still: Memo::default(),
         }
     }
 

@@ -15,6 +15,7 @@ use super::segment_figures::SegmentContinuity;
 use crate::constraint::Constraint;
 use crate::continuity::FIGURES;
 use crate::export::RepairedSamples;
+use crate::render::ClampedLight;
 
 /// The conservation of flux.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -72,6 +73,9 @@ pub struct Summary {
     pub walled: bool,
     /// Where the light went.
     pub energy: Energy,
+    /// Highlights of the background that were clamped; absent where none was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamped: Option<ClampedLight>,
     /// Replaced values.
     pub bad_values: BadValues,
     /// Seconds and peak memory of each stage.
@@ -104,6 +108,7 @@ pub(super) struct Done<'a> {
     pub(super) continuity: Vec<SegmentContinuity>,
     pub(super) balance: EnergyBalance,
     pub(super) bad_values: BadValues,
+    pub(super) clamped: ClampedLight,
 }
 
 impl Summary {
@@ -137,6 +142,7 @@ impl Summary {
             caustics: done.flow.caustics.clone(),
             walled: project.constraints.iter().any(|c| matches!(c, Constraint::Wall(_))),
             energy: Energy { texture_ratio: balance.texture_ratio, photons_outside: balance.outside },
+            clamped: Some(done.clamped).filter(|clamped| clamped.pixels > 0),
             bad_values: done.bad_values,
             seconds: stages.iter().map(|cost| cost.seconds).sum(),
             stages,
@@ -186,6 +192,13 @@ impl Summary {
                 text,
                 "  walls: {} crossings, {} photons shut off",
                 flow.wall_crossings, flow.unreachable
+            );
+        }
+        if let Some(ClampedLight { pixels, share }) = &self.clamped {
+            let _ = writeln!(
+                text,
+                "  highlights clamped in {pixels} pixels of the background: {:.2} % of its light",
+                100.0 * share
             );
         }
         for (name, figures) in self.continuity.iter().flat_map(SegmentContinuity::named_figures) {

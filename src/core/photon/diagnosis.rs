@@ -3,6 +3,7 @@
 use super::FluxBalance;
 use crate::Error;
 use crate::scene::Scene;
+use crate::scene::light::LightRole;
 
 /// The error that names the broken link of the chain light, caster, receiver.
 pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
@@ -12,9 +13,14 @@ pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
         .filter(|mesh| mesh.material.is_specular())
         .map(|mesh| mesh.name.as_str())
         .collect();
-    let lights: Vec<&str> = scene.lights().iter().map(|light| light.name()).collect();
-    let reason = if lights.is_empty() {
+    let casting =
+        scene.lights().iter().zip(balances).filter(|(light, _)| light.role() != LightRole::Background);
+    let (lights, balances): (Vec<&str>, Vec<&FluxBalance>) =
+        casting.map(|(light, balance)| (light.name(), balance)).unzip();
+    let reason = if scene.lights().is_empty() {
         "there is no light; add one".to_owned()
+    } else if lights.is_empty() {
+        "all lights have the role \"background\"; give one another".to_owned()
     } else if casters.is_empty() {
         "no mesh is of glass or a mirror; give one such a material".to_owned()
     } else {

@@ -1,7 +1,7 @@
 //! The domains of emission guiding: which rays of which light go to which caster.
 
 use crate::math::rng::Stream;
-use crate::scene::light::{Emission, Sphere};
+use crate::scene::light::{Emission, LightRole, Sphere};
 use crate::scene::{Media, Ray, Scene};
 
 /// Most casters with bounding spheres of their own; more of them share one.
@@ -57,7 +57,8 @@ pub(super) fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
         casters = vec![Sphere::around_box(lower, upper)];
     }
     let mut domains = Vec::new();
-    for (light, desc) in scene.lights().iter().enumerate() {
+    let lights = scene.lights().iter().enumerate();
+    for (light, desc) in lights.filter(|(_, desc)| desc.role() != LightRole::Background) {
         let in_glass = specular().any(|mesh| desc.overlaps_box(mesh.lower, mesh.upper));
         let domain = |target, before: &[Sphere]| Domain {
             light: light as u16,

@@ -9,7 +9,7 @@
 
 use super::domain::{Domain, EmissionGuiding, domains};
 use super::guide_learner::{GuideLearner, Leaf};
-use super::path::FluxBalance;
+use super::path::{FluxBalance, LightPart};
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -42,7 +42,7 @@ pub(super) struct EmissionPlan {
 impl EmissionPlan {
     /// Learns the active cells. Deterministic in the seed.
     pub(super) fn new(
-        scene: &Scene,
+        (scene, part): (&Scene, LightPart),
         guiding: EmissionGuiding,
         seed: u64,
         progress: &Progress,
@@ -56,7 +56,8 @@ impl EmissionPlan {
                 continue;
             }
             let balance = &mut balances[domain.light as usize];
-            let mut learner = GuideLearner { scene, domain, index: index as u32, seed, progress, balance };
+            let mut learner =
+                GuideLearner { scene, part, domain, index: index as u32, seed, progress, balance };
             match guiding {
                 EmissionGuiding::Unguided | EmissionGuiding::Bounds => {
                     learner.probe_once()?;

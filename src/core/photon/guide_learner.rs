@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::domain::Domain;
-use super::path::{FluxBalance, follow};
+use super::path::{FluxBalance, LightPart, follow};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -33,6 +33,7 @@ pub(super) struct Leaf {
 /// The trial paths of one domain.
 pub(super) struct GuideLearner<'a> {
     pub scene: &'a Scene,
+    pub part: LightPart,
     pub domain: &'a Domain,
     /// Index of the domain.
     pub index: u32,
@@ -105,7 +106,7 @@ impl GuideLearner<'_> {
         for _ in 0..probes {
             let u = at.map(|index| (index as f32 + rng.f32()) * size);
             if let Some((ray, media)) = self.domain.sample(self.scene, u, &mut rng) {
-                landed |= follow(self.scene, ray, flux, media, &mut rng, balance).is_some();
+                landed |= follow((self.scene, self.part), ray, flux, media, &mut rng, balance).is_some();
             }
         }
         landed

@@ -10,7 +10,7 @@ mod trace;
 use glam::{Vec2, Vec3};
 
 pub use domain::EmissionGuiding;
-pub use path::FluxBalance;
+pub use path::{FluxBalance, LightPart};
 pub use trace::{EmissionGuide, TraceReport, Tracer};
 
 /// Caustic photons in columns of equal length, ordered so that the first n are an even sample of all.

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec2, Vec3};
 
 use crate::math::rng::Stream;
 use crate::scene::material::Beam;
-use crate::scene::{Media, Ray, Scene, SurfaceId};
+use crate::scene::{Hit, Media, Ray, Scene, SurfaceId};
 
 /// Most surfaces of a path. Light trapped in a block of glass by total reflection ends here.
 const MAX_SURFACES: usize = 256;
@@ -14,7 +14,26 @@ const MAX_SURFACES: usize = 256;
 /// reflections that a smooth body, by reversibility, does not have; true normals let it out.
 const SMOOTH_SURFACES: usize = 32;
 
-/// A caustic photon on the receiver.
+/// The part of the caustics that is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightPart {
+    /// What flows: on the receiver, within its soft border.
+    Flowing,
+    /// All that is shown: on the receiver and the floor beside it.
+    Shown,
+}
+
+impl LightPart {
+    /// Its share of the light at a point of the plane.
+    fn share(self, scene: &Scene, place: Vec2) -> f32 {
+        match self {
+            Self::Flowing => scene.receiver().flowing_share(place),
+            Self::Shown => scene.receiver().shown_share(place),
+        }
+    }
+}
+
+/// A caustic photon on the receiver, or on the floor beside it.
 pub(super) struct Landing {
     pub position: Vec2,
     pub flux: Vec3,
@@ -28,7 +47,7 @@ pub struct FluxBalance {
     pub emitted: DVec3,
     /// Fell on the receiver after a specular surface: the caustics.
     pub landed: DVec3,
-    /// Fell on the floor around the receiver after a specular surface.
+    /// Fell around the light that is traced, after a specular surface: on the receiver's soft border, or the floor.
     pub surround: DVec3,
     /// Left the scene after a specular surface.
     pub escaped: DVec3,
@@ -72,7 +91,7 @@ impl FluxBalance {
 
 /// Follows a photon of `flux` along `ray`, from a light in `media`, and records its end in the balance.
 pub(super) fn follow(
-    scene: &Scene,
+    (scene, part): (&Scene, LightPart),
     mut ray: Ray,
     flux: Vec3,
     media: Media,
@@ -114,7 +133,11 @@ pub(super) fn follow(
                 balance.direct += beam.weight.as_dvec3();
                 return None;
             }
-            (None, Some(mesh)) => return land(scene, &hit, &ray, beam.weight, mesh, balance),
+            (None, Some(mesh)) => {
+                let place = scene.receiver().plane_from_world(hit.point);
+                let is_shown = lies_in(part.share(scene, place), rng);
+                return land(place, (&hit, &ray), is_shown, (beam.weight, mesh), balance);
+            }
         }
     }
     balance.capped += beam.weight.as_dvec3();
@@ -132,22 +155,26 @@ fn roulette(weight: &mut Vec3, flux: Vec3, rng: &mut Stream) -> bool {
     survived
 }
 
-/// The end of a caustic photon on a matt surface.
+/// Whether a photon belongs to a part that has this share of the light where it fell.
+fn lies_in(share: f32, rng: &mut Stream) -> bool {
+    share >= 1.0 || (share > 0.0 && rng.f32() < share)
+}
+
+/// The end of a caustic photon on a matt surface; `is_in` tells whether it belongs to the part that is traced.
 fn land(
-    scene: &Scene,
-    hit: &crate::scene::Hit,
-    ray: &Ray,
-    flux: Vec3,
-    mesh: u16,
+    position: Vec2,
+    (hit, ray): (&Hit, &Ray),
+    is_in: bool,
+    (flux, mesh): (Vec3, u16),
     balance: &mut FluxBalance,
 ) -> Option<Landing> {
     let lit = ray.direction.dot(hit.geometric_normal) < 0.0;
     let column = match hit.surface {
-        SurfaceId::Receiver if lit => {
+        SurfaceId::Receiver | SurfaceId::Floor if lit && is_in => {
             balance.landed += flux.as_dvec3();
-            return Some(Landing { position: scene.receiver().plane_from_world(hit.point), flux, mesh });
+            return Some(Landing { position, flux, mesh });
         }
-        SurfaceId::Floor if lit => &mut balance.surround,
+        SurfaceId::Receiver | SurfaceId::Floor if lit => &mut balance.surround,
         SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut balance.blocked,
     };
     *column += flux.as_dvec3();

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::domain::EmissionGuiding;
 use super::emission_plan::EmissionPlan;
-use super::path::{FluxBalance, follow};
+use super::path::{FluxBalance, LightPart, follow};
 use super::{Photons, diagnosis};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
@@ -51,13 +51,14 @@ pub struct Tracer<'a> {
     guide: EmissionGuide,
 }
 
-/// The learned emission of a scene's lights: importance sampling towards the receiver. Valid while meshes, lights, receiver
-/// and seed stay the same. Cheap to clone.
+/// The learned emission of a scene's lights: importance sampling towards the part of the light that is traced. Valid while
+/// meshes, lights, receiver and seed stay the same. Cheap to clone.
 #[derive(Clone)]
 pub struct EmissionGuide(Arc<GuidedEmission>);
 
 struct GuidedEmission {
     plan: EmissionPlan,
+    part: LightPart,
     seed: u64,
     /// Landing rate: photons per candidate.
     rate: f64,
@@ -73,9 +74,10 @@ struct Batch {
 }
 
 impl<'a> Tracer<'a> {
-    /// A tracer with a newly learned emission guide. Fails with a diagnosis if no caustic falls on the receiver.
+    /// A tracer of the light that flows, with a newly learned emission guide. Fails with a diagnosis if no caustic falls on
+    /// the receiver.
     pub fn new(scene: &'a Scene, seed: u64, progress: &Progress) -> Result<Self> {
-        Self::with_guiding(scene, EmissionGuiding::Learned, seed, progress)
+        Self::of_part((scene, LightPart::Flowing), EmissionGuiding::Learned, seed, progress)
     }
 
     /// As [`Self::new`] with any guiding, to compare with at many times the cost.
@@ -85,8 +87,18 @@ impl<'a> Tracer<'a> {
         seed: u64,
         progress: &Progress,
     ) -> Result<Self> {
-        let plan = EmissionPlan::new(scene, guiding, seed, progress)?;
-        let mut emission = GuidedEmission { plan, seed, rate: 0.0 };
+        Self::of_part((scene, LightPart::Flowing), guiding, seed, progress)
+    }
+
+    /// A tracer of any part of the light.
+    pub fn of_part(
+        (scene, part): (&'a Scene, LightPart),
+        guiding: EmissionGuiding,
+        seed: u64,
+        progress: &Progress,
+    ) -> Result<Self> {
+        let plan = EmissionPlan::new((scene, part), guiding, seed, progress)?;
+        let mut emission = GuidedEmission { plan, part, seed, rate: 0.0 };
         if emission.plan.cells.is_empty() {
             return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
@@ -204,7 +216,7 @@ impl GuidedEmission {
             let domain = &self.plan.domains[cell.domain as usize];
             let u = cell.corner.map(|corner| corner + rng.f32() * cell.size);
             let Some((ray, media)) = domain.sample(scene, u, &mut rng) else { continue };
-            let landing = follow(scene, ray, cell.flux, media, &mut rng, &mut result.balance);
+            let landing = follow((scene, self.part), ray, cell.flux, media, &mut rng, &mut result.balance);
             if let Some(landing) = landing {
                 result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
                 result.cells.push(at as u32);

@@ -8,11 +8,16 @@
 //!
 //! The accepted error grows as the fourth root of the samples: with the square root, the mean squared error would be the least
 //! for a number of samples (Neyman 1934, optimum allocation), but the worst pixels would be twice as bad.
+//!
+//! Paths branch at glass, so that samples cost more there and are better: they end earlier. That, too, the neighbours decide.
 
 use rayon::prelude::*;
 
 /// The accepted error after the first samples, relative to a pixel's luminance plus a floor.
 const TOLERANCE: f32 = 0.0045;
+
+/// Most samples beside pixels where a sample is several paths, over the first samples.
+const MOST_OF_BRANCHES: u32 = 16;
 
 /// What the samples of a pixel say so far.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +28,8 @@ pub(super) struct Estimate {
     pub(super) change: f32,
     /// Samples.
     pub(super) count: u32,
+    /// Whether a sample is several paths, because it met glass or a mirror first.
+    pub(super) branches: bool,
 }
 
 /// Whether each pixel needs more samples than it has. `floor` is added to the luminance that errors are relative to, `first`
@@ -33,13 +40,18 @@ pub(super) fn noisy(estimates: &[Estimate], width: usize, floor: f32, first: u32
     let needs = |i: usize| {
         let count = estimates[i].count as f32;
         let (mut variance, mut luminance, mut neighbours) = (0.0, 0.0, 0.0_f32);
+        let mut branches = false;
         for y in around(i / width, height) {
             for j in around(i % width, width).map(|x| y * width + x).filter(|j| *j != i) {
                 // As if the neighbour had as many samples as this pixel.
                 variance += estimates[j].change.powi(2) * estimates[j].count as f32 / count;
                 luminance += estimates[j].luminance;
                 neighbours += 1.0;
+                branches |= estimates[j].branches;
             }
+        }
+        if branches && estimates[i].count >= MOST_OF_BRANCHES * first {
+            return false;
         }
         let accepted = TOLERANCE * (luminance + floor * neighbours);
         variance * neighbours > accepted.powi(2) * (count / first as f32).sqrt()
@@ -53,7 +65,7 @@ mod tests {
 
     /// A picture of 9 x 9 pixels that has settled but for some.
     fn asked(unsettled: &[usize]) -> Vec<bool> {
-        let mut estimates = vec![Estimate { luminance: 1.0, change: 0.0, count: 16 }; 81];
+        let mut estimates = vec![Estimate { luminance: 1.0, change: 0.0, count: 16, branches: false }; 81];
         unsettled.iter().for_each(|i| estimates[*i].change = 0.1);
         noisy(&estimates, 9, 0.5, 16)
     }
@@ -68,9 +80,17 @@ mod tests {
     }
 
     #[test]
+    fn beside_glass_the_samples_end_earlier_whatever_the_pixel_itself_met() {
+        let mut row = [Estimate { luminance: 1.0, change: 1.0, count: 256, branches: false }; 4];
+        assert_eq!(noisy(&row, 4, 0.5, 16), [true; 4]);
+        row[1].branches = true;
+        assert_eq!(noisy(&row, 4, 0.5, 16), [false, true, false, true]);
+    }
+
+    #[test]
     fn corners_and_pictures_of_one_row_have_fewer_neighbours() {
         assert!(asked(&[0])[1] && asked(&[0])[10] && !asked(&[0])[0]);
-        let row = [Estimate { luminance: 0.0, change: 1.0, count: 16 }; 3];
+        let row = [Estimate { luminance: 0.0, change: 1.0, count: 16, branches: false }; 3];
         assert_eq!(noisy(&row, 3, 0.1, 16), [true; 3]);
         assert_eq!(noisy(&row[..1], 1, 0.1, 16), [false]);
     }

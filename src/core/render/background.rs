@@ -6,27 +6,30 @@
 //! does pass through glass.
 //!
 //! Sampling is adaptive (`adaptive`): pixels get more samples where their neighbours are noisy. A few samples can miss what is
-//! rare and bright, but hardly in a whole neighbourhood.
+//! rare and bright, but hardly in a whole neighbourhood. What still stands out alone in glass is clamped, and counted.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
 use super::adaptive::{Estimate, noisy};
+use super::camera_sampler::FAINT as FAINT_WAY;
+use super::fireflies::{ClampedLight, clamp_outliers};
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
 use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
+use crate::scene::light::LightRole;
 use crate::scene::material::fresnel::facing_normals;
 use crate::scene::material::{Beam, Material};
-use crate::scene::{Hit, Media, Ray, Scene};
+use crate::scene::{Hit, LightDesc, Media, Ray, Scene};
 use crate::{Progress, Result};
 
 /// Most diffuse bounces.
 const BOUNCES: u32 = 3;
 /// Most surfaces of a path.
 const MAX_SURFACES: usize = 32;
-/// Throughput below which Russian roulette applies.
+/// Throughput below which Russian roulette applies after a matt surface; before it, `FAINT_WAY`.
 const FAINT: f32 = 0.1;
 /// Times that the samples of a noisy pixel are doubled, at most.
 const ROUNDS: u32 = 6;
@@ -34,8 +37,22 @@ const ROUNDS: u32 = 6;
 /// thousands of times brighter, and one chance reflection of a small lamp would sparkle; this is still white.
 const FIREFLY_LIMIT: f32 = 50.0;
 
+/// The picture without caustics.
+#[derive(Clone, Debug)]
+pub struct Background {
+    /// Linear light.
+    pub image: Image,
+    /// What was taken from it.
+    pub clamped: ClampedLight,
+}
+
 /// Renders the picture without caustics. The same seed gives the same bytes for any number of threads.
-pub fn background(scene: &Scene, settings: &RenderSettings, seed: u64, progress: &Progress) -> Result<Image> {
+pub fn background(
+    scene: &Scene,
+    settings: &RenderSettings,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Background> {
     render(scene, settings, seed, true, progress)
 }
 
@@ -45,7 +62,7 @@ pub fn rough_background(
     settings: &RenderSettings,
     seed: u64,
     progress: &Progress,
-) -> Result<Image> {
+) -> Result<Background> {
     render(scene, settings, seed, false, progress)
 }
 
@@ -55,7 +72,7 @@ fn render(
     seed: u64,
     adaptive: bool,
     progress: &Progress,
-) -> Result<Image> {
+) -> Result<Background> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
     let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
@@ -92,7 +109,7 @@ fn render(
         open.iter_mut().zip(noisy).for_each(|(open, noisy)| *open &= noisy);
         trace(&mut pixels, &|i| if open[i] { 2 * estimates[i].count } else { 0 })?;
     }
-    Ok(Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() })
+    Ok(tracer.finish(&pixels, floor))
 }
 
 /// The accumulated samples of a pixel.
@@ -103,12 +120,17 @@ struct Pixel {
     /// The sum when there were half as many samples.
     half: Vec3,
     count: u32,
+    /// Sum of the luminance that was clamped.
+    clamped: f32,
+    /// Whether a path met glass or a mirror first.
+    specular: bool,
 }
 
 impl Pixel {
     fn new(mut rng: Stream) -> Self {
         let sampler = Sampler::new(rng.u32());
-        Self { rng, sampler, sum: Vec3::ZERO, half: Vec3::ZERO, count: 0 }
+        let sum = Vec3::ZERO;
+        Self { rng, sampler, sum, half: sum, count: 0, clamped: 0.0, specular: false }
     }
 
     fn add(&mut self, value: Vec3) {
@@ -131,8 +153,16 @@ impl Pixel {
             luminance: self.luminance(),
             change: luminance_of_half - self.luminance(),
             count: self.count,
+            branches: self.specular,
         }
     }
+}
+
+/// A path that is still to be followed.
+struct Open {
+    ray: Ray,
+    beam: Beam,
+    surfaces: usize,
 }
 
 /// The path tracer.
@@ -159,6 +189,22 @@ impl PathTracer<'_> {
         (lights.sum::<f64>() / PATHS as f64) as f32
     }
 
+    /// The means of the pixels, without the outliers among those that are brighter than `floor`.
+    fn finish(&self, pixels: &[Pixel], floor: f32) -> Background {
+        let (width, height) = (self.width, self.height);
+        let mut image = Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
+        let specular: Vec<bool> = pixels.iter().map(|pixel| pixel.specular).collect();
+        let mut lost = clamp_outliers(&mut image, &specular, floor);
+        for (lost, pixel) in lost.iter_mut().zip(pixels) {
+            *lost += pixel.clamped / pixel.count.max(1) as f32;
+        }
+        let sum: f64 = lost.iter().copied().map(f64::from).sum();
+        let kept: f64 = image.pixels.iter().map(|pixel| f64::from(luminance(*pixel))).sum();
+        let share = if sum > 0.0 { sum / (sum + kept) } else { 0.0 };
+        let clamped = ClampedLight { pixels: lost.iter().filter(|lost| **lost > 0.0).count(), share };
+        Background { image, clamped }
+    }
+
     /// One more path through a pixel.
     fn sample(&self, x: usize, y: usize, pixel: &mut Pixel) {
         let Pixel { sampler, count: index, .. } = *pixel;
@@ -166,29 +212,49 @@ impl PathTracer<'_> {
         let at = vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(sampler.pair(index, 0));
         let place: Vec2 = at / size * 2.0 - 1.0;
         let ray = self.scene.camera().ray(place.x, -place.y, size.x / size.y);
-        let radiance = self.radiance(ray, index, sampler, &mut pixel.rng);
+        let radiance = self.radiance(ray, index, pixel);
         pixel.add(if radiance.is_finite() { radiance } else { Vec3::ZERO });
     }
 
-    /// The radiance that arrives along the ray.
-    fn radiance(&self, mut ray: Ray, index: u32, sampler: Sampler, rng: &mut Stream) -> Vec3 {
-        let scene = self.scene;
-        let mut beam = Beam::new(Vec3::ONE, self.media);
+    /// The radiance that arrives along the ray. Ways that branch at glass before a matt surface are followed both, down to faint
+    /// ones: a lamp in a reflection of four per cent would sparkle if one path in twenty-five saw it.
+    fn radiance(&self, ray: Ray, index: u32, pixel: &mut Pixel) -> Vec3 {
+        let beam = Beam::new(Vec3::ONE, self.media);
+        let mut rest = vec![Open { ray, beam, surfaces: 0 }];
+        let mut radiance = Vec3::ZERO;
+        while let Some(path) = rest.pop() {
+            radiance += self.follow(path, index, pixel, &mut rest);
+        }
+        radiance
+    }
+
+    /// The radiance along one path; other ways at its branches go to `rest`.
+    fn follow(
+        &self,
+        Open { mut ray, mut beam, surfaces }: Open,
+        index: u32,
+        Pixel { sampler, rng, clamped, specular, .. }: &mut Pixel,
+        rest: &mut Vec<Open>,
+    ) -> Vec3 {
+        let (scene, sampler) = (self.scene, *sampler);
         let mut radiance = Vec3::ZERO;
         let mut bounces = 0;
-        for surface in 0..MAX_SURFACES {
+        for surface in surfaces..MAX_SURFACES {
             let hit = scene.intersect(&ray);
             if bounces == 0 {
                 // Rays pass through lights: the radiance behind is added.
                 let seen = beam.weight * self.lights_along(&ray, hit.map_or(f32::INFINITY, |hit| hit.t));
                 let most = if surface == 0 { f32::INFINITY } else { self.firefly_limit };
-                radiance += seen * (most / luminance(seen).max(f32::MIN_POSITIVE)).min(1.0);
+                let bright = luminance(seen);
+                radiance += seen * (most / bright.max(f32::MIN_POSITIVE)).min(1.0);
+                *clamped += (bright - most).max(0.0);
             }
             let Some(hit) = hit else {
                 return radiance + beam.weight * scene.environment().radiance(ray.direction);
             };
             beam.travel(scene.meshes(), hit.t);
             let material = scene.material(hit.surface);
+            *specular |= surface == 0 && material.is_specular();
             let next = if let Material::Diffuse(diffuse) = material {
                 beam.weight *= Vec3::from(diffuse.albedo);
                 let (geometric, normal) = facing_normals(&hit, ray.direction);
@@ -197,24 +263,40 @@ impl PathTracer<'_> {
                 bounces += 1;
                 (bounces <= BOUNCES && next.dot(geometric) > 0.0).then_some(next)
             } else {
-                material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng)
+                let least = if bounces == 0 { FAINT_WAY } else { f32::INFINITY };
+                let [way, other] =
+                    material.split(scene.meshes(), &hit, ray.direction, beam.clone(), least, rng);
+                rest.extend(other.map(|(direction, beam)| Open {
+                    ray: Ray::leaving(&hit, direction),
+                    beam,
+                    surfaces: surface + 1,
+                }));
+                way.map(|(direction, light)| {
+                    beam = light;
+                    direction
+                })
             };
             let Some(next) = next else { return radiance };
-            let strength = beam.weight.max_element();
-            if strength < FAINT {
-                if rng.f32() * FAINT >= strength {
+            let (strength, faint) = (beam.weight.max_element(), if bounces == 0 { FAINT_WAY } else { FAINT });
+            if strength < faint {
+                if rng.f32() * faint >= strength {
                     return radiance;
                 }
-                beam.weight *= FAINT / strength;
+                beam.weight *= faint / strength;
             }
             ray = Ray::leaving(&hit, next);
         }
         radiance
     }
 
+    /// The lights that are seen, with their numbers.
+    fn lights(&self) -> impl Iterator<Item = (usize, &LightDesc)> {
+        self.scene.lights().iter().enumerate().filter(|(_, light)| light.role() != LightRole::Caustics)
+    }
+
     /// Radiance of the area lights on the ray before `distance`.
     fn lights_along(&self, ray: &Ray, distance: f32) -> Vec3 {
-        let met = self.scene.lights().iter().filter_map(|light| light.intersect(ray));
+        let met = self.lights().filter_map(|(_, light)| light.intersect(ray));
         met.filter(|(t, _)| *t < distance).map(|(_, radiance)| radiance).sum()
     }
 
@@ -229,7 +311,7 @@ impl PathTracer<'_> {
         sampler: Sampler,
     ) -> Vec3 {
         let mut sum = Vec3::ZERO;
-        for (i, light) in self.scene.lights().iter().enumerate() {
+        for (i, light) in self.lights() {
             let pair = (i as u32 + 1) * 16 + bounce;
             let Some(lit) = light.illuminate(hit.point, sampler.pair(index, pair)) else { continue };
             let cosine = lit.direction.dot(normal);

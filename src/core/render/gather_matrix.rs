@@ -7,19 +7,15 @@
 use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
 
+use super::camera_sampler::CameraSampler;
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
 use super::texture::{ReceiverTexture, TextureLayout};
 use crate::math::rng::{Purpose, Stream};
-use crate::scene::material::{Beam, Material};
-use crate::scene::{Media, Ray, Scene, SurfaceId};
+use crate::scene::{Scene, SurfaceId};
 use crate::{Progress, Result};
 
-/// Factor on the samples of a pixel that sees glass or a mirror, where paths branch at random.
-const SPECULAR_FACTOR: u32 = 16;
-/// Most surfaces of a path.
-const MAX_SURFACES: usize = 32;
 /// Weight below which a texel is dropped from a pixel.
 const NEGLIGIBLE: f32 = 1e-7;
 
@@ -51,25 +47,17 @@ impl GatherMatrix {
         progress: &Progress,
     ) -> Result<Self> {
         let (width, height) = (settings.width as usize, settings.height as usize);
-        let camera = CameraSampler { scene, media: scene.media_at(scene.camera().position), width, height };
+        let camera = CameraSampler::new(scene, [width, height]);
         let watts = texel_area(layout, scene.receiver().metres_per_plane_unit()).recip();
         progress.begin("visible", height as u64);
         let rows = (0..height).into_par_iter().map(|y| {
             let mut row = Row::default();
             for x in 0..width {
                 progress.check()?;
-                let rng = &mut Stream::new(seed, Purpose::Visible, 0, (y * width + x) as u64);
-                let sampler = Sampler::new(rng.u32());
-                let mut samples = settings.camera_samples;
-                let mut index = 0;
-                while index < samples {
-                    let (seen, specular) = camera.sample(x, y, sampler.pair(index, 0), rng);
-                    row.add(layout, seen);
-                    index += 1;
-                    if specular && samples == settings.camera_samples {
-                        samples *= SPECULAR_FACTOR;
-                    }
-                }
+                let rng = Stream::new(seed, Purpose::Visible, 0, (y * width + x) as u64);
+                let samples = camera.pixel([x, y], settings.camera_samples, rng, &mut |seen| {
+                    row.add(layout, seen.point, seen.weight);
+                });
                 row.finish_pixel(watts / samples as f32);
             }
             progress.advance(1);
@@ -103,7 +91,9 @@ impl GatherMatrix {
                     let from_centre = at - size * 0.5;
                     let plane = extent * 0.5 + vec2(from_centre.x, -from_centre.y) * pixel;
                     let inside = plane.cmpge(Vec2::ZERO).all() && plane.cmple(extent).all();
-                    row.add(layout, inside.then_some((plane, Vec3::splat(WHITE))));
+                    if inside {
+                        row.add(layout, plane, Vec3::splat(WHITE));
+                    }
                 }
                 row.finish_pixel(1.0 / (texel_area(layout, 1.0) * samples as f32));
             }
@@ -174,7 +164,7 @@ pub(super) fn flat_pixel(extent: Vec2, size: Vec2) -> f32 {
 fn camera_pixel(scene: &Scene, settings: &RenderSettings) -> Option<f32> {
     const PROBES: usize = 64;
     let (width, height) = (settings.width as usize, settings.height as usize);
-    let camera = CameraSampler { scene, media: Media::default(), width, height };
+    let camera = CameraSampler::new(scene, [width, height]);
     let place = |x: f32, y: f32| {
         let hit = scene.intersect(&camera.ray(vec2(x, y)))?;
         (hit.surface == SurfaceId::Receiver).then(|| scene.receiver().plane_from_world(hit.point))
@@ -195,49 +185,6 @@ fn texel_area(layout: &TextureLayout, metres: f32) -> f32 {
     (layout.texel * metres).powi(2)
 }
 
-/// The camera paths of a picture.
-struct CameraSampler<'a> {
-    scene: &'a Scene,
-    media: Media,
-    width: usize,
-    height: usize,
-}
-
-impl CameraSampler<'_> {
-    /// The ray through a point of the picture, in pixels from the upper left corner.
-    fn ray(&self, at: Vec2) -> Ray {
-        let size = vec2(self.width as f32, self.height as f32);
-        let place = at / size * 2.0 - 1.0;
-        self.scene.camera().ray(place.x, -place.y, size.x / size.y)
-    }
-
-    /// One sample of a pixel: its point on the plane of the receiver with its throughput, and whether it met a specular
-    /// surface.
-    fn sample(&self, x: usize, y: usize, u: [f32; 2], rng: &mut Stream) -> (Option<(Vec2, Vec3)>, bool) {
-        let scene = self.scene;
-        let mut ray = self.ray(vec2(x as f32 + 0.5, y as f32 + 0.5) + tent(u));
-        let mut beam = Beam::new(Vec3::ONE, self.media);
-        for surface in 0..MAX_SURFACES {
-            let Some(hit) = scene.intersect(&ray) else { return (None, surface > 0) };
-            beam.travel(scene.meshes(), hit.t);
-            let material = scene.material(hit.surface);
-            if let Material::Diffuse(diffuse) = material {
-                let lit_side = ray.direction.dot(hit.geometric_normal) < 0.0;
-                let seen = (!matches!(hit.surface, SurfaceId::Mesh(_)) && lit_side).then(|| {
-                    let reflected = Vec3::from(diffuse.albedo) / std::f32::consts::PI;
-                    (scene.receiver().plane_from_world(hit.point), beam.weight * reflected)
-                });
-                return (seen, surface > 0);
-            }
-            let Some(next) = material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng) else {
-                return (None, surface > 0);
-            };
-            ray = Ray::leaving(&hit, next);
-        }
-        (None, true)
-    }
-}
-
 /// The pixels of one row of the picture, under construction.
 #[derive(Debug, Default)]
 struct Row {
@@ -249,8 +196,7 @@ struct Row {
 
 impl Row {
     /// Adds one sample to the current pixel.
-    fn add(&mut self, layout: &TextureLayout, seen: Option<(Vec2, Vec3)>) {
-        let Some((point, weight)) = seen else { return };
+    fn add(&mut self, layout: &TextureLayout, point: Vec2, weight: Vec3) {
         for (texel, share) in layout.bilinear(point).into_iter().flatten() {
             self.loose.push(TexelWeight { texel: texel as u32, weight: weight * share });
         }

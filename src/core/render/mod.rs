@@ -3,7 +3,7 @@
 //! On a plane, progressive photon mapping is a histogram of each pass ([`splat`]) filtered with the kernel of the pass
 //! ([`density`]), summed per frame in a scratch file ([`frames`]). A sparse matrix ([`gather_matrix`]) maps the texture to
 //! the camera's pixels; a frame is [`mod@background`] + matrix x texture. [`view`] is the view transform for screens.
-//! [`orbit_view`] is an immediate picture of the scene from anywhere, for orientation.
+//! [`still_light`] is what does not flow. [`orbit_view`] is an immediate picture of the scene from anywhere, for orientation.
 
 pub mod background;
 pub mod density;
@@ -17,13 +17,17 @@ pub mod plane_view;
 pub mod progressive;
 pub mod settings;
 pub mod splat;
+pub mod still_light;
 pub mod texture;
 pub mod view;
 
 mod adaptive;
+mod camera_sampler;
+mod fireflies;
 mod sampler;
 
-pub use background::{background, rough_background};
+pub use background::{Background, background, rough_background};
+pub use fireflies::ClampedLight;
 pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};
 pub use image::Image;
@@ -32,5 +36,6 @@ pub use plane_image::{PlaneMaterial, plane_image};
 pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};
 pub use settings::RenderSettings;
+pub use still_light::{StillPictures, StillTextures, still_layout, still_pictures};
 pub use texture::{ReceiverTexture, TextureLayout};
 pub use view::{View, ViewSettings, ViewTransform};

@@ -28,6 +28,8 @@ pub struct ReceiverDesc {
     pub albedo: [f32; 3],
     /// Width of the floor around it in the picture (m).
     pub surround: f32,
+    /// Width of the soft border within it, plane units ([`Self::BORDER`]).
+    pub border: f32,
 }
 
 settings! { ReceiverDesc {
@@ -41,6 +43,9 @@ settings! { ReceiverDesc {
     ALBEDO = Setting::colour("scene.receiver.albedo", [0.0, 1.0], &[0.8, 0.8, 0.8]);
     /// Width of the floor around the rectangle in the picture.
     SURROUND = Setting::real("scene.receiver.surround", [0.0, 1e5], &[0.0]).unit("m");
+    /// Width of the soft border within the rectangle, where ever less of the light flows: what stays, and what fell on the
+    /// floor beside it, fades in its place while the rest leaves. At 0 the edge of the rectangle moves with the light.
+    BORDER = Setting::real("scene.receiver.border", [0.0, 0.5], &[0.1]).unit("plane units");
 } }
 
 impl Default for ReceiverDesc {
@@ -51,6 +56,7 @@ impl Default for ReceiverDesc {
             rotate: Self::ROTATE.value(),
             albedo: Self::ALBEDO.value(),
             surround: Self::SURROUND.value(),
+            border: Self::BORDER.value(),
         }
     }
 }
@@ -62,7 +68,8 @@ impl ReceiverDesc {
         Self::SIZE.check(self.size, place)?;
         Self::ROTATE.check(self.rotate, place)?;
         Self::ALBEDO.check(self.albedo, place)?;
-        Self::SURROUND.check(self.surround, place)
+        Self::SURROUND.check(self.surround, place)?;
+        Self::BORDER.check(self.border, place)
     }
 
     /// Width and height in plane units; the longer is 1.
@@ -87,9 +94,19 @@ impl ReceiverDesc {
             unit,
             extent: self.extent(),
             surround: self.surround / unit,
+            border: self.border,
             material: Material::Diffuse(Diffuse { albedo: self.albedo }),
         })
     }
+}
+
+/// Widest floor beside the rectangle on which light is shown, plane units: beyond it the light of a glass is thin.
+const MARGIN: f32 = 0.4;
+
+/// From 0 at 0 to 1 at 1 and above, smooth at both ends.
+fn smoothstep(x: f32) -> f32 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
 }
 
 /// The resolved receiver.
@@ -102,6 +119,7 @@ pub struct Receiver {
     unit: f32,
     extent: Vec2,
     surround: f32,
+    border: f32,
     material: Material,
 }
 
@@ -141,6 +159,33 @@ impl Receiver {
     pub fn plane_from_ray(&self, ray: &Ray) -> Option<Vec2> {
         let t = (self.corner - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
         (t > 0.0 && t < f32::INFINITY).then(|| self.plane_from_world(ray.origin + ray.direction * t))
+    }
+
+    /// The share of the light at a plane point that flows: 1 within the soft border, 0 at the edge and beyond, smooth between.
+    pub fn flowing_share(&self, point: Vec2) -> f32 {
+        let inward = point.min(self.extent - point);
+        if inward.min_element() < 0.0 {
+            return 0.0;
+        }
+        let border = self.border.min(self.extent.min_element() / 2.0);
+        if border <= 0.0 {
+            return 1.0;
+        }
+        let [x, y] = (inward / border).to_array().map(smoothstep);
+        x * y
+    }
+
+    /// The share of the light at a plane point that is shown at all: 1 on the rectangle, then ever less over the floor, to 0
+    /// at [`Self::margin`].
+    pub fn shown_share(&self, point: Vec2) -> f32 {
+        let outside = point - point.clamp(Vec2::ZERO, self.extent);
+        let margin = self.margin();
+        if outside == Vec2::ZERO { 1.0 } else { smoothstep(1.0 - outside.length() / margin) }
+    }
+
+    /// Width of the floor beside the rectangle on which light is shown, plane units; none with a hard edge.
+    pub fn margin(&self) -> f32 {
+        if self.border > 0.0 { self.surround.min(MARGIN) } else { 0.0 }
     }
 
     /// Whether a plane point lies on the rectangle.

@@ -111,7 +111,7 @@ fn doing(stage: &str) -> &'static str {
         "match" => "matching",
         "fit" => "fitting the flow",
         "watch" | "measure" => "measuring the flow",
-        "visible" | "background" => "rendering the background",
+        "visible" | "background" | "still" => "rendering the background",
         "render" | "carry" => "moving photons",
         _ => "loading",
     }

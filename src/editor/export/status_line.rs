@@ -95,6 +95,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
         None => "Reading files",
         Some("visible") => "Finding the visible receiver",
         Some("background") => "Rendering the background",
+        Some("still") => "Rendering the light that does not flow",
         Some("trace") => "Tracing photons",
         Some("match") => "Matching",
         Some("fit") => "Fitting the flow",

@@ -36,6 +36,7 @@ const TEXELS: Control = Control::new("Texels", RenderSettings::MAX_TEXELS).log_s
 const CAMERA: Control = Control::new("Camera samples", RenderSettings::CAMERA_SAMPLES).log_slider(1.0, 256.0);
 const BACKGROUND: Control =
     Control::new("Background", RenderSettings::BACKGROUND_SAMPLES).log_slider(1.0, 1024.0);
+const KEPT: Control = Control::new("Kept in glass", RenderSettings::KEPT_IN_GLASS).slider(0.0, 1.0);
 const FILE: Control = Control::new("File name", OutputSettings::NAME);
 const FRAMES: Control = Control::new("Frames", OutputSettings::FRAMES);
 const FPS: Control = Control::new("Frames per s", OutputSettings::FPS);
@@ -58,6 +59,7 @@ pub(super) const CONTROLS: &[Control] = &[
     TEXELS,
     CAMERA,
     BACKGROUND,
+    KEPT,
     FILE,
     FRAMES,
     FPS,
@@ -78,6 +80,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     size(ui, &mut render);
     EXPOSURE.number(ui, &mut render.view.exposure);
     TRANSFORM.choose(ui, &mut render.view.transform, &[ViewTransform::Agx, ViewTransform::Standard]);
+    KEPT.number(ui, &mut render.kept_in_glass);
     section(ui, "Quality");
     quality(ui, &mut render);
     section(ui, "Files");

@@ -131,7 +131,9 @@ impl PictureBuffers {
         show(&painted);
         let Some(shot) = &request.shot else { return };
         for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
-            let image = self.expose(moment, shot.resolution()).and_then(|light| shot.picture(light));
+            let image = self
+                .expose(moment, shot.resolution())
+                .and_then(|light| shot.picture(light, &moment.preview, moment.frame));
             painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
         }
         show(&painted);

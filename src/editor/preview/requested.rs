@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightloom_core::engine::{Preview, Shot};
-use lightloom_core::project::Project;
+use lightloom_core::project::{CausticDesc, Project};
 use lightloom_core::render::{PlaneMaterial, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
@@ -67,6 +67,10 @@ pub(super) struct BackgroundKey {
     pub(super) aspect: f32,
     pub(super) size: [u32; 2],
     pub(super) seed: u64,
+    pub(super) caustics: Vec<CausticDesc>,
+    /// By key frame: what each caustic, and the rest, has of its physical light; none where it shows something else.
+    pub(super) physical: Vec<Vec<Option<[f32; 3]>>>,
+    pub(super) kept_in_glass: f32,
     /// The project file, and whether external files may be read.
     pub(super) files: (PathBuf, bool),
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lightloom_core::engine::Preview;
-use lightloom_core::project::Project;
+use lightloom_core::project::{CausticKey, KeyFrame, Project, Shows};
 use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
@@ -64,14 +64,37 @@ impl LivePreview {
 
     fn request_shot(&mut self, subject: &Subject, wanted: &Wanted) {
         let Some(size) = wanted.shot else { return };
-        let Project { scene, plane, seed, .. } = &*subject.project;
+        let Project { scene, plane, seed, caustics, render, .. } = &*subject.project;
         let files = (subject.base.clone(), subject.external);
-        let asked = BackgroundKey { scene: scene.clone(), aspect: plane.aspect, size, seed: *seed, files };
+        let asked = BackgroundKey {
+            scene: scene.clone(),
+            aspect: plane.aspect,
+            size,
+            seed: *seed,
+            caustics: caustics.clone(),
+            physical: physical(&subject.project),
+            kept_in_glass: render.kept_in_glass,
+            files,
+        };
         if self.requests.staged.as_ref() != Some(&asked) {
             self.background.ask(subject.clone(), size);
             self.requests.staged = Some(asked);
         }
     }
+}
+
+/// By key frame: what each caustic, and the rest, has of its physical light.
+fn physical(Project { keys, caustics, flow, .. }: &Project) -> Vec<Vec<Option<[f32; 3]>>> {
+    let of_key = |(i, key): (usize, &KeyFrame)| {
+        let names = caustics.iter().map(|caustic| Some(caustic.name.as_str())).chain([None]);
+        let of_caustic = |name: Option<&str>| {
+            let gain = name.and_then(|name| key.caustics.get(name)).map_or([1.0; 3], CausticKey::gain);
+            let rho = if i == 0 { 1.0 } else { flow.rho };
+            (*key.shown_by(name) == Shows::PhysicalCaustic).then(|| gain.map(|channel| channel * rho))
+        };
+        names.map(of_caustic).collect()
+    };
+    keys.iter().enumerate().map(of_key).collect()
 }
 
 /// How light on the plane becomes visible.

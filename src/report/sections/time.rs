@@ -63,7 +63,7 @@ fn step(stage: &str) -> Option<&'static str> {
     match stage {
         "trace" => Some("1"),
         "match" | "fit" => Some("2"),
-        "visible" | "background" | "render" | "write" => Some("3"),
+        "visible" | "background" | "still" | "render" | "write" => Some("3"),
         _ => None,
     }
 }

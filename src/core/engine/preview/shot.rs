@@ -1,32 +1,30 @@
 //! The project's camera without photons: the picture without caustics, to which the light of a preview is added.
 
-use std::sync::Arc;
-
+use super::Preview;
 use super::light::{finest_radius, margin};
-use crate::engine::camera::{BackgroundQuality, CameraView};
+use crate::engine::camera::{BackgroundQuality, CameraPictures, CameraView};
 use crate::engine::memo::Slot;
 use crate::engine::meter::Meter;
 use crate::engine::{Engine, Quality};
 use crate::project::Project;
-use crate::render::{
-    GatherMatrix, Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, layout_for,
-};
+use crate::render::{Image, PlaneView, ReceiverTexture, RenderSettings, TextureLayout, layout_for};
 use crate::{Progress, Result};
 
 /// The picture of the project's camera without caustics, and the points of the receiver that its pixels see.
 #[derive(Clone)]
 pub struct Shot {
-    /// Linear light, without caustics.
-    pub background: Arc<Image>,
+    camera: CameraPictures,
     /// Projection of plane points to pixels.
     pub plane: PlaneView,
-    visible: Arc<GatherMatrix>,
 }
+
+/// Most photons of the light that does not flow.
+const MOST_PHOTONS: u64 = 150_000;
 
 impl Shot {
     /// The layout of the texture that the camera sees.
     pub fn layout(&self) -> &TextureLayout {
-        self.visible.layout()
+        self.camera.visible.layout()
     }
 
     /// Texels along the longer side of the receiver: the resolution that a [`super::PreviewExposure`] for it needs.
@@ -34,10 +32,18 @@ impl Shot {
         self.layout().texel.recip().round() as usize
     }
 
-    /// The picture with the light of a texture, linear. None for a texture of another resolution or receiver.
-    pub fn picture(&self, light: &ReceiverTexture) -> Option<Image> {
+    /// The picture without caustics, linear.
+    pub fn background(&self) -> &Image {
+        &self.camera.background.image
+    }
+
+    /// The picture with the light of a texture at a frame of a preview, linear. None for a texture of another resolution or
+    /// receiver.
+    pub fn picture(&self, light: &ReceiverTexture, preview: &Preview, frame: i32) -> Option<Image> {
         let fits = light.layout() == self.layout();
-        fits.then(|| self.background.plus(&self.visible.gather(light)))
+        fits.then(|| {
+            self.camera.background.image.plus(&self.camera.caustic(light, None, preview.moment(frame)))
+        })
     }
 }
 
@@ -53,6 +59,8 @@ impl Engine {
             height: size[1],
             camera_samples: samples,
             background_samples: samples,
+            photons: project.render.photons.min(MOST_PHOTONS),
+            passes: 1,
             ..project.render.clone()
         };
         let project = &Project { render, ..project.clone() };
@@ -70,9 +78,10 @@ impl Engine {
             extent,
             layout,
             background: BackgroundQuality::Rough,
+            surfaces: false,
         };
         let slot = Slot { client: self.client, quality: Quality::Preview, index: 0 };
-        let (visible, background) = self.stages.look(slot, &view, &Meter::quick(), progress)?;
-        Ok(Shot { background, plane: PlaneView::new(scene.as_deref(), extent), visible })
+        let camera = self.stages.look(slot, &view, &Meter::quick(), progress)?;
+        Ok(Shot { camera, plane: PlaneView::new(scene.as_deref(), extent) })
     }
 }

@@ -14,7 +14,7 @@ use crate::flow::walls::{Clearance, SUBSTEPS, slide};
 const PLANNED: f32 = 3.0;
 const FITTED: f32 = 6.0;
 /// Fastest speed over the mean one that a photon far from walls is taken to have.
-const FASTEST: f32 = 6.0;
+const FASTEST: f32 = 12.0;
 
 /// The walls of one step of a half.
 pub(super) struct WallMotion<'a> {

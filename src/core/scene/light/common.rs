@@ -1,9 +1,26 @@
 //! What the lights have in common: settings and their checks, illumination, a frame around a direction.
 
 use glam::Vec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use crate::setting::{Setting, settings};
+use crate::setting::schema::Describe;
+use crate::setting::{Choice, Setting, settings};
 use crate::{Error, Result};
+
+/// What a light does in the picture ([`Common::ROLE`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(transform = Describe(Common::ROLE))]
+pub enum LightRole {
+    /// Lights everything.
+    #[default]
+    All,
+    /// Casts caustics alone.
+    Caustics,
+    /// Lights everything, and casts no caustics.
+    Background,
+}
 
 /// The settings that lights share.
 pub struct Common;
@@ -22,6 +39,12 @@ settings! { Common {
     COLOUR = Setting::colour("scene.lights[].colour", [0.0, 1000.0], &[1.0, 1.0, 1.0]);
     /// Position of the light, x y z; y is up.
     POSITION = Setting::vector("scene.lights[].position", [-1e6, 1e6], &[0.0, 2.0, 0.0]).unit("m");
+    /// What the light does in the picture.
+    ROLE = Setting::choice("scene.lights[].role", &[
+        Choice { value: "all", help: "lights everything, and casts caustics" },
+        Choice { value: "caustics", help: "casts caustics alone: its own pool of light, shadows and reflections are left out" },
+        Choice { value: "background", help: "lights everything, and casts no caustics, as a softbox whose own would be faint noise" },
+    ]);
     /// The point the light looks at.
     TARGET = Setting::vector("scene.lights[].target", [-1e6, 1e6], &[0.0; 3]).unit("m");
 } }

@@ -4,7 +4,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::common::{Common, Illumination};
+use super::common::{Common, Illumination, LightRole};
 use super::emission::{Cone, Emission, Source, Sphere};
 use crate::Result;
 use crate::scene::check;
@@ -18,6 +18,8 @@ use crate::setting::{ANY, Setting, settings};
 pub struct DirectionalLight {
     /// Its name.
     pub name: String,
+    /// What it does in the picture.
+    pub role: LightRole,
     /// Irradiance on a surface that faces it [W/m^2].
     pub irradiance: f32,
     /// Factor on the irradiance, linear Rec.709.
@@ -41,6 +43,7 @@ impl Default for DirectionalLight {
     fn default() -> Self {
         Self {
             name: Common::DEFAULT_NAME.into(),
+            role: LightRole::default(),
             irradiance: Self::IRRADIANCE.value(),
             colour: Common::COLOUR.value(),
             direction: Self::DIRECTION.value(),

@@ -16,7 +16,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use common::{Common, Illumination};
+pub use common::{Common, Illumination, LightRole};
 pub use directional::DirectionalLight;
 pub use emission::{Emission, Sphere};
 pub use point::PointLight;
@@ -65,6 +65,17 @@ impl LightDesc {
             Self::Directional(light) => &light.name,
             Self::Rectangle(light) => &light.name,
             Self::Sphere(light) => &light.name,
+        }
+    }
+
+    /// What it does in the picture.
+    pub fn role(&self) -> LightRole {
+        match self {
+            Self::Point(light) => light.role,
+            Self::Spot(light) => light.role,
+            Self::Directional(light) => light.role,
+            Self::Rectangle(light) => light.role,
+            Self::Sphere(light) => light.role,
         }
     }
 

@@ -6,7 +6,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::common::{Common, Illumination, check_lamp};
+use super::common::{Common, Illumination, LightRole, check_lamp};
 use super::emission::{Cone, Emission, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
@@ -18,6 +18,8 @@ use crate::setting::schema::Describe;
 pub struct PointLight {
     /// Its name.
     pub name: String,
+    /// What it does in the picture.
+    pub role: LightRole,
     /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -30,6 +32,7 @@ impl Default for PointLight {
     fn default() -> Self {
         Self {
             name: Common::DEFAULT_NAME.into(),
+            role: LightRole::default(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

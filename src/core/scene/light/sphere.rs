@@ -6,7 +6,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::common::{Common, Illumination, check_lamp};
+use super::common::{Common, Illumination, LightRole, check_lamp};
 use super::emission::{Cone, Emission, Emitter, Sphere};
 use crate::Result;
 use crate::scene::Ray;
@@ -20,6 +20,8 @@ use crate::setting::{Setting, settings};
 pub struct SphereLight {
     /// Its name.
     pub name: String,
+    /// What it does in the picture.
+    pub role: LightRole,
     /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -39,6 +41,7 @@ impl Default for SphereLight {
     fn default() -> Self {
         Self {
             name: Common::DEFAULT_NAME.into(),
+            role: LightRole::default(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

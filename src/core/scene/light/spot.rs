@@ -4,7 +4,7 @@ use glam::Vec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::common::{Common, Illumination, check_lamp, check_target};
+use super::common::{Common, Illumination, LightRole, check_lamp, check_target};
 use super::emission::{Cone, Emission, Profile, Source, Sphere};
 use crate::Result;
 use crate::setting::schema::Describe;
@@ -17,6 +17,8 @@ use crate::setting::{Setting, settings};
 pub struct SpotLight {
     /// Its name.
     pub name: String,
+    /// What it does in the picture.
+    pub role: LightRole,
     /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -42,6 +44,7 @@ impl Default for SpotLight {
     fn default() -> Self {
         Self {
             name: Common::DEFAULT_NAME.into(),
+            role: LightRole::default(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

@@ -14,7 +14,7 @@ pub use diffuse::Diffuse;
 pub use dispersion::{VISIBLE_NM, rgb_of_wavelength};
 pub use glass::Glass;
 pub use mirror::Mirror;
-pub use scatter::Beam;
+pub use scatter::{Beam, Way};
 
 use crate::Result;
 use crate::setting::schema::Describe;

@@ -56,6 +56,32 @@ impl Material {
     }
 }
 
+/// A way on from a surface: its direction (unit) and the light that takes it.
+pub type Way = (Vec3, Beam);
+
+impl Material {
+    /// As [`Self::scatter`], but both ways from glass, each with its share of the light, instead of one chosen at random. Where
+    /// the fainter would have less than `least` of any colour, one is chosen all the same.
+    pub fn split(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        mut beam: Beam,
+        least: f32,
+        rng: &mut Stream,
+    ) -> [Option<Way>; 2] {
+        match self {
+            Self::Diffuse(_) => [None, None],
+            Self::Mirror(mirror) => {
+                let next = mirror.scatter(hit, direction, &mut beam);
+                [Some((next, beam)), None]
+            }
+            Self::Glass(glass) => glass.split(meshes, hit, direction, beam, least, rng),
+        }
+    }
+}
+
 impl Mirror {
     fn scatter(&self, hit: &Hit, direction: Vec3, beam: &mut Beam) -> Vec3 {
         beam.weight *= Vec3::from(self.reflectance);
@@ -74,7 +100,48 @@ impl Glass {
         beam: &mut Beam,
         rng: &mut Stream,
     ) -> Vec3 {
-        let SurfaceId::Mesh(mesh) = hit.surface else { return direction };
+        let Some(boundary) = self.boundary(meshes, hit, direction, beam, rng) else { return direction };
+        boundary.cross(hit, direction, rng.f32(), beam)
+    }
+
+    fn split(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        mut beam: Beam,
+        least: f32,
+        rng: &mut Stream,
+    ) -> [Option<Way>; 2] {
+        let Some(boundary) = self.boundary(meshes, hit, direction, &mut beam, rng) else {
+            return [Some((direction, beam)), None];
+        };
+        let reflected = boundary.reflectance(hit, direction);
+        if beam.weight.max_element() * reflected.min(1.0 - reflected) < least {
+            let next = boundary.cross(hit, direction, rng.f32(), &mut beam);
+            return [Some((next, beam)), None];
+        }
+        // A choice at random within each way's share of all choices: together they are all of them.
+        let mut way = |from: f32, share: f32| {
+            let mut beam = beam.clone();
+            beam.weight *= share;
+            let next = boundary.cross(hit, direction, from + share * rng.f32(), &mut beam);
+            Some((next, beam))
+        };
+        [way(reflected, 1.0 - reflected), way(0.0, reflected)]
+    }
+
+    /// The boundary that a ray meets at a hit; none where the glass changes nothing. A beam that meets dispersive glass gets its
+    /// wavelength, one that passes straight on its media.
+    fn boundary(
+        &self,
+        meshes: &[Mesh],
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Option<Boundary> {
+        let SurfaceId::Mesh(mesh) = hit.surface else { return None };
         let entering = direction.dot(hit.geometric_normal) < 0.0;
         let (mut before, mut after) = (beam.media, beam.media);
         if entering {
@@ -84,7 +151,7 @@ impl Glass {
         }
         if before.filling(meshes) == after.filling(meshes) {
             beam.media = after;
-            return direction;
+            return None;
         }
         if self.dispersion.is_some() && beam.wavelength.is_none() {
             let (nm, colour) = sample_wavelength(beam.weight, rng);
@@ -92,9 +159,29 @@ impl Glass {
             beam.wavelength = Some(nm);
         }
         let index = |media: &Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
-        let eta = index(&after) / index(&before);
-        let (next, through) = scatter_at_boundary(hit, direction, eta, rng.f32());
-        beam.media = if through { after } else { before };
+        Some(Boundary { eta: index(&after) / index(&before), before, after })
+    }
+}
+
+/// A boundary between two media that a ray meets.
+struct Boundary {
+    before: Media,
+    after: Media,
+    /// Index of refraction after it over that before it.
+    eta: f32,
+}
+
+impl Boundary {
+    /// The reflectance by the shading normal: the share of choices for which a ray is reflected, silhouettes apart.
+    fn reflectance(&self, hit: &Hit, direction: Vec3) -> f32 {
+        let (_, shading) = facing_normals(hit, direction);
+        fresnel(-direction.dot(shading), self.eta).0
+    }
+
+    /// The direction that a ray takes by a `choice` in [0, 1); updates the media of the beam.
+    fn cross(&self, hit: &Hit, direction: Vec3, choice: f32, beam: &mut Beam) -> Vec3 {
+        let (next, through) = scatter_at_boundary(hit, direction, self.eta, choice);
+        beam.media = if through { self.after } else { self.before };
         next
     }
 }

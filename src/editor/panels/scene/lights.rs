@@ -3,7 +3,7 @@
 use egui::Ui;
 use lightloom_core::project::CausticDesc;
 use lightloom_core::scene::light::{
-    Common, DirectionalLight, PointLight, RectangleLight, SphereLight, SpotLight,
+    Common, DirectionalLight, LightRole, PointLight, RectangleLight, SphereLight, SpotLight,
 };
 use lightloom_core::scene::{LightDesc, SceneDesc};
 
@@ -24,6 +24,7 @@ const KINDS: &[fn() -> LightDesc] = &[
 const KIND: Control =
     Control::new("Kind", LightDesc::KIND).labels(&["Point", "Spot", "Directional", "Rectangle", "Sphere"]);
 const NAME: Control = Control::new("Name", Common::NAME);
+const ROLE: Control = Control::new("Role", Common::ROLE).labels(&["All", "Caustics", "Background"]);
 const WATTS: Control = Control::new("Power", Common::WATTS).log_slider(0.0, 1000.0);
 const COLOUR: Control = Control::new("Colour", Common::COLOUR);
 const POSITION: Control = Control::new("Position", Common::POSITION);
@@ -39,7 +40,7 @@ const RADIUS: Control = Control::new("Radius", SphereLight::RADIUS).log_slider(0
 /// The settings of lights.
 #[rustfmt::skip]
 pub(super) const CONTROLS: &[Control] = &[
-    KIND, NAME, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, DISK, SIZE, RADIUS,
+    KIND, NAME, ROLE, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, DISK, SIZE, RADIUS,
 ];
 
 /// The light of a new scene.
@@ -99,7 +100,18 @@ pub(super) fn show(
     if let Some(make) = KIND.pick_another(ui, kind(light)).and_then(|new| KINDS.get(new)) {
         *light = changed(light, make());
     }
+    ROLE.choose(ui, role_of(light), &[LightRole::All, LightRole::Caustics, LightRole::Background]);
     values(ui, light);
+}
+
+fn role_of(light: &mut LightDesc) -> &mut LightRole {
+    match light {
+        LightDesc::Point(light) => &mut light.role,
+        LightDesc::Spot(light) => &mut light.role,
+        LightDesc::Directional(light) => &mut light.role,
+        LightDesc::Rectangle(light) => &mut light.role,
+        LightDesc::Sphere(light) => &mut light.role,
+    }
 }
 
 fn name_of(light: &mut LightDesc) -> &mut String {

@@ -17,6 +17,7 @@ const SIZE: Control = Control::new("Size", ReceiverDesc::SIZE);
 const TURN: Control = Control::new("Turn", ReceiverDesc::ROTATE);
 const ALBEDO: Control = Control::new("Albedo", ReceiverDesc::ALBEDO);
 const SURROUND: Control = Control::new("Surround", ReceiverDesc::SURROUND).log_slider(0.0, 100.0);
+const BORDER: Control = Control::new("Soft border", ReceiverDesc::BORDER).slider(0.0, 0.5);
 const ZENITH: Control = Control::new("Zenith", EnvironmentDesc::ZENITH);
 const HORIZON: Control = Control::new("Horizon", EnvironmentDesc::HORIZON);
 const GROUND: Control = Control::new("Ground", EnvironmentDesc::GROUND);
@@ -26,7 +27,7 @@ const WATTS: Control = Control::new("Power", PlaneSettings::WATTS).log_slider(0.
 /// The settings of this part.
 #[rustfmt::skip]
 pub(super) const CONTROLS: &[Control] = &[
-    POSITION, LOOK_AT, UP, FOV, CENTRE, SIZE, TURN, ALBEDO, SURROUND, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
+    POSITION, LOOK_AT, UP, FOV, CENTRE, SIZE, TURN, ALBEDO, SURROUND, BORDER, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
 ];
 
 /// The camera.
@@ -52,6 +53,7 @@ pub(super) fn receiver(ui: &mut Ui, receiver: &mut ReceiverDesc) {
     TURN.numbers(ui, &mut receiver.rotate, XYZ);
     ALBEDO.colour(ui, &mut receiver.albedo);
     SURROUND.number(ui, &mut receiver.surround);
+    BORDER.number(ui, &mut receiver.border);
 }
 
 /// The sky.
