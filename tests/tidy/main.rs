@@ -15,7 +15,7 @@ use module::Module;
 use package::Package;
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 17] = [
+const ORDER: [&str; 18] = [
     "error",
     "setting",
     "progress",
