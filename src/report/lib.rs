@@ -10,6 +10,7 @@ mod context;
 mod crop;
 mod effort;
 mod machine;
+mod meeting_film;
 mod number;
 mod page;
 mod pareto;

@@ -42,7 +42,7 @@ fn a_second_render_makes_only_passes_and_files() {
     let (_stage, project, engine) = small();
     let (first, made) = render(&engine, &project);
     let camera = ["load", "visible", "background", "still"];
-    let flow = ["trace", "fit", "match", "watch", "render", "write", "measure"];
+    let flow = ["trace", "plan", "fit", "match", "watch", "render", "write", "measure"];
     assert_eq!(made, [&camera[..], &flow].concat());
     let (second, made) = render(&engine.on_behalf_of(Client::Export), &project);
     assert_eq!(made, ["load", "render", "write"]);
@@ -56,7 +56,7 @@ fn a_new_gamma_traces_nothing_in_a_render_either() {
     render(&engine, &project);
     project.flow.gamma = 0.2;
     let (remembered, made) = render(&engine, &project);
-    assert_eq!(made, ["load", "fit", "match", "watch", "render", "write", "measure"]);
+    assert_eq!(made, ["load", "plan", "fit", "match", "watch", "render", "write", "measure"]);
     let (afresh, _) = render(&engine.afresh(), &project);
     assert!(remembered == afresh);
 }

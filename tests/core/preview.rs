@@ -19,10 +19,10 @@ const EXAMPLES: [&str; 7] =
 fn a_new_gamma_fits_and_pairs_anew_but_does_not_trace() {
     let (mut project, engine) = example("dark_glass");
     let first = draft(&engine, &project);
-    assert_eq!(stages(&first), ["load", "trace", "fit", "match", "watch"]);
+    assert_eq!(stages(&first), ["load", "trace", "plan", "fit", "match", "watch"]);
     project.flow.gamma = 0.9;
     let second = draft(&engine, &project);
-    assert_eq!(stages(&second), ["load", "fit", "match", "watch"]);
+    assert_eq!(stages(&second), ["load", "plan", "fit", "match", "watch"]);
     assert_ne!(bits(&first), bits(&second));
     // What was remembered is what would have been worked out.
     assert_eq!(bits(&second), bits(&draft(&example("dark_glass").1, &project)));
@@ -67,7 +67,7 @@ fn a_moved_light_traces_anew_and_a_moved_camera_does_not() {
     assert_eq!(stages(&draft(&engine, &project)), ["load"]);
     let Some(LightDesc::Point(lamp)) = project.scene.as_mut().unwrap().lights.first_mut() else { panic!() };
     lamp.position[0] += 0.02;
-    assert_eq!(stages(&draft(&engine, &project)), ["load", "trace", "fit", "match", "watch"]);
+    assert_eq!(stages(&draft(&engine, &project)), ["load", "trace", "plan", "fit", "match", "watch"]);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn a_picture_that_was_painted_over_is_read_again() {
     let half = image::GrayImage::from_fn(16, 16, |x, _| image::Luma([if x < 4 { 255 } else { 0 }]));
     half.save(stage.folder.path().join("square.png")).unwrap();
     let after = draft(&engine, &project);
-    assert_eq!(stages(&after), ["load", "fit", "match", "watch"]);
+    assert_eq!(stages(&after), ["load", "plan", "fit", "match", "watch"]);
     assert_ne!(bits(&before), bits(&after));
 }
 
@@ -319,5 +319,8 @@ fn finer_photons_go_along_the_fields_of_the_preview() {
     let at = Vec2::new(0.4, 0.5);
     assert_eq!(fine.fields(20)[0].velocity(at), preview.fields(20)[0].velocity(at));
     project.flow.gamma = 0.5;
-    assert_eq!(stages(&run(&engine, &project, Quality::Fine)), ["load", "fit", "match", "watch", "carry"]);
+    assert_eq!(
+        stages(&run(&engine, &project, Quality::Fine)),
+        ["load", "plan", "fit", "match", "watch", "carry"]
+    );
 }

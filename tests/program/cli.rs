@@ -63,7 +63,8 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
     let summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
     for name in [
         "endpoint_error",
-        "transport_cost_ratio",
+        "transport_cost",
+        "gap",
         "crossing_index",
         "fit_residual",
         "solver_residual",

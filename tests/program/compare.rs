@@ -34,20 +34,20 @@ fn compare_writes_one_sheet_and_the_numbers_of_every_method() {
     let (folder, project) = letters("flow");
     let out = folder.path().join("out");
     let printed = run(&["compare", text(&project), "--out", text(&out), "--format", "png"]);
-    assert_eq!(names_in(&out), ["compare.json", "compare.png", "flow", "linear", "stylized"]);
+    assert_eq!(names_in(&out), ["compare.json", "compare.png", "flow", "guided", "linear", "stylized"]);
     let frames: Vec<String> = [1, 3, 4, 6, 7, 9].map(|n| format!("frame.000{n}.png")).to_vec();
-    for method in ["flow", "stylized", "linear"] {
+    for method in ["flow", "guided", "stylized", "linear"] {
         let names = names_in(&out.join(method));
         assert!(frames.iter().all(|frame| names.contains(frame)), "{method}: {names:?}");
         assert_eq!(names.len(), frames.len() + 1, "the frames and their contact sheet: {names:?}");
     }
-    // Six pictures of 400 pixels beside the words, three rows.
+    // Six pictures of 400 pixels beside the words, four rows.
     let sheet = image::open(out.join("compare.png")).unwrap();
-    assert!(sheet.width() > 6 * 400 && sheet.height() > 3 * 400);
+    assert!(sheet.width() > 6 * 400 && sheet.height() > 4 * 400);
 
     let methods = printed["methods"].as_array().unwrap();
     let named: Vec<_> = methods.iter().map(|method| method["method"].as_str().unwrap()).collect();
-    assert_eq!(named, ["flow", "stylized", "linear"]);
+    assert_eq!(named, ["flow", "guided", "stylized", "linear"]);
     for method in methods {
         assert!(method["transport_cost_ratio"].as_f64().unwrap() >= 1.0 - 1e-9, "{method}");
         assert_eq!(method["crossing_index"].as_array().unwrap().len(), 3);
@@ -56,7 +56,7 @@ fn compare_writes_one_sheet_and_the_numbers_of_every_method() {
     }
     let cost = |i: usize| methods[i]["transport_cost_ratio"].as_f64().unwrap();
     assert!(
-        cost(0) == cost(2) && cost(1) > cost(0),
+        cost(1) == cost(3) && cost(2) > cost(1),
         "the same pairs for field and lines, longer ways before"
     );
 }

@@ -70,11 +70,11 @@ impl FreePlan {
         let sweeps = match self.scale.take() {
             Some(scale) => {
                 ends[1].scale = scale;
-                SWEEPS
+                self.settings.sweeps(SWEEPS)
             }
             None => {
                 ends[1].scale = start(&self.settings, cells, &ends[1].density, photons, progress)?;
-                FIRST_SWEEPS
+                self.settings.sweeps(FIRST_SWEEPS)
             }
         };
         let spread = |_: usize, factor: &[f64], out: &mut [f64]| kernel.spread(factor, out);
@@ -180,7 +180,7 @@ fn start(
     let mut kernel = Gaussian::new(coarse.size, variance);
     let mut ends = photons.map(|photons| End::new(gather(&coarse, None, photons)));
     ends[1].scale = start(&half, &coarse, &ends[1].density, photons, progress)?;
-    let sweeps = if half.cells <= COARSEST { COLD_SWEEPS } else { FIRST_SWEEPS };
+    let sweeps = half.sweeps(if half.cells <= COARSEST { COLD_SWEEPS } else { FIRST_SWEEPS });
     let mut spread = |_: usize, factor: &[f64], out: &mut [f64]| kernel.spread(factor, out);
     scale_in_turn(&mut ends, (sweeps, 0.0, 1.0), &mut spread, progress)?;
     let [a, b] = &mut ends;

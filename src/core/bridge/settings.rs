@@ -17,6 +17,15 @@ pub struct BridgeSettings {
     pub hold: f32,
     /// Most density on the way, over that of the keys; acts where walls stand.
     pub density: f32,
+    /// Sweeps of the scaling over the usual number; around walls the misplaced share at which they end falls alike.
+    pub sweeps: f32,
+}
+
+impl BridgeSettings {
+    /// Sweeps where `usual` is their usual number; at least one.
+    pub(super) fn sweeps(&self, usual: usize) -> usize {
+        ((self.sweeps * usual as f32).round() as usize).max(1)
+    }
 }
 
 /// The walls that stand from a time on.

@@ -112,7 +112,8 @@ impl Made {
             }
         };
         let spread = |side: usize, factor: &[f64], out: &mut [f64]| kernel.spread(side, factor, out);
-        scale_in_turn(&mut ends, (SWEEPS, TOLERANCE, RELAXATION), spread, progress)?;
+        let tolerance = TOLERANCE / f64::from(settings.sweeps);
+        scale_in_turn(&mut ends, (settings.sweeps(SWEEPS), tolerance, RELAXATION), spread, progress)?;
         let error = ends[0].error();
         let blur = (BLUR * BLUR / step).round().max(1.0) as usize;
         let variance = step * f64::from(cells.side).powi(2);

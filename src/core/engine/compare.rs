@@ -58,6 +58,8 @@ pub struct Compared {
     pub continuity: Option<Continuity>,
     /// Seconds of the matching of the first pass.
     pub match_seconds: f64,
+    /// Seconds of the plans; 0 for methods without.
+    pub plan_seconds: f64,
     /// Seconds of the fit; 0 for methods without.
     pub fit_seconds: f64,
     /// All numbers of its run.
@@ -225,6 +227,7 @@ impl Compared {
             transport_cost_ratio: ratios.reduce(f64::max),
             continuity: SegmentContinuity::worst(&summary.continuity),
             match_seconds: seconds("match"),
+            plan_seconds: seconds("plan"),
             fit_seconds: seconds("fit"),
             summary,
         }
@@ -241,6 +244,7 @@ impl Compared {
         lines.extend([
             ("transport cost".into(), cost),
             ("match".into(), seconds(self.match_seconds)),
+            ("plan".into(), seconds(self.plan_seconds)),
             ("fit".into(), seconds(self.fit_seconds)),
         ]);
         lines

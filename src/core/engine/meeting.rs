@@ -19,6 +19,7 @@ pub(super) fn fit(
     (number, input): (usize, &MeetingInput),
     (layers, groups): (&[Vec<usize>], &[[&[Vec2]; 2]]),
 ) -> Result<MeetingFlow> {
+    let planned = |fit: &Result<MeetingFit>| fit.as_ref().map_or(0.0, |fit| fit.plan.seconds[0]);
     let mut flow = MeetingFlow { layers: Vec::new(), fits: Vec::new(), plans: Vec::new() };
     for members in layers {
         let photons: Vec<_> = members.iter().map(|&group| groups[group]).collect();
@@ -31,7 +32,7 @@ pub(super) fn fit(
             number,
         };
         let MeetingFit { fields, fits, plan } =
-            job.meter.measure("fit", || fit_meeting(&segment, job.progress))?;
+            job.meter.measure_turns(["plan", "fit"], || fit_meeting(&segment, job.progress), planned)?;
         flow.layers.push(Layer { groups: members.clone(), flow: Arc::new(SegmentFlow::Meeting(fields)) });
         flow.fits.push(fits);
         flow.plans.push(plan);

@@ -35,20 +35,41 @@ impl Meter {
 
     /// Runs `work` as `stage`. A stage that runs again adds to its first entry.
     pub(super) fn measure<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+        let (result, cost) = self.timed(stage, work);
+        self.add(cost);
+        result
+    }
+
+    /// Runs `work` as two stages that take turns. `seconds` has those of the first, by which processor time is shared, too;
+    /// both have the peak of all.
+    pub(super) fn measure_turns<T>(
+        &self,
+        [first, second]: [&'static str; 2],
+        work: impl FnOnce() -> T,
+        seconds: impl FnOnce(&T) -> f64,
+    ) -> T {
+        let (result, both) = self.timed(second, work);
+        let share = (seconds(&result) / both.seconds.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        for (stage, share) in [(first, share), (second, 1.0 - share)] {
+            let cpu_seconds = both.cpu_seconds.map(|cpu| share * cpu);
+            self.add(StageCost { stage, seconds: share * both.seconds, cpu_seconds, ..both });
+        }
+        result
+    }
+
+    fn timed<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> (T, StageCost) {
         if self.quick {
             let start = Instant::now();
             let result = work();
             let seconds = start.elapsed().as_secs_f64();
-            self.add(StageCost { stage, seconds, cpu_seconds: None, peak_memory_mib: None });
-            return result;
+            return (result, StageCost { stage, seconds, cpu_seconds: None, peak_memory_mib: None });
         }
         reset_peak();
         let (start, cpu) = (Instant::now(), cpu_seconds());
         let result = work();
         let seconds = start.elapsed().as_secs_f64();
         let cpu_seconds = cpu_seconds().zip(cpu).map(|(end, start)| end - start);
-        self.add(StageCost { stage, seconds, cpu_seconds, peak_memory_mib: peak_mib() });
-        result
+        (result, StageCost { stage, seconds, cpu_seconds, peak_memory_mib: peak_mib() })
     }
 
     fn add(&self, cost: StageCost) {

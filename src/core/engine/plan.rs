@@ -51,6 +51,8 @@ mod pace {
     pub(super) const STYLIZED: f64 = 0.2e6;
     /// Unknowns solved per second in one step of the fit.
     pub(super) const FIT: f64 = 1.0e6;
+    /// Seconds of the plan of one step.
+    pub(super) const PLAN: f64 = 0.1;
     /// Photons carried over one step, per second.
     pub(super) const ADVECT: f64 = 10.0e6;
     /// Photons counted into the texture per second.
@@ -201,10 +203,18 @@ fn motion_stages(
     layers: &[usize],
 ) -> Vec<(&'static str, f64)> {
     let fit = f64::from(project.flow.steps) * (0.01 + unknowns(project, extent) / pace::FIT);
+    let plan = f64::from(project.flow.steps) * pace::PLAN;
+    let meets = project.method == MotionMethod::Flow && project.matching == MatchingMethod::Transport;
     let mut stages = Vec::new();
     for &layers in layers {
         let moving = if layers > 0 { photons } else { 0.0 };
-        stages.push(("match", moving / match_pace(project.method)[0]));
+        let matching = ("match", moving / match_pace(project.method)[0]);
+        if meets {
+            stages.extend((0..layers).flat_map(|_| [("plan", plan), ("fit", fit)]));
+            stages.push(matching);
+            continue;
+        }
+        stages.push(matching);
         if project.fits() {
             stages.extend((0..layers).map(|_| ("fit", fit)));
         }

@@ -147,7 +147,7 @@ impl Engine {
         }
         let stages = prepared.plan.stages.iter().copied();
         progress.set_stages(
-            stages.filter(|(stage, _)| ["trace", "match", "fit", "write"].contains(stage)).collect(),
+            stages.filter(|(stage, _)| ["trace", "plan", "fit", "match", "write"].contains(stage)).collect(),
         );
         let fitted = self.fit_prepared(prepared, &meter, progress)?;
         let FittedProject { prepared, flow, .. } = &fitted;

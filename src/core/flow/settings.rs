@@ -88,7 +88,7 @@ settings! { FlowSettings {
     ]);
     /// Size of the pieces of light that stay together on their way, share of the plane's longer side. Larger pieces tear
     /// less and arrive less evenly.
-    HOLD = Setting::real("flow.hold", [0.01, 0.2], &[0.05]);
+    HOLD = Setting::real("flow.hold", [0.04, 0.2], &[0.05]);
     /// How dense light may get on its way around walls, over its density at the key frames. Lower spreads it into wider
     /// lanes.
     DENSITY = Setting::real("flow.density", [1.0, 100.0], &[1.1]);

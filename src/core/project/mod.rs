@@ -170,7 +170,9 @@ impl Project {
     /// The methods by which its light can move: that of 2016 finds its own pairs, so not where rows are given.
     pub fn able_methods(&self) -> impl Iterator<Item = MotionMethod> + use<> {
         let given = self.matching == MatchingMethod::Given;
-        MotionMethod::ALL.into_iter().filter(move |method| !given || *method != MotionMethod::Stylized)
+        // Pairs that are given cannot be made at a meeting: such photons are guided, whichever of the two is named.
+        let unable = [MotionMethod::Guided, MotionMethod::Stylized];
+        MotionMethod::ALL.into_iter().filter(move |method| !given || !unable.contains(method))
     }
 
     /// The paths of all files of the project, as written.

@@ -109,6 +109,7 @@ fn doing(stage: &str) -> &'static str {
     match stage {
         "trace" => "tracing photons",
         "match" => "matching",
+        "plan" => "planning the flow",
         "fit" => "fitting the flow",
         "watch" | "measure" => "measuring the flow",
         "visible" | "background" | "still" => "rendering the background",

@@ -98,6 +98,7 @@ fn stage(name: Option<&'static str>) -> &'static str {
         Some("still") => "Rendering the light that does not flow",
         Some("trace") => "Tracing photons",
         Some("match") => "Matching",
+        Some("plan") => "Planning the flow",
         Some("fit") => "Fitting the flow",
         Some("watch" | "measure") => "Measuring the flow",
         Some("render") => "Rendering",

@@ -20,6 +20,8 @@ const BETA: Control =
 const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0);
 const METHOD: Control =
     Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "Guided", "2016", "Linear"]);
+const HOLD: Control = Control::new("Hold", FlowSettings::HOLD).slider(0.04, 0.2);
+const DENSITY: Control = Control::new("Density", FlowSettings::DENSITY).log_slider(1.0, 10.0);
 const FIT: Control = Control::new("Fit", FlowSettings::FIT).labels(&["Separate", "Joint"]);
 const GRID: Control = Control::new("Grid", FlowSettings::GRID).log_slider(16.0, 512.0);
 const STEPS: Control = Control::new("Steps", FlowSettings::STEPS).log_slider(5.0, 200.0);
@@ -29,7 +31,7 @@ const MATCHING: Control = Control::new("Matching", MatchingMethod::MATCHING).lab
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] =
-    &[GAMMA, ALPHA, BETA, RHO, METHOD, FIT, GRID, STEPS, GUIDES, TOLERANCE, MATCHING];
+    &[GAMMA, ALPHA, BETA, HOLD, DENSITY, RHO, METHOD, FIT, GRID, STEPS, GUIDES, TOLERANCE, MATCHING];
 
 /// The flow panel.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
@@ -42,13 +44,21 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     ALPHA.number(ui, &mut flow.alpha);
     smoothing(ui, editor, &flow);
     BETA.number(ui, &mut flow.beta);
+    if project.method == MotionMethod::Flow {
+        HOLD.number(ui, &mut flow.hold);
+        DENSITY.number(ui, &mut flow.density);
+    }
     turbulence::show(ui, &mut flow.turbulence);
-    fade::show(ui, &mut flow.fade);
+    if project.method == MotionMethod::Guided {
+        fade::show(ui, &mut flow.fade);
+    }
     let (mut method, mut matching) = (project.method, project.matching);
     fold(ui, "Advanced", |ui| {
         METHOD.choose(ui, &mut method, &MotionMethod::ALL);
         MATCHING.choose(ui, &mut matching, &[MatchingMethod::Transport, MatchingMethod::Given]);
-        FIT.choose(ui, &mut flow.fit, &[FitKind::Separate, FitKind::Joint]);
+        if method == MotionMethod::Guided {
+            FIT.choose(ui, &mut flow.fit, &[FitKind::Separate, FitKind::Joint]);
+        }
         grid(ui, &mut flow);
         STEPS.number(ui, &mut flow.steps);
         GUIDES.number(ui, &mut flow.guides);

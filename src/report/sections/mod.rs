@@ -7,6 +7,7 @@ mod growth;
 mod left_out;
 mod machine;
 mod matching_cost;
+mod plan_error;
 mod render_error;
 mod section_def;
 mod study;
@@ -16,9 +17,10 @@ use lightloom_core::{Error, Result};
 use section_def::SectionDef;
 
 /// All sections, in the order of the report.
-pub(crate) const SECTIONS: [SectionDef; 10] = [
+pub(crate) const SECTIONS: [SectionDef; 11] = [
     render_error::SECTION,
     continuity::SECTION,
+    plan_error::SECTION,
     flow_error::SECTION,
     matching_cost::SECTION,
     study::SECTION,

@@ -62,7 +62,7 @@ fn row(name: Cell, step: Cell, cost: &StageCost, whole: f64) -> Vec<Cell> {
 fn step(stage: &str) -> Option<&'static str> {
     match stage {
         "trace" => Some("1"),
-        "match" | "fit" => Some("2"),
+        "plan" | "fit" | "match" => Some("2"),
         "visible" | "background" | "still" | "render" | "write" => Some("3"),
         _ => None,
     }

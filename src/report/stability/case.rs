@@ -74,6 +74,10 @@ pub struct Limits {
     pub crossings: Option<usize>,
     /// Least and most photons whose target no path reaches.
     pub unreachable: Option<[usize; 2]>,
+    /// Largest share of the light that the plan misplaces.
+    pub misplaced: Option<f64>,
+    /// Largest gap at the meeting, plane units.
+    pub gap: Option<f64>,
     /// The reason for these limits.
     pub why: &'static str,
 }
@@ -87,6 +91,8 @@ impl Limits {
         energy: None,
         crossings: None,
         unreachable: None,
+        misplaced: None,
+        gap: None,
         why: "",
     };
 }
@@ -112,6 +118,10 @@ pub struct Measured {
     pub crossings: Option<usize>,
     /// Photons whose target no path around the walls reaches.
     pub unreachable: Option<usize>,
+    /// Share of the light that the plan misplaces.
+    pub misplaced: Option<f64>,
+    /// Root mean square distance at which photons of both keys miss each other where they meet, plane units.
+    pub gap: Option<f64>,
 }
 
 /// The quantity measured as energy.
@@ -144,7 +154,14 @@ impl EnergyOf {
 impl Measured {
     /// Whether all numbers that are present are finite.
     fn is_finite(&self) -> bool {
-        let numbers = [self.endpoint_error, self.solver_residual, self.condition, self.energy];
+        let numbers = [
+            self.endpoint_error,
+            self.solver_residual,
+            self.condition,
+            self.energy,
+            self.misplaced,
+            self.gap,
+        ];
         self.finite && numbers.into_iter().flatten().all(f64::is_finite)
     }
 }
@@ -176,7 +193,7 @@ impl Bound {
 
 impl Limits {
     /// The upper limits with their names, each beside the number that it bounds.
-    fn upper(&self, measured: &Measured) -> [(&'static str, Option<f64>, Option<f64>); 5] {
+    fn upper(&self, measured: &Measured) -> [(&'static str, Option<f64>, Option<f64>); 7] {
         let count = |count: Option<usize>| count.map(|n| n as f64);
         [
             ("endpoint error", self.endpoint_error, measured.endpoint_error),
@@ -184,6 +201,8 @@ impl Limits {
             ("iterations", count(self.iterations), count(measured.iterations)),
             ("energy", self.energy, measured.energy),
             ("crossings", count(self.crossings), count(measured.crossings)),
+            ("misplaced", self.misplaced, measured.misplaced),
+            ("gap", self.gap, measured.gap),
         ]
     }
 

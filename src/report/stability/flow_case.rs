@@ -35,6 +35,7 @@ impl FlowCase {
             fit: FitKind::Joint,
             grid: GridSize::Longer(effort.pick(32, 128)),
             steps: effort.pick(8, 20),
+            alpha: 1e-3,
             ..FlowSettings::default()
         };
         let (source, target) = (disc([0.3, 0.4], 0.2, count), ring(count));
@@ -54,7 +55,7 @@ impl Input for FlowCase {
             energy: Some(1.0 + tolerance),
             crossings: Some(0),
             unreachable: Some([0, 0]),
-            why: "",
+            ..Limits::FINITE
         }
     }
 
@@ -113,7 +114,7 @@ fn of_report(report: &FlowReport) -> Measured {
 }
 
 /// An observer of photons from step to step.
-struct CrossingObserver<'a> {
+pub(super) struct CrossingObserver<'a> {
     walls: &'a [ActiveWall],
     before: Vec<Vec2>,
     crossed: Vec<bool>,
@@ -121,11 +122,11 @@ struct CrossingObserver<'a> {
 }
 
 impl<'a> CrossingObserver<'a> {
-    fn new(walls: &'a [ActiveWall]) -> Self {
+    pub(super) fn new(walls: &'a [ActiveWall]) -> Self {
         Self { walls, before: Vec::new(), crossed: Vec::new(), finite: true }
     }
 
-    fn observe(&mut self, positions: &[Vec2]) {
+    pub(super) fn observe(&mut self, positions: &[Vec2]) {
         self.finite &= positions.iter().all(|p| p.is_finite());
         if self.finite && !self.walls.is_empty() && !self.before.is_empty() {
             let edges = || self.walls.iter().flat_map(|wall| wall.points.windows(2));
@@ -137,8 +138,13 @@ impl<'a> CrossingObserver<'a> {
         self.before = positions.to_vec();
     }
 
+    /// Whether all positions so far were.
+    pub(super) fn is_finite(&self) -> bool {
+        self.finite
+    }
+
     /// Number of photons that went through a wall in any step.
-    fn crossed(&self) -> usize {
+    pub(super) fn crossed(&self) -> usize {
         self.crossed.iter().filter(|crossed| **crossed).count()
     }
 }

@@ -37,7 +37,7 @@ pub struct StabilityRow {
     pub note: String,
 }
 
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 17] = [
     "group",
     "case",
     "bound",
@@ -50,6 +50,8 @@ const COLUMNS: [&str; 15] = [
     "energy of",
     "crossings",
     "unreachable",
+    "misplaced",
+    "gap",
     "seconds",
     "verdict",
     "note",
@@ -71,7 +73,9 @@ impl Stability {
              it minimises. Flux: the relative error of the traced light over all its ends, of the photons' flux over time, and \
              of the texture, whichever is largest. Against 1 m: the relative difference of the flux that lands from that of the \
              same scene in metres. The condition number is that of the preconditioned matrix as conjugate gradients saw it \
-             (Lanczos), a bound from below; a solve that starts at its solution sees nothing.",
+             (Lanczos), a bound from below; a solve that starts at its solution sees nothing. Misplaced is the \
+             share of the light that a plan leaves at the wrong place, the gap how far the photons of both keys miss each other \
+             where they meet (root mean square, plane units).",
         );
         let mut table = Table::new("stability", "Rows in red miss their bound.", &COLUMNS);
         for row in &self.rows {
@@ -126,6 +130,8 @@ fn cells(row: &StabilityRow) -> Vec<Cell> {
         measured.energy_of.name().into(),
         measured.crossings.into(),
         measured.unreachable.into(),
+        measured.misplaced.into(),
+        measured.gap.into(),
         row.seconds.into(),
         if row.within { "within" } else { "missed" }.into(),
         row.note.as_str().into(),

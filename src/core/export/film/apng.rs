@@ -5,7 +5,7 @@ use std::io::Write;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, SrgbRenderingIntent};
 
 use super::delta::Window;
-use super::film_file::Film;
+use super::job::Film;
 use super::reel::CHANNELS;
 use super::timing::fraction;
 use crate::Result;

@@ -7,7 +7,7 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
 use super::delta::Window;
-use super::film_file::Film;
+use super::job::Film;
 use super::palette::Palette;
 use super::timing::gif_delays;
 use crate::Result;

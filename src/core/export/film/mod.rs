@@ -2,8 +2,8 @@
 
 mod apng;
 mod delta;
-mod film_file;
 mod gif;
+mod job;
 mod mp4;
 mod palette;
 mod reel;
@@ -11,7 +11,7 @@ mod timing;
 
 use std::path::Path;
 
-use film_file::Film;
+use self::job::Film;
 pub use reel::Reel;
 pub use timing::holds;
 

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use super::film_file::Film;
+use super::job::Film;
 use crate::{Error, Result};
 
 const PROGRAM: &str = "ffmpeg";

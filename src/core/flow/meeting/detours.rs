@@ -43,7 +43,7 @@ pub(super) struct Detours {
 }
 
 impl Detours {
-    /// For photons that move along `halves`; none where no wall stands around the meeting.
+    /// For photons that move along `halves`; none where no wall stands at any time.
     ///
     /// # Errors
     /// `Cancelled`.
@@ -52,15 +52,14 @@ impl Detours {
         halves: [&HalfTracks; 2],
         progress: &Progress,
     ) -> Result<Option<Self>> {
-        let Some(graph) = fields.walls_at_meeting() else { return Ok(None) };
+        let Some(graph) = fields.walls_at_any_time(progress)? else { return Ok(None) };
         let count = halves[0].count();
         let late = ((count as f64 * LATE) as usize).min(count - 1);
         let beside = [0, 1].map(|half| beside(fields, half, halves[half]));
         let mut all =
             Self { beside, steps: [late, count], detours: Vec::new(), violations: WallViolations::default() };
-        let rows = all.blocked(fields, halves, &graph, progress)?;
-        // A detour may take so long that other walls stand.
-        let Some(graph) = fields.walls_at_any_time(progress)? else { return Ok(None) };
+        let rows = all.blocked(fields, halves, progress)?;
+        // A detour may take so long that other walls stand than at the meeting.
         let detour = |&row: &u32| detour(fields, halves, &graph, row);
         all.detours = rows.par_iter().map(detour).collect();
         all.violations.unreachable = all.detours.iter().filter(|detour| !detour.clear).count();
@@ -91,14 +90,16 @@ impl Detours {
         &self,
         fields: &MeetingFields,
         halves: [&HalfTracks; 2],
-        graph: &VisibilityGraph,
         progress: &Progress,
     ) -> Result<Vec<u32>> {
         let [late, count] = self.steps;
         let (x, y) = (halves[0].end(), halves[1].end());
-        let barriers = graph.barriers();
-        let unseen = x.par_iter().zip(y).with_min_len(4096).map(|(a, b)| barriers.blocks(*a, *b));
-        let mut blocked: Vec<bool> = unseen.collect();
+        let mut blocked = vec![false; x.len()];
+        if let Some(graph) = fields.walls_at_meeting() {
+            let barriers = graph.barriers();
+            let pairs = blocked.par_iter_mut().zip(x).zip(y).with_min_len(4096);
+            pairs.for_each(|((blocked, a), b)| *blocked = barriers.blocks(*a, *b));
+        }
         for half in [0, 1] {
             let mut at = halves[half].after(late).to_vec();
             for done in late..count {

@@ -60,6 +60,18 @@ pub struct BridgeReport {
 /// `Value` when there are no photons or one is not finite; `Numeric` when the solver fails or a photon is lost; `Limit`
 /// for walls of too many corners; `Cancelled`.
 pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<MeetingFit> {
+    fit_meeting_with(segment, |plan| plan, progress)
+}
+
+/// As [`fit_meeting`] with other cells or sweeps of the plan, which `refine` sets: for those who measure what they are worth.
+///
+/// # Errors
+/// As [`fit_meeting`].
+pub fn fit_meeting_with(
+    segment: &MeetingSegment,
+    refine: impl FnOnce(BridgeSettings) -> BridgeSettings,
+    progress: &Progress,
+) -> Result<MeetingFit> {
     let MeetingSegment { extent, settings, number, walls, .. } = *segment;
     let guides = segment.guides()?;
     let even = (settings.steps as usize).next_multiple_of(2);
@@ -68,7 +80,7 @@ pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<Meet
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
     let fields = MeetingFields::new(steps.next_multiple_of(2), 0.0, turbulence, obstacles.clone());
     let standing = obstacles.as_deref().map_or_else(Vec::new, standing);
-    let fitter = MeetingFitter::new(segment, (fields, &standing), guides)?;
+    let fitter = MeetingFitter::new(segment, (fields, &standing), guides, refine)?;
     fitter.run(segment, progress)
 }
 
@@ -102,6 +114,7 @@ impl<'a> MeetingFitter<'a> {
         segment: &MeetingSegment<'a>,
         (fields, standing): (MeetingFields, &[WallsFrom<'a>]),
         photons: Vec<[Vec<Vec2>; 2]>,
+        refine: impl FnOnce(BridgeSettings) -> BridgeSettings,
     ) -> Result<Self> {
         let MeetingSegment { extent, settings, lines, .. } = *segment;
         let fit = fit_settings(settings, extent);
@@ -113,7 +126,9 @@ impl<'a> MeetingFitter<'a> {
             steps: fields.steps(),
             hold: settings.hold,
             density: settings.density,
+            sweeps: 1.0,
         };
+        let plan = refine(plan);
         let liquid = LIQUID * f64::from(settings.hold);
         let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
         Ok(Self {
@@ -130,9 +145,11 @@ impl<'a> MeetingFitter<'a> {
 
     fn run(mut self, segment: &MeetingSegment, progress: &Progress) -> Result<MeetingFit> {
         let half = self.fields.steps() / 2;
+        progress.begin("plan", 1);
+        self.renew(0, progress)?;
         progress.begin("fit", 2 * half as u64);
         for done in 0..half {
-            if done == 0 || done + UNPLANNED < half {
+            if done > 0 && done + UNPLANNED < half {
                 self.renew(done, progress)?;
             }
             for side in [0, 1] {

@@ -13,6 +13,8 @@ use crate::flow::field::Field;
 use crate::flow::fit::{Blend, FitReport, FitSettings, Fitter, LineTerm, Rows};
 use crate::{Progress, Result};
 
+/// Least length of smoothing, cells.
+const TIGHTEST: f64 = 0.3;
 /// Part of a half after which both potentials act in full.
 const RISE: f64 = 0.7;
 
@@ -32,6 +34,10 @@ impl LeadingFit {
     /// `Value` for a setting out of range.
     pub(super) fn new(settings: FitSettings, liquid: f64) -> Result<Self> {
         let gamma = settings.gamma;
+        // Tighter than a part of a cell, splines would swing between photons.
+        let [width, height] = settings.grid.cell_size();
+        let settings =
+            FitSettings { alpha: settings.alpha.max((TIGHTEST * width.min(height)).powi(2)), ..settings };
         let alone = |gamma: f64, alpha: f64| {
             Fitter::new(FitSettings {
                 gamma,

@@ -16,7 +16,7 @@ mod trajectories;
 mod wall_motion;
 
 pub use fields::MeetingFields;
-pub use fit::{BridgeReport, MeetingFit, fit_meeting};
+pub use fit::{BridgeReport, MeetingFit, fit_meeting, fit_meeting_with};
 pub use segment::MeetingSegment;
 pub use tracks::HalfTracks;
 pub use trajectories::{MeetingTrajectories, meeting_report};

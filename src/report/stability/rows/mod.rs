@@ -3,6 +3,7 @@
 mod constraints;
 mod fit;
 mod flow;
+mod meeting;
 mod pictures;
 mod row;
 mod scene;
@@ -17,7 +18,7 @@ pub(super) struct Group {
 }
 
 /// All groups, in the order of the table.
-pub(super) const GROUPS: [Group; 11] = [
+pub(super) const GROUPS: [Group; 12] = [
     Group { name: "gamma and alpha", rows: fit::gamma_and_alpha },
     Group { name: "beta", rows: constraints::beta },
     Group { name: "grid", rows: flow::grid },
@@ -27,6 +28,7 @@ pub(super) const GROUPS: [Group; 11] = [
     Group { name: "target", rows: pictures::target },
     Group { name: "receiver", rows: scene::receiver },
     Group { name: "walls", rows: constraints::walls },
+    Group { name: "meeting", rows: meeting::meeting },
     Group { name: "lines", rows: constraints::lines },
     Group { name: "glass", rows: scene::glass },
 ];

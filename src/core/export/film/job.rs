@@ -1,4 +1,4 @@
-//! A film to be written, and the file it becomes.
+//! One film to be written, for the encoders.
 
 use std::io::{self, Write};
 use std::path::Path;
