@@ -62,7 +62,7 @@ mod pace {
     /// Camera samples towards the receiver per second.
     pub(super) const LOOKS: f64 = 2.0e6;
     /// Light paths of the background per second.
-    pub(super) const PATHS: f64 = 0.3e6;
+    pub(super) const PATHS: f64 = 0.5e6;
     /// Pixels gathered, encoded and written per second.
     pub(super) const WRITE: f64 = 4.7e6;
     /// Pixels of a film encoded per second.

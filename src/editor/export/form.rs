@@ -50,9 +50,10 @@ pub(super) fn show(
         });
         let tip = "What EXR files hold. Without beauty and background none is traced: PNG files show the caustics on black.";
         row(ui, "Layers", tip, &mut options.layers, &own.layers, |ui, layers| {
-            ui.set_max_width(LAYERS_WIDTH);
-            ui.horizontal_wrapped(|ui| {
-                layer_boxes(ui, layers, !editor.document.project().caustics.is_empty());
+            ui.vertical(|ui| {
+                ui.set_max_width(LAYERS_WIDTH);
+                let named = !editor.document.project().caustics.is_empty();
+                ui.horizontal_wrapped(|ui| layer_boxes(ui, layers, named));
             });
         });
         let tip = "Without a limit all passes are rendered. The first pass is always completed.";

@@ -63,7 +63,9 @@ impl Player {
         }
         let mut open = true;
         let window = egui::Window::new("Player").open(&mut open).collapsible(false).resizable(true);
-        window.default_size([760.0, 500.0]).min_size([420.0, 260.0]).show(ctx, |ui| {
+        let middle = ctx.content_rect().center() - vec2(380.0, 260.0);
+        let window = window.default_pos(middle).default_size([760.0, 500.0]).min_size([420.0, 260.0]);
+        window.show(ctx, |ui| {
             ui.horizontal(|ui| {
                 if ui.button("Open frames…").clicked() {
                     let folder = self.place.as_deref().map(|place| match place.is_dir() {

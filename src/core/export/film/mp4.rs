@@ -72,10 +72,10 @@ fn start(film: &Film, out: &Path) -> Result<Child> {
     command.args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"]);
     command.args(["-video_size", &format!("{width}x{height}"), "-framerate", &format!("{frames}/{seconds}")]);
     command.args(["-i", "-", "-an"]);
-    // Chroma is stored for pairs of pixels, so sides are made even; the matrix is that of the tags.
-    let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
-    command.args(["-vf", even, "-c:v", ENCODER, "-crf", RATE_FACTOR, "-preset", "slow"]);
-    command.args(["-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709"]);
+    // Chroma is stored for pairs of pixels, so sides are made even; players ask the tags how to show colours.
+    let filters = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p,\
+        setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709";
+    command.args(["-vf", filters, "-c:v", ENCODER, "-crf", RATE_FACTOR, "-preset", "slow"]);
     command.args(["-movflags", "+faststart"]).arg(out);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
     command.spawn().map_err(|error| Error::format(film.path, "", missing(&error)))
