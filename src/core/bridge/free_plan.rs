@@ -28,12 +28,14 @@ const FIRST_SELF_SWEEPS: usize = 12;
 pub(super) struct FreePlan {
     settings: BridgeSettings,
     blur: Gaussian,
-    /// Factors of the later end from the last plan.
+    /// Factors of the end that is scaled last, from the last plan.
     scale: Option<Vec<f64>>,
     own: [SelfTransport; 2],
-    /// Blurred density around each photon at its key frame, by side.
+    /// Blurred density around each photon at its key frame, in the order of scaling.
     birth: [Vec<f32>; 2],
     error: f64,
+    /// Whether the later light is scaled first. The order is that of the photons, so that exchanged keys have the same plan.
+    exchanged: bool,
 }
 
 /// The transport of a density onto itself.
@@ -46,7 +48,15 @@ struct SelfTransport {
 impl FreePlan {
     pub(super) fn new(settings: BridgeSettings, cells: &Cells) -> Self {
         let blur = Gaussian::new(cells.size, BLUR * BLUR);
-        Self { settings, blur, scale: None, own: Default::default(), birth: Default::default(), error: 0.0 }
+        Self {
+            settings,
+            blur,
+            scale: None,
+            own: Default::default(),
+            birth: Default::default(),
+            error: 0.0,
+            exchanged: false,
+        }
     }
 
     /// The misplaced share of the light after the last renewal.
@@ -56,6 +66,26 @@ impl FreePlan {
 
     /// Makes the plan anew after `done` steps; the velocities in cells of both sides, each towards the other.
     pub(super) fn velocities(
+        &mut self,
+        cells: &Cells,
+        done: usize,
+        photons: [&[Vec2]; 2],
+        progress: &Progress,
+    ) -> Result<[Vec<Vec2>; 2]> {
+        let [earlier, later] = photons;
+        if done == 0 {
+            let bits = |p: &Vec2| [p.x.to_bits(), p.y.to_bits()];
+            self.exchanged = later.iter().map(bits).lt(earlier.iter().map(bits));
+        }
+        if !self.exchanged {
+            return self.ordered_velocities(cells, done, photons, progress);
+        }
+        let [of_later, of_earlier] = self.ordered_velocities(cells, done, [later, earlier], progress)?;
+        Ok([of_earlier, of_later])
+    }
+
+    /// The same for photons in the order of scaling.
+    fn ordered_velocities(
         &mut self,
         cells: &Cells,
         done: usize,

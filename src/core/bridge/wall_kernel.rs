@@ -203,11 +203,17 @@ impl WallKernel {
 
     /// The velocity of the planned light in step `k` in each cell, plane units per step: half the mean move of the light that
     /// is there from here on, and half that of the light that is there then until now. Zero where there is none.
-    pub(super) fn velocity(&mut self, k: usize, cells: &Cells) -> Vec<Vec2> {
+    ///
+    /// Where walls change after the step, light of the side `alone` must be through by then, which its own moves alone know.
+    pub(super) fn velocity(&mut self, k: usize, cells: &Cells, alone: Option<usize>) -> Vec<Vec2> {
         let goes = self.factored(1, k + 1);
         let comes = self.factored(0, k);
         let [onward, back] = [goes, comes].map(|light| self.mean_moves(k, &light, cells));
-        onward.iter().zip(&back).map(|(onward, back)| 0.5 * (*onward - *back)).collect()
+        match alone {
+            None => onward.iter().zip(&back).map(|(onward, back)| 0.5 * (*onward - *back)).collect(),
+            Some(0) => onward,
+            Some(_) => back.iter().map(|back| -*back).collect(),
+        }
     }
 
     /// The density from `side` at the begin of step `k`, times the factor there.

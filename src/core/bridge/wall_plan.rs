@@ -151,7 +151,9 @@ impl Made {
             .collect();
         let per_step = if side == 0 { steps as f32 } else { -(steps as f32) };
         let back = gradients(cells, here, &excess);
-        let planned = self.kernel.velocity(step, cells);
+        let next = if side == 0 { step + 1 } else { step.saturating_sub(1) };
+        let alone = (walls.run_of(next) != walls.run_of(step)).then_some(side);
+        let planned = self.kernel.velocity(step, cells, alone);
         planned.iter().zip(back).map(|(v, back)| per_step * *v - diffusion as f32 * back).collect()
     }
 }

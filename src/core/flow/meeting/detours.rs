@@ -19,6 +19,8 @@ const LATE: f64 = 0.8;
 /// Parts of a half at which a detour may leave the track; the last that does not ask for more than this speed, over the mean one.
 const LEAVES: [f64; 5] = [0.8, 0.6, 0.4, 0.2, 0.0];
 const FASTEST: f32 = 3.0;
+/// The same where no path leads from those, however fast: walls that stand for a while may have opened or closed since.
+const LEAVES_LATE: [f64; 2] = [0.9, 1.0];
 
 /// The path of a photon around walls from its track in the first half to that in the second.
 struct Detour {
@@ -146,30 +148,33 @@ impl Detours {
 
 /// The detour of a photon: as late as its speed allows, straight through the walls where no path leads around.
 fn detour(fields: &MeetingFields, halves: [&HalfTracks; 2], graph: &VisibilityGraph, row: u32) -> Detour {
-    let [forward, backward] = halves;
-    let count = forward.count();
+    let count = halves[0].count();
     let limit = FASTEST * fields.mean_way();
-    let mut last = None;
-    for leaves in LEAVES {
+    let from = |leaves: f64| {
         let done = ((count as f64 * leaves) as usize).min(count - 1);
-        let (from, to) = (forward.after(done)[row as usize], backward.after(done)[row as usize]);
-        let points = 2 * SUBSTEPS * (count - done);
-        let begin = done as f64 / fields.steps() as f64;
-        let Some(path) = around(graph, from, to, points) else {
-            last = last.or_else(|| {
-                let path = (0..=points).map(|i| from.lerp(to, i as f32 / points as f32)).collect();
-                Some(Detour { row, begin, path, clear: false })
-            });
-            continue;
-        };
+        let ends = halves.map(|half| half.after(done)[row as usize]);
+        (done as f64 / fields.steps() as f64, ends, 2 * SUBSTEPS * (count - done))
+    };
+    let clear = |leaves: &f64| {
+        let (begin, [a, b], points) = from(*leaves);
+        Some(Detour { row, begin, path: around(graph, a, b, points)?, clear: true })
+    };
+    let slow = |Detour { begin, path, .. }: &Detour| {
         let length: f32 = path.windows(2).map(|ends| ends[0].distance(ends[1])).sum();
-        let found = Detour { row, begin, path, clear: true };
-        if length <= limit * (1.0 - 2.0 * begin) as f32 {
+        length <= limit * (1.0 - 2.0 * begin) as f32
+    };
+    let mut last = None;
+    for found in LEAVES.iter().filter_map(clear) {
+        if slow(&found) {
             return found;
         }
         last = Some(found);
     }
-    last.unwrap_or(Detour { row, begin: 0.5, path: Vec::new(), clear: false })
+    last.or_else(|| LEAVES_LATE.iter().find_map(clear)).unwrap_or_else(|| {
+        let (begin, [a, b], points) = from(LEAVES[0]);
+        let path = (0..=points).map(|i| a.lerp(b, i as f32 / points as f32)).collect();
+        Detour { row, begin, path, clear: false }
+    })
 }
 
 /// Whether each photon comes near a wall on its track.

@@ -192,20 +192,19 @@ impl Kinematics for MeetingTrajectories<'_> {
         let second = usize::from(t > 0.5);
         let since = (if second == 0 { t } else { 1.0 - t }).clamp(0.0, 0.5);
         let done = ((since * self.fields.steps() as f64) as usize).min(self.fields.steps() / 2 - 1);
-        let Some(walls) = WallMotion::new(self.fields, second, done) else {
-            return self.each(t, out, |_, curve, gap, [share, _]| curve.position() + share * gap);
-        };
-        let stages = self.fields.step(second, done);
+        let walls =
+            WallMotion::new(self.fields, second, done).map(|walls| (walls, self.fields.step(second, done)));
         let h = if second == 0 { 1.0 } else { -1.0 } / self.fields.steps() as f32;
+        // Also in steps without walls: they may have stood before, or come.
         let detours = self.detours.as_ref().and_then(Option::as_ref);
         let sign = if second == 0 { 1.0 } else { -1.0 };
         self.each(t, out, |row, curve, gap, [early, _]| {
             let [_, begin, ..] = curve.points;
             let share =
                 detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
-            let at = match walls.is_far(begin) {
-                true => curve.position(),
-                false => walls.advance(&stages, h, begin, curve.x),
+            let at = match &walls {
+                Some((walls, stages)) if !walls.is_far(begin) => walls.advance(stages, h, begin, curve.x),
+                _ => curve.position(),
             };
             at + share * gap
         });
