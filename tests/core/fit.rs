@@ -180,7 +180,7 @@ fn the_fit_agrees_with_a_cholesky_factorisation_of_independent_rows() {
         let (positions, velocities) = photons(3000, settings.grid.extent);
         let mut fitter = Fitter::new(settings).unwrap();
         let (field, report) = fitter.fit(&positions, &velocities, &Progress::new()).unwrap();
-        assert!(report.residual <= 1e-10);
+        assert!(report.error <= 1e-10);
         let [psi, phi] = reference(&settings, &positions, &velocities);
         let (fitted_psi, fitted_phi) = fitter.potentials();
         let apart =
@@ -205,7 +205,7 @@ fn with_walls_the_energy_has_its_minimum_at_the_fit_too() {
         let mut fitter = Fitter::new(settings).unwrap();
         fitter.set_no_penetration(Some(NoPenetrationRows { positions: &places, normals: &normals, weight }));
         let (field, report) = fitter.fit(&positions, &velocities, &Progress::new()).unwrap();
-        assert!(report.residual <= 1e-10);
+        assert!(report.error <= 1e-10);
         let at = |potentials: &[Vec<f32>; 2]| {
             let field = Field::from_potentials(settings.grid, &potentials[0], &potentials[1]);
             let through = |(p, n): (&Vec2, &Vec2)| {
@@ -386,7 +386,7 @@ fn extreme_settings_and_photons_stay_finite_and_are_solved() {
                 let place = (positions.len(), gamma, alpha, report);
                 // At 1e-12 an empty cell weighs 1e-12 of a lit one: twelve digits apart, three are left to ask for.
                 let reachable = if alpha > 1e-9 { 1e-6 } else { 1e-3 };
-                assert!(report.residual <= reachable, "{place:?}");
+                assert!(report.error <= reachable, "{place:?}");
                 assert!(points(field.grid()).all(|p| field.velocity(p).is_finite()), "{place:?}");
             }
         }

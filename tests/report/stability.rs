@@ -52,7 +52,7 @@ fn nothing_is_not_a_number_not_even_where_a_bound_is_missed() {
         assert!(measured.finite, "{row:?}");
         let numbers = [
             measured.endpoint_error,
-            measured.solver_residual,
+            measured.solver_error,
             measured.condition,
             measured.energy,
             Some(row.seconds),
@@ -74,7 +74,7 @@ fn the_files_hold_every_row_and_mark_those_that_miss() {
     let csv = read("stability.csv");
     assert_eq!(csv.matches(",within,").count(), table.rows.len() - table.missed().count());
     assert_eq!(csv.matches(",missed,").count(), table.missed().count());
-    assert!(table.to_json().contains("\"solver_residual\""));
+    assert!(table.to_json().contains("\"solver_error\""));
 }
 
 #[test]

@@ -11,8 +11,9 @@ use crate::{Progress, Result};
 pub struct Solved {
     /// Iterations made.
     pub iterations: usize,
-    /// |b - A x| / |b|.
-    pub residual: f64,
+    /// Error of the solution as the preconditioner M sees it, sqrt(r^T M^-1 r / energy) with the residual r. For an exact M it is that
+    /// of x in the norm of A.
+    pub error: f64,
 }
 
 /// A x = b.
@@ -25,6 +26,8 @@ pub struct LinearSystem<'a> {
     pub null: &'a [GridVector<f64>],
     /// b.
     pub right: &'a GridVector<f64>,
+    /// The square of a length that errors are relative to, in the norm of A.
+    pub energy: f64,
 }
 
 /// Storage of conjugate gradients for vectors of one shape.
@@ -35,7 +38,6 @@ pub struct ConjugateGradients {
     /// -A direction.
     image: GridVector<f64>,
     preconditioned: GridVector<f64>,
-    single: [GridVector<f32>; 2],
     /// Of the iterations of the last solve.
     coefficients: Vec<Coefficients>,
 }
@@ -44,14 +46,12 @@ impl ConjugateGradients {
     /// Storage for vectors like `shape`.
     pub fn new(shape: &GridVector<f64>) -> Self {
         let zero = || GridVector::zero(shape.layout, shape.components);
-        let single = || GridVector::zero(shape.layout, shape.components);
         Self {
             residual: zero(),
             previous: zero(),
             direction: zero(),
             image: zero(),
             preconditioned: zero(),
-            single: [single(), single()],
             coefficients: Vec::new(),
         }
     }
@@ -61,8 +61,9 @@ impl ConjugateGradients {
         condition(&self.coefficients)
     }
 
-    /// Improves `x` until |b - A x| <= `tolerance` |b| or `max_iterations` are made. The preconditioner works in single
-    /// precision, so it is not quite the same linear map each time: beta is the flexible one (Notay 2000).
+    /// Improves `x` until its error is at most `tolerance` or `max_iterations` are made. The residual alone tells little: where
+    /// some rows weigh a million times what others do, it is theirs. The preconditioner works in single precision, so it is
+    /// not quite the same linear map each time: beta is the flexible one (Notay 2000).
     ///
     /// # Errors
     /// `Cancelled`.
@@ -73,26 +74,29 @@ impl ConjugateGradients {
         (tolerance, max_iterations): (f64, usize),
         progress: &Progress,
     ) -> Result<Solved> {
-        let LinearSystem { operator, preconditioner, null, right } = system;
+        let LinearSystem { operator, preconditioner, null, right, energy } = system;
         self.coefficients.clear();
-        let scale = right.dot(right).sqrt();
-        if scale == 0.0 {
+        if right.dot(right) == 0.0 {
             x.clear();
-            return Ok(Solved { iterations: 0, residual: 0.0 });
+            return Ok(Solved { iterations: 0, error: 0.0 });
         }
         self.residual.convert(1.0, right);
         operator.subtract_product(x, &mut self.residual);
         self.residual.remove(null);
-        let mut norm = self.residual.dot(&self.residual).sqrt();
         let mut rho = 1.0;
         let mut iterations = 0;
-        while norm > tolerance * scale && iterations < max_iterations {
+        loop {
             progress.check()?;
-            self.single[0].convert(1.0 / norm, &self.residual);
-            let [right, solution] = &mut self.single;
-            preconditioner.apply(right, solution);
-            self.preconditioned.convert(norm, solution);
+            let norm = self.residual.dot(&self.residual).sqrt();
+            if norm == 0.0 {
+                return Ok(Solved { iterations, error: 0.0 });
+            }
+            preconditioner.apply(&self.residual, norm, &mut self.preconditioned);
             let rho_new = self.preconditioned.dot(&self.residual);
+            let error = (rho_new.abs() / energy).sqrt();
+            if error <= tolerance || iterations >= max_iterations {
+                return Ok(Solved { iterations, error });
+            }
             let beta =
                 if iterations == 0 { 0.0 } else { (rho_new - self.preconditioned.dot(&self.previous)) / rho };
             if iterations == 0 {
@@ -103,7 +107,7 @@ impl ConjugateGradients {
             operator.subtract_product(&self.direction, &mut self.image);
             let step = self.direction.dot(&self.residual) / -self.direction.dot(&self.image);
             if !(step.is_finite() && rho_new > 0.0) {
-                break;
+                return Ok(Solved { iterations, error });
             }
             self.coefficients.push(Coefficients { step, beta });
             x.combine(1.0, step, &self.direction);
@@ -111,10 +115,8 @@ impl ConjugateGradients {
             self.residual.combine(1.0, step, &self.image);
             // In exact arithmetic it is orthogonal to the null space; rounding errors in it would grow in the preconditioner.
             self.residual.remove(null);
-            norm = self.residual.dot(&self.residual).sqrt();
             rho = rho_new;
             iterations += 1;
         }
-        Ok(Solved { iterations, residual: norm / scale })
     }
 }
