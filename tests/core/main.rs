@@ -15,6 +15,7 @@ mod field;
 mod figures;
 mod film;
 mod fit;
+mod fit_reference;
 mod layers;
 mod lines;
 mod matching;
@@ -36,6 +37,7 @@ mod render;
 mod sampling;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod stiff_fits;
 mod tracks;
 mod turbulence;
 mod walls;

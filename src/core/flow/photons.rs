@@ -159,11 +159,11 @@ impl<'a> GuidedPhotons<'a> {
         let share = fade.share(t) as f32;
         let mut at = zero();
         self.positions(t, &mut at);
-        let fitted = |p: Vec2| step.velocities.as_ref().map_or(Vec2::ZERO, |[begin, ..]| begin.field.velocity(p));
+        let fitted =
+            |p: Vec2| step.velocities.as_ref().map_or(Vec2::ZERO, |[begin, ..]| begin.field.velocity(p));
         let limits = guidance.par_iter().zip(&at).zip(&self.inverse_speed_limits);
-        let field_shares = limits
-            .map(|((v, &p), limit)| share * ease(v.length().max(fitted(p).length()) * limit))
-            .collect();
+        let field_shares =
+            limits.map(|((v, &p), limit)| share * ease(v.length().max(fitted(p).length()) * limit)).collect();
         Steering { velocities, guidance, field_shares }
     }
 

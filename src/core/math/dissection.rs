@@ -130,7 +130,8 @@ mod tests {
     #[test]
     fn parts_do_not_touch_and_borders_hold_all_that_is_linked() {
         let size = [40, 23];
-        for keep in [|_: usize, _: usize| true, |x, y| (x * 7 + y * 13) % 5 < 2, |x, y| x.abs_diff(2 * y) < 4] {
+        for keep in [|_: usize, _: usize| true, |x, y| (x * 7 + y * 13) % 5 < 2, |x, y| x.abs_diff(2 * y) < 4]
+        {
             let all = Dissection::new(nodes(size, keep), size);
             assert_eq!(all.order.len(), nodes(size, keep).len());
             let mut begins: Vec<usize> = Vec::new();
@@ -142,7 +143,8 @@ mod tests {
                         let [[x, y], [to_x, to_y]] = [all.order[pivot], all.order[other]];
                         assert_eq!([x as isize + dx, y as isize + dy], [to_x as isize, to_y as isize]);
                         // In its own part, or still to come and on the border.
-                        let known = (begin..front.pivots.end).contains(&other) || front.border.contains(&other);
+                        let known =
+                            (begin..front.pivots.end).contains(&other) || front.border.contains(&other);
                         assert!(known, "{other} of {pivot}");
                     }
                 }

@@ -154,14 +154,8 @@ impl EnergyOf {
 impl Measured {
     /// Whether all numbers that are present are finite.
     fn is_finite(&self) -> bool {
-        let numbers = [
-            self.endpoint_error,
-            self.solver_error,
-            self.condition,
-            self.energy,
-            self.misplaced,
-            self.gap,
-        ];
+        let numbers =
+            [self.endpoint_error, self.solver_error, self.condition, self.energy, self.misplaced, self.gap];
         self.finite && numbers.into_iter().flatten().all(f64::is_finite)
     }
 }
