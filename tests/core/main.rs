@@ -11,6 +11,7 @@ mod continuity;
 mod crossing;
 mod engine;
 mod export;
+mod fast_fields;
 mod field;
 mod figures;
 mod film;
