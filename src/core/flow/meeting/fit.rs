@@ -131,11 +131,14 @@ impl<'a> MeetingFitter<'a> {
         let plan = refine(plan);
         let liquid = LIQUID * f64::from(settings.hold);
         let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
+        let widths = lines.iter().map(|line| line.width);
+        let line_width = (settings.beta > 0.0).then(|| widths.reduce(f32::min)).flatten();
+        let leading = || LeadingFit::new(fit, liquid, line_width);
         Ok(Self {
             fields,
             bridges: photons.iter().map(|_| Bridge::new(plan, standing)).collect(),
             photons,
-            fits: [LeadingFit::new(fit, liquid)?, LeadingFit::new(fit, liquid)?],
+            fits: [leading()?, leading()?],
             lines: [0, 1].map(of_half),
             grid: fit.grid,
             statistics: FitStatistics::default(),
