@@ -155,8 +155,7 @@ impl App {
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
-                    let what =
-                        "their folder 'projects' is neither beside the program nor in the current folder";
+                    let what = "They are not beside the program, and cannot be written into your folder.";
                     return self.show_message("The examples are missing".into(), what.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
