@@ -172,18 +172,24 @@ impl App {
     /// Updates the preview's subject and views.
     fn follow(&mut self) {
         self.editor.preview.draw_by_card(self.draws_on_gpu());
-        let subject = Subject {
+        let subject = self.subject();
+        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
+    }
+
+    /// The open project, and the place of its files.
+    fn subject(&self) -> Subject {
+        Subject {
             project: self.editor.document.project().clone(),
             base: templates::file_of(&self.editor.document),
             external: self.external,
-        };
-        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
+        }
     }
 
     /// Replaces the document.
     fn replace(&mut self, document: Document) {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
+        self.views.forget_pictures();
         self.external = false;
     }
 }
