@@ -47,7 +47,9 @@ impl App {
             self.views.show(ui, editor, &mut self.toolbox);
             if let Some(problem) = editor.preview.problem().map(str::to_owned) {
                 // Over the views: nothing moves away under the pointer.
-                let place = egui::Area::new(egui::Id::unique("problem")).fixed_pos(views.min).order(egui::Order::Middle);
+                let place = egui::Area::new(egui::Id::unique("problem"))
+                    .fixed_pos(views.min)
+                    .order(egui::Order::Middle);
                 place.show(ui.ctx(), |ui| {
                     banner(ui).show(ui, |ui| {
                         ui.set_width(views.width() - 24.0);
