@@ -162,7 +162,7 @@ impl App {
     /// Moves the playhead by the time that passed.
     fn play(&mut self, ctx: &egui::Context) {
         let frames = playback::played(self.editor.document.project(), &self.editor.session);
-        let fps = playback::fps(self.editor.document.project());
+        let fps = playback::fps(self.editor.document.project()) * self.editor.session.speed;
         let seconds = ctx.input(|input| input.stable_dt).into();
         if let Some(next) = self.playback.advance(&mut self.editor.session, &frames, fps, seconds) {
             ctx.request_repaint_after(Duration::from_secs_f64(next));
