@@ -1,5 +1,7 @@
 //! The diagnosis of a scene without caustics: the first condition that fails, with the objects concerned.
 
+use glam::{BVec3, Vec3};
+
 use super::FluxBalance;
 use crate::Error;
 use crate::scene::light::LightRole;
@@ -78,6 +80,14 @@ fn obstacle(scene: &Scene, light: &LightDesc) -> String {
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
     if let Some(mesh) = specular().find(|mesh| light.encloses_box(mesh.lower, mesh.upper)) {
         return format!("'{}' stands inside the ball, which shines outward only", mesh.name);
+    }
+    let is_lit = |mesh: &Mesh| {
+        let corner = |i: u32| Vec3::select(BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), mesh.upper, mesh.lower);
+        let points = (0..8).map(corner).chain([(mesh.lower + mesh.upper) / 2.0]);
+        points.into_iter().any(|point| light.illuminate(point, [0.5; 2]).is_some())
+    };
+    if !specular().any(is_lit) {
+        return "it shines past them; turn it to one of them".to_owned();
     }
     let before = |mesh: &Mesh| {
         let offset = (mesh.lower + mesh.upper) / 2.0 - light.position()?;
