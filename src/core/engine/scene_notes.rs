@@ -16,9 +16,11 @@ pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<String>
 fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<String> {
     let why = match receiver_view(scene, [render.width as usize, render.height as usize]) {
         ReceiverView::Seen => return None,
-        ReceiverView::Back => "it stands behind the receiver, whose back no light reaches; move scene.camera.position \
+        ReceiverView::Back => {
+            "it stands behind the receiver, whose back no light reaches; move scene.camera.position \
              to the lit side, or turn the receiver"
-            .to_owned(),
+                .to_owned()
+        }
         ReceiverView::Outside => {
             let receiver = scene.receiver();
             let [x, y, z] = receiver.world_from_plane(receiver.extent() / 2.0).to_array();

@@ -82,7 +82,8 @@ fn obstacle(scene: &Scene, light: &LightDesc) -> String {
         return format!("'{}' stands inside the ball, which shines outward only", mesh.name);
     }
     let is_lit = |mesh: &Mesh| {
-        let corner = |i: u32| Vec3::select(BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), mesh.upper, mesh.lower);
+        let corner =
+            |i: u32| Vec3::select(BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), mesh.upper, mesh.lower);
         let points = (0..8).map(corner).chain([(mesh.lower + mesh.upper) / 2.0]);
         points.into_iter().any(|point| light.illuminate(point, [0.5; 2]).is_some())
     };

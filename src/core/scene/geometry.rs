@@ -145,7 +145,10 @@ impl Geometry {
             SurfaceId::Mesh(mesh) => leave(mesh, &mut before, &mut after),
             SurfaceId::Contact(contact) => {
                 let sides = &self.contacts[contact as usize].sides;
-                sides.iter().filter(|side| side.1 != inward).for_each(|side| leave(side.0, &mut before, &mut after));
+                sides
+                    .iter()
+                    .filter(|side| side.1 != inward)
+                    .for_each(|side| leave(side.0, &mut before, &mut after));
                 sides.iter().filter(|side| side.1 == inward).for_each(|side| after.enter(side.0));
             }
             SurfaceId::Receiver | SurfaceId::Floor => (),

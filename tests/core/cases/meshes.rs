@@ -138,7 +138,8 @@ fn a_cavity_is_no_mirrored_part() {
 #[test]
 fn units_are_hinted_at_from_a_factor_of_twenty() {
     // The ball is .24 m wide over a receiver of 1 m.
-    for (scale, told) in [(1000.0, true), (100.0, true), (84.0, true), (80.0, false), (1.0, false), (0.1, false), (0.01, true)]
+    for (scale, told) in
+        [(1000.0, true), (100.0, true), (84.0, true), (80.0, false), (1.0, false), (0.1, false), (0.01, true)]
     {
         let mut stage = stage(&ball(|_, faces| faces));
         stage.desc.meshes[0].transform.scale = scale;

@@ -22,7 +22,14 @@ const PHOTONS: usize = 16_384;
 /// A lamp of 5 W above the middle, or aslant.
 fn lamp(position: [f32; 3], angle_deg: f32) -> LightDesc {
     let name = "lamp".into();
-    LightDesc::Spot(SpotLight { name, watts: 5.0, position, target: [0.0, 0.05, 0.0], angle_deg, ..Default::default() })
+    LightDesc::Spot(SpotLight {
+        name,
+        watts: 5.0,
+        position,
+        target: [0.0, 0.05, 0.0],
+        angle_deg,
+        ..Default::default()
+    })
 }
 
 /// The caustics' flux on the receiver (W).

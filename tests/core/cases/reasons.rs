@@ -20,13 +20,21 @@ fn wall(stage: &mut Stage, lower: Vec3, upper: Vec3) {
 }
 
 fn around(radius: f32) -> LightDesc {
-    LightDesc::Sphere(SphereLight { name: "sun".into(), position: [0.0, 0.2, 0.0], radius, ..Default::default() })
+    LightDesc::Sphere(SphereLight {
+        name: "sun".into(),
+        position: [0.0, 0.2, 0.0],
+        radius,
+        ..Default::default()
+    })
 }
 
 /// A change of the scene with the ball, and words of the note or of the error.
 fn table() -> Vec<(fn(&mut Stage), &'static [&'static str])> {
     vec![
-        (|s| s.desc.camera.look_at = [0.0, 2.0, 3.0], &["note", "camera sees nothing of the receiver", "look_at"]),
+        (
+            |s| s.desc.camera.look_at = [0.0, 2.0, 3.0],
+            &["note", "camera sees nothing of the receiver", "look_at"],
+        ),
         (
             |s| (s.desc.camera.position, s.desc.camera.look_at) = ([0.0, -1.0, 0.5], [0.0; 3]),
             &["note", "camera sees nothing", "behind the receiver"],
@@ -53,14 +61,20 @@ fn table() -> Vec<(fn(&mut Stage), &'static [&'static str])> {
         (|s| s.desc.meshes[0].transform.scale = 1000.0, &["note", "other units", "transform.scale (0.001"]),
         (
             |s| {
-                s.file("ball.obj", format!("mtllib lost.mtl\nusemtl Glass\n{}", box_obj(Vec3::ZERO, Vec3::ONE)));
+                s.file(
+                    "ball.obj",
+                    format!("mtllib lost.mtl\nusemtl Glass\n{}", box_obj(Vec3::ZERO, Vec3::ONE)),
+                );
                 s.desc.meshes[0].material = None;
             },
             &["error", "no mesh is of glass or a mirror: 'ball' is matt", "lost.mtl", "note: ball"],
         ),
         (
             |s| {
-                s.file("thing.obj", format!("mtllib lost.mtl\nusemtl Glass\n{}", box_obj(Vec3::ZERO, Vec3::ONE)));
+                s.file(
+                    "thing.obj",
+                    format!("mtllib lost.mtl\nusemtl Glass\n{}", box_obj(Vec3::ZERO, Vec3::ONE)),
+                );
                 s.mesh("late", "v 0 0 0\n", None);
                 s.desc.meshes[0].file = "thing.obj".into();
                 s.desc.meshes[0].material = None;

@@ -55,7 +55,8 @@ pub(super) fn triangles(
         if turned == kept.len() {
             note(turned, "triangles faced inward; the mesh was turned inside out");
         } else {
-            let what = format!("of {} triangles faced inward, as after mirroring, and were turned", kept.len());
+            let what =
+                format!("of {} triangles faced inward, as after mirroring, and were turned", kept.len());
             note(turned, &what);
         }
         let (open, inconsistent) = Sides::new(&vertices(&kept)).faulty();
@@ -86,7 +87,13 @@ impl Doubled {
         // From the lowest vertex on, then whether the winding is that of ascending vertices.
         let key = |face: u32| {
             let [a, b, c] = faces[face as usize];
-            let [a, b, c] = if a < b && a < c { [a, b, c] } else if b < c { [b, c, a] } else { [c, a, b] };
+            let [a, b, c] = if a < b && a < c {
+                [a, b, c]
+            } else if b < c {
+                [b, c, a]
+            } else {
+                [c, a, b]
+            };
             ([a, b.min(c), b.max(c)], b < c)
         };
         let mut order: Vec<u32> = (0..faces.len() as u32).collect();
