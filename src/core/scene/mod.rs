@@ -101,7 +101,9 @@ impl Scene {
         // More than one only by rounding, at an edge.
         for _ in 0..8 {
             let hit = found.filter(|hit| on.contains(hit));
-            let Some((hit, floor)) = hit.and_then(|hit| Some((hit, self.receiver.hit_at(&hit)?))) else { break };
+            let Some((hit, floor)) = hit.and_then(|hit| Some((hit, self.receiver.hit_at(&hit)?))) else {
+                break;
+            };
             if ray.from != Primitive::FLOOR {
                 return Some(floor);
             }

@@ -22,7 +22,8 @@ pub(super) struct Touch {
 /// One note for each pair, with what it means.
 pub(super) fn notes(meshes: &[Mesh], touches: &BTreeSet<Touch>) -> Vec<String> {
     // Matt parts of one mesh that lie in one another are seen as one.
-    let is_odd = |touch: &&Touch| touch.meshes[0] != touch.meshes[1] || is_glass(&meshes[touch.meshes[0] as usize]);
+    let is_odd =
+        |touch: &&Touch| touch.meshes[0] != touch.meshes[1] || is_glass(&meshes[touch.meshes[0] as usize]);
     let count = touches.iter().filter(is_odd).count();
     let mut notes: Vec<String> =
         touches.iter().filter(is_odd).take(MOST).map(|touch| note(meshes, touch)).collect();

@@ -100,7 +100,9 @@ impl Glass {
         beam: &mut Beam,
         rng: &mut Stream,
     ) -> Vec3 {
-        let Some(boundary) = Boundary::met(self, geometry, hit, direction, beam, rng) else { return direction };
+        let Some(boundary) = Boundary::met(self, geometry, hit, direction, beam, rng) else {
+            return direction;
+        };
         boundary.cross(hit, direction, rng.f32(), beam)
     }
 
