@@ -138,7 +138,7 @@ fn the_light_of_each_caustic_is_kept_over_time() {
         }
     }
     let watts: f64 = fit.summary.caustics.iter().map(|c| c.watts).sum();
-    let all: f64 = fit.flux[0].iter().map(|f| f.as_dvec3().element_sum()).sum();
+    let all: f64 = fit.flux[0].iter().map(|f| f.as_dvec3().element_sum() / 3.0).sum();
     assert!((watts / all - 1.0).abs() < 1e-6);
 }
 

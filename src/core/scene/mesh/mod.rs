@@ -4,6 +4,7 @@ mod clean;
 mod mtl;
 mod normals;
 mod obj;
+mod shells;
 
 use std::path::PathBuf;
 
@@ -116,6 +117,8 @@ pub(super) struct Part {
     pub name: String,
     pub material: Material,
     pub triangles: Vec<Triangle>,
+    /// The connected surface of each triangle, numbered from 0.
+    pub shells: Vec<u32>,
 }
 
 /// Reads a mesh file and splits it by material; `notes` tell what was changed.
@@ -138,16 +141,18 @@ pub(super) fn load(
         }
         None => materials(&file, desc, place, assets, notes),
     };
+    let welded = clean::weld(&file.positions);
+    let mut faces = vec![Vec::new(); materials.len()];
+    for face in std::mem::take(&mut file.faces) {
+        faces[face.material as usize].push(face);
+    }
     let mut parts = Vec::new();
-    for (index, (name, material)) in materials.into_iter().enumerate() {
-        let faces: Vec<_> = file.faces.iter().filter(|face| face.material as usize == index).collect();
-        if faces.is_empty() {
-            continue;
-        }
+    for ((name, material), faces) in materials.into_iter().zip(faces).filter(|(_, faces)| !faces.is_empty()) {
         progress.check()?;
-        let triangles = clean::triangles(&file, &faces, desc.smooth, &material, &name, notes);
+        let of = (&material, name.as_str());
+        let (triangles, shells) = clean::triangles((&file, &welded), faces, desc.smooth, of, notes);
         if !triangles.is_empty() {
-            parts.push(Part { name, material, triangles });
+            parts.push(Part { name, material, triangles, shells });
         }
     }
     if parts.is_empty() {
@@ -194,9 +199,8 @@ fn materials(
             Err(error) => notes.push(format!("{}: its material file was not used: {error}", desc.name)),
         }
     }
-    let used: Vec<bool> = (0..file.materials.len())
-        .map(|index| file.faces.iter().any(|face| face.material as usize == index))
-        .collect();
+    let mut used = vec![false; file.materials.len()];
+    file.faces.iter().for_each(|face| used[face.material as usize] = true);
     let single = used.iter().filter(|used| **used).count() == 1;
     file.materials
         .iter()

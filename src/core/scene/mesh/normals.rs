@@ -13,7 +13,13 @@ const CREASE: f32 = 0.642_787_6;
 const MANY: usize = 64;
 
 /// Triangles with their corner normals, and how many of the file's normals were turned to the side of their face.
-pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
+/// `vertices` are the welded vertices of the faces, numbered without gaps.
+pub(super) fn shade(
+    file: &ObjFile,
+    faces: &[Face],
+    vertices: &[[u32; 3]],
+    smooth: bool,
+) -> (Vec<Triangle>, usize) {
     let corners: Vec<[Vec3; 3]> =
         faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
     let own = |face: &Face| {
@@ -22,7 +28,7 @@ pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool
         (smooth && !normals.contains(&Vec3::ZERO)).then_some(normals)
     };
     let averages = (smooth && faces.par_iter().any(|face| own(face).is_none()))
-        .then(|| Averages::new(faces, welded, &corners));
+        .then(|| Averages::new(vertices, &corners));
     let (triangles, turned): (Vec<Triangle>, Vec<usize>) = (0..faces.len())
         .into_par_iter()
         .map(|i| {
@@ -42,8 +48,8 @@ pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool
 
 /// The corners around each vertex.
 struct Averages<'a> {
-    faces: &'a [Face],
-    welded: &'a [u32],
+    /// Vertices of each face.
+    vertices: &'a [[u32; 3]],
     /// Unit normal of each face.
     flat: Vec<Vec3>,
     /// Angle of each corner of each face.
@@ -56,29 +62,29 @@ struct Averages<'a> {
 }
 
 impl<'a> Averages<'a> {
-    fn new(faces: &'a [Face], welded: &'a [u32], corners: &[[Vec3; 3]]) -> Self {
-        let mut start = vec![0_u32; welded.len() + 1];
-        let vertices = || faces.iter().flat_map(|face| face.vertices.map(|v| welded[v as usize] as usize));
-        vertices().for_each(|v| start[v + 1] += 1);
-        for v in 0..welded.len() {
+    fn new(vertices: &'a [[u32; 3]], corners: &[[Vec3; 3]]) -> Self {
+        let all = || vertices.iter().flatten().map(|v| *v as usize);
+        let count = all().max().map_or(0, |last| last + 1);
+        let mut start = vec![0_u32; count + 1];
+        all().for_each(|v| start[v + 1] += 1);
+        for v in 0..count {
             start[v + 1] += start[v];
         }
         let mut next = start.clone();
-        let mut sorted = vec![0_u32; faces.len() * 3];
-        for (corner, v) in vertices().enumerate() {
+        let mut sorted = vec![0_u32; vertices.len() * 3];
+        for (corner, v) in all().enumerate() {
             sorted[next[v] as usize] = corner as u32;
             next[v] += 1;
         }
         let mut averages = Self {
-            faces,
-            welded,
+            vertices,
             flat: corners.par_iter().map(|c| cross(*c).normalize()).collect(),
             angles: corners.par_iter().map(angles).collect(),
             corners: sorted,
             start,
             shared: Vec::new(),
         };
-        averages.shared = (0..welded.len())
+        averages.shared = (0..count)
             .filter(|v| averages.around(*v).len() > MANY)
             .map(|v| (v as u32, averages.sum(averages.around(v), |_| true)))
             .collect();
@@ -101,7 +107,7 @@ impl<'a> Averages<'a> {
     }
 
     fn at(&self, face: usize, corner: usize, flat: Vec3) -> Vec3 {
-        let vertex = self.welded[self.faces[face].vertices[corner] as usize] as usize;
+        let vertex = self.vertices[face][corner] as usize;
         let around = self.around(vertex);
         let shared = self.shared.binary_search_by_key(&(vertex as u32), |(v, _)| *v);
         let sum = match shared {
