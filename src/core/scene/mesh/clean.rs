@@ -4,28 +4,27 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::normals::{self, cross};
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
 use crate::scene::accel::Triangle;
 use crate::scene::material::Material;
 
 /// The triangles of one material.
 pub(super) fn triangles(
-    file: &ObjFile,
-    faces: &[&Face],
+    group: &Group,
     smooth: bool,
     material: &Material,
     name: &str,
     notes: &mut Vec<String>,
 ) -> Vec<Triangle> {
-    let welded = weld(&file.positions);
-    let mut kept: Vec<Face> = faces.iter().map(|face| **face).filter(|face| has_area(file, face)).collect();
+    let welded = weld(&group.positions);
+    let mut kept: Vec<Face> = group.faces.iter().copied().filter(|face| has_area(group, face)).collect();
     let mut note = |count: usize, what: &str| {
         if count > 0 {
             notes.push(format!("{name}: {count} {what}"));
         }
     };
-    note(faces.len() - kept.len(), "triangles without area were dropped");
-    note(file.polygons, "polygons of more than 4 corners were split into fans; concave ones may fold");
+    note(group.faces.len() - kept.len(), "triangles without area were dropped");
+    note(group.crossed, "polygons cross themselves; mend them, or split them into triangles");
     let vertices: Vec<[u32; 3]> = kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect();
     if matches!(material, Material::Glass(_)) {
         let edges = Edges::count(&vertices);
@@ -37,19 +36,19 @@ pub(super) fn triangles(
             edges.inconsistent,
             "edges whose two faces are wound against each other; recalculate the normals outside",
         );
-        if edges.open + edges.inconsistent == 0 && volume(file, &kept) < 0.0 {
+        if edges.open + edges.inconsistent == 0 && volume(group, &kept) < 0.0 {
             kept.iter_mut().for_each(flip);
             note(kept.len(), "triangles faced inward; the mesh was turned inside out");
         }
     }
-    let (triangles, turned) = normals::shade(file, &kept, &welded, smooth);
+    let (triangles, turned) = normals::shade(group, &kept, &welded, smooth);
     note(turned, "corner normals pointed against their face and were turned");
     triangles
 }
 
 /// Whether a face has an area that f32 can tell from 0.
-fn has_area(file: &ObjFile, face: &Face) -> bool {
-    let [a, b, c] = face.vertices.map(|v| file.positions[v as usize]);
+fn has_area(group: &Group, face: &Face) -> bool {
+    let [a, b, c] = face.vertices.map(|v| group.positions[v as usize]);
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     let area = cross([a, b, c]).length();
     // A squared length below the smallest normal number has lost its digits.
@@ -108,13 +107,13 @@ impl Edges {
 }
 
 /// Six times the enclosed volume; negative if the faces are wound inward.
-fn volume(file: &ObjFile, faces: &[Face]) -> f64 {
+fn volume(group: &Group, faces: &[Face]) -> f64 {
     let origin =
-        faces.first().map_or(DVec3::ZERO, |face| file.positions[face.vertices[0] as usize].as_dvec3());
+        faces.first().map_or(DVec3::ZERO, |face| group.positions[face.vertices[0] as usize].as_dvec3());
     faces
         .iter()
         .map(|face| {
-            let [a, b, c] = face.vertices.map(|v| file.positions[v as usize].as_dvec3() - origin);
+            let [a, b, c] = face.vertices.map(|v| group.positions[v as usize].as_dvec3() - origin);
             a.dot(b.cross(c))
         })
         .sum()

@@ -4,7 +4,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
 use crate::scene::accel::Triangle;
 
 /// Crease angle: cosine of the angle between faces above which an edge is sharp, 50 degrees.
@@ -13,11 +13,11 @@ const CREASE: f32 = 0.642_787_6;
 const MANY: usize = 64;
 
 /// Triangles with their corner normals, and how many of the file's normals were turned to the side of their face.
-pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
+pub(super) fn shade(group: &Group, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
     let corners: Vec<[Vec3; 3]> =
-        faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
+        faces.par_iter().map(|face| face.vertices.map(|v| group.positions[v as usize])).collect();
     let own = |face: &Face| {
-        let normals = face.normals.map(|n| if n == NONE { Vec3::ZERO } else { file.normals[n as usize] });
+        let normals = face.normals.map(|n| if n == NONE { Vec3::ZERO } else { group.normals[n as usize] });
         let normals = normals.map(Vec3::normalize_or_zero);
         (smooth && !normals.contains(&Vec3::ZERO)).then_some(normals)
     };
