@@ -5,6 +5,7 @@ use std::path::Path;
 
 mod advection;
 mod background;
+mod cases;
 mod caustics;
 mod constraints;
 mod continuity;

@@ -121,9 +121,8 @@ fn a_polygon_of_200_000_corners_is_split_at_once() {
     }
     let corners: Vec<String> = (1..=count).map(|k| k.to_string()).collect();
     text.push_str(&format!("f {}\n", corners.join(" ")));
-    let (scene, notes) = loaded(text, glass(1.5));
+    let (scene, _) = loaded(text, glass(1.5));
     assert!(scene.meshes()[0].triangles > 199_000);
-    assert!(notes.iter().any(|note| note.contains("polygons")), "{notes:?}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::Result;
 /// The sampling density of a picture, downscaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brightness {
-    /// Size of the picture in pixels.
+    /// Size of the picture as shown, in heights of a pixel.
     pub size: Vec2,
     /// Cells per row.
     pub width: usize,
@@ -42,6 +42,6 @@ impl Brightness {
         }
         let most = values.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
         values.iter_mut().for_each(|value| *value /= most);
-        Ok(Self { size: Vec2::new(picture.width as f32, picture.height as f32), width, values })
+        Ok(Self { size: picture.shown_size(), width, values })
     }
 }

@@ -135,7 +135,8 @@ pub(super) fn load(
         let what = format!("{bad} normals are no finite numbers (first on line {first}); theirs are computed");
         notes.push(format!("{}: {what}", desc.name));
     }
-    place::check(&file, desc, &path, notes)?;
+    let far = place::check(&file, desc, &path)?;
+    notes.extend(far.iter().map(|far| format!("{}: {far}", desc.name)));
     let objects = match &desc.material {
         Some(material) => {
             let mut all = Group::default();
@@ -156,7 +157,8 @@ pub(super) fn load(
         }
     }
     if parts.is_empty() {
-        return Err(Error::format(path, "", "has no triangle of any size: nothing to show"));
+        let far = far.map(|far| format!("; it {far}")).unwrap_or_default();
+        return Err(Error::format(path, "", format!("has no triangle of any size: nothing to show{far}")));
     }
     Ok(parts)
 }

@@ -38,8 +38,8 @@ impl Placement for Placed {
     }
 }
 
-/// Refuses a mesh beyond [`FARTHEST`]; notes one so far away that its shape suffers.
-pub(super) fn check(file: &ObjFile, desc: &MeshDesc, path: &Path, notes: &mut Vec<String>) -> Result<()> {
+/// Refuses a mesh beyond [`FARTHEST`]; what to do about one so far away that its shape suffers.
+pub(super) fn check(file: &ObjFile, desc: &MeshDesc, path: &Path) -> Result<Option<String>> {
     let positions = || file.groups.iter().flat_map(|(_, group)| &group.positions);
     let far = positions().fold(0.0_f32, |far, p| far.max(p.abs().max_element()));
     if far.is_nan() || far > FARTHEST {
@@ -49,14 +49,13 @@ pub(super) fn check(file: &ObjFile, desc: &MeshDesc, path: &Path, notes: &mut Ve
     let lower = positions().copied().fold(Vec3::INFINITY, Vec3::min);
     let upper = positions().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let step = far * f32::EPSILON;
-    if step > COARSE * (upper - lower).max_element() {
-        let middle = ((lower + upper) / 2.0).as_dvec3();
-        let [x, y, z] = (DVec3::from(desc.transform.translate) - middle).to_array();
-        notes.push(format!(
-            "{}: stands {far:.3e} m from the origin, where positions are only kept to {step:.1e} m; move it \
-             there: transform.translate [{x:.2}, {y:.2}, {z:.2}]",
-            desc.name
-        ));
+    if step <= COARSE * (upper - lower).max_element() {
+        return Ok(None);
     }
-    Ok(())
+    let middle = ((lower + upper) / 2.0).as_dvec3();
+    let [x, y, z] = (DVec3::from(desc.transform.translate) - middle).to_array();
+    Ok(Some(format!(
+        "stands {far:.3e} m from the origin, where positions are only kept to {step:.1e} m; move it there: \
+         transform.translate [{x:.2}, {y:.2}, {z:.2}]"
+    )))
 }
