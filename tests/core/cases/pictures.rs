@@ -321,7 +321,7 @@ fn the_display_window_of_an_exr_file_is_shown() {
 #[test]
 fn the_pixels_of_an_anamorphic_picture_are_wide() {
     let rgb: &[(&str, &[f32])] = &[("R", &[1.0; 8]), ("G", &[1.0; 8]), ("B", &[1.0; 8])];
-    for (aspect, width) in [(1.0, 4.0), (2.0, 8.0), (0.5, 2.0), (0.0, 4.0), (f32::INFINITY, 4.0)] {
+    for (aspect, width) in [(1.0, 4.0), (2.0, 8.0), (0.5, 2.0)] {
         let file = exr_file([0, 0, 4, 2], [0, 0, 4, 2], aspect, &[("", rgb)]);
         assert_eq!(brightness(&file, 4).unwrap().size, vec2(width, 2.0), "{aspect}");
         let folder = tempfile::tempdir().unwrap();
