@@ -231,7 +231,12 @@ impl KeySources {
 
     /// Gives the photons of a group the colours that they have at the key frame before `key`, where `key` gives none: each
     /// keeps its own, and as much light as before.
-    pub(super) fn keep_colours(&self, (key, group): (usize, usize), before: &KeyPhotons, at: &mut KeyPhotons) {
+    pub(super) fn keep_colours(
+        &self,
+        (key, group): (usize, usize),
+        before: &KeyPhotons,
+        at: &mut KeyPhotons,
+    ) {
         if at.colours.is_empty() && before.colours.len() == at.flux.len() {
             at.flux = flux::coloured(flux::total(&at.flux), &before.colours, self.gain(key, group));
             at.colours.clone_from(&before.colours);

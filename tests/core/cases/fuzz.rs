@@ -8,10 +8,54 @@ use crate::scenes::Stage;
 
 /// Pieces that have meant trouble to readers of these formats.
 const PIECES: [&str; 48] = [
-    "f", "v", "vn", "vt", "usemtl", "mtllib", "newmtl", "o", "g", "l", "p", "#", "\\", "\\\n", "\r", "\r\n", "\n", "\t", " ", "0",
-    "-1", "1", "99999999999999999999", "-9223372036854775808", "1e400", "nan", "-inf", "1,5", "0x1", "1.#IND", "//", "/", "1/",
-    "1//1", "1/1/1/1", "f 1 2 3 4 5 6 7 8", "Kd", "Kd 0.5", "d -halo", "illum 6.0", "Tf", "map_Kd", "\u{feff}", "\u{a0}",
-    "\u{2028}", "Gr\u{fc}n", "\0", "\"",
+    "f",
+    "v",
+    "vn",
+    "vt",
+    "usemtl",
+    "mtllib",
+    "newmtl",
+    "o",
+    "g",
+    "l",
+    "p",
+    "#",
+    "\\",
+    "\\\n",
+    "\r",
+    "\r\n",
+    "\n",
+    "\t",
+    " ",
+    "0",
+    "-1",
+    "1",
+    "99999999999999999999",
+    "-9223372036854775808",
+    "1e400",
+    "nan",
+    "-inf",
+    "1,5",
+    "0x1",
+    "1.#IND",
+    "//",
+    "/",
+    "1/",
+    "1//1",
+    "1/1/1/1",
+    "f 1 2 3 4 5 6 7 8",
+    "Kd",
+    "Kd 0.5",
+    "d -halo",
+    "illum 6.0",
+    "Tf",
+    "map_Kd",
+    "\u{feff}",
+    "\u{a0}",
+    "\u{2028}",
+    "Gr\u{fc}n",
+    "\0",
+    "\"",
 ];
 
 /// A small generator (xorshift): the same files on every machine.
@@ -43,7 +87,8 @@ impl Random {
                 3 if !text.is_empty() => text[at] = self.below(256) as u8,
                 4 if !text.is_empty() => text[at] = b"0123456789-+.eE,/ \n"[self.below(19)],
                 5 => {
-                    let line = text.iter().skip(at).position(|byte| *byte == b'\n').map_or(text.len(), |n| at + n);
+                    let line =
+                        text.iter().skip(at).position(|byte| *byte == b'\n').map_or(text.len(), |n| at + n);
                     drop(text.drain(at..line));
                 }
                 _ => {
@@ -64,7 +109,9 @@ fn damaged_meshes_and_materials_are_read_or_refused() {
         "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv .2 0 .8\nv 0 0 1\nvn 0 1 0\nvt 0 0\nusemtl Glass\nf 1//1 2//1 3//1 4 \\\n5//1\nusemtl M #2\nf -1/1 -2/1 -3/1/1\nf 1 2 3 4\n".into(),
         format!("o all\n{}f {}\n", (0..60).map(|i| format!("v {} 0 {}\n", i % 7, i % 11)).collect::<String>(), (1..=60).map(|i| format!("{i} ")).collect::<String>()),
     ];
-    let library = format!("# a\n{GLASS}newmtl M #2\nKd 0.5\nTf 0.5 0.5 0.5\nd -halo 0.2\nTr 0.8\nNi 1.5\nmap_Kd a.png\n");
+    let library = format!(
+        "# a\n{GLASS}newmtl M #2\nKd 0.5\nTf 0.5 0.5 0.5\nd -halo 0.2\nTr 0.8\nNi 1.5\nmap_Kd a.png\n"
+    );
     let mut stage = Stage::new();
     stage.mesh("mesh", "", None);
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
@@ -81,7 +128,12 @@ fn damaged_meshes_and_materials_are_read_or_refused() {
         }
         slowest = slowest.max((start.elapsed(), round));
     }
-    println!("{rounds} files: {read} read, {} refused; the slowest, of round {}, took {:?}", rounds - read, slowest.1, slowest.0);
+    println!(
+        "{rounds} files: {read} read, {} refused; the slowest, of round {}, took {:?}",
+        rounds - read,
+        slowest.1,
+        slowest.0
+    );
     // Neither all damage nor none is fatal.
     assert!(read > rounds / 20 && read < rounds, "{read} of {rounds}");
 }

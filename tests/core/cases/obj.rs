@@ -8,7 +8,8 @@ use lightloom_core::scene::{Ray, Scene};
 use super::{BALL, FACES, GLASS, RADIUS, ball, load};
 
 /// Rows that must be the ball of glass: name, how the text of the ball is changed, files beside it, words of a note.
-type Row = (&'static str, fn(String) -> String, &'static [(&'static str, &'static str)], &'static [&'static str]);
+type Row =
+    (&'static str, fn(String) -> String, &'static [(&'static str, &'static str)], &'static [&'static str]);
 
 fn with(head: &str, text: String) -> String {
     format!("{head}\n{text}")
@@ -78,7 +79,8 @@ fn bare(text: &str, number: usize) -> String {
 #[test]
 fn a_ball_of_glass_is_read_however_its_file_is_written() {
     for (name, change, others, words) in ROWS {
-        let (scene, notes) = load(change(ball()), others, Transform::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let (scene, notes) =
+            load(change(ball()), others, Transform::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
         let meshes = scene.meshes();
         assert_eq!(meshes.len(), 1, "{name}: {notes}");
         assert!(matches!(meshes[0].material, Material::Glass(Glass { ior: 1.5, .. })), "{name}: {notes}");
@@ -122,17 +124,25 @@ fn what_nobody_can_read_is_refused_with_its_line() {
     ];
     for (text, line, words) in rows {
         let error = load(text, &[], Transform::default()).err().unwrap();
-        assert!(error.contains("mesh.obj") && error.contains(line) && error.contains(words), "{text}: {error}");
+        assert!(
+            error.contains("mesh.obj") && error.contains(line) && error.contains(words),
+            "{text}: {error}"
+        );
     }
 }
 
 #[test]
 fn coordinates_of_maps_are_placed_before_they_are_rounded() {
     // Easting and northing of a place, and of another, farther than f32 has tenths of metres.
-    for far in [[431_250.37, 95.0, -541_102.81], [389_871.25, 5_819_213.5, 34.1], [-2_600_000.5, 1e7, 1_200_000.7]] {
+    for far in
+        [[431_250.37, 95.0, -541_102.81], [389_871.25, 5_819_213.5, 34.1], [-2_600_000.5, 1e7, 1_200_000.7]]
+    {
         let moved = |line: &str| -> String {
             let Some(rest) = line.strip_prefix("v ") else { return line.into() };
-            let words = rest.split(' ').zip(far).map(|(word, far)| format!("{:.6}", word.parse::<f64>().unwrap() + far));
+            let words = rest
+                .split(' ')
+                .zip(far)
+                .map(|(word, far)| format!("{:.6}", word.parse::<f64>().unwrap() + far));
             format!("v {}", words.collect::<Vec<_>>().join(" "))
         };
         let text: Vec<String> = ball().lines().map(moved).collect();
@@ -169,8 +179,9 @@ fn prism(outline: &[Vec2]) -> String {
 
 #[test]
 fn concave_polygons_keep_their_outline() {
-    let star: Vec<Vec2> =
-        (0..10).map(|i| Vec2::from_angle(i as f32 * 0.628_318_5) * if i % 2 == 0 { 0.4 } else { 0.15 }).collect();
+    let star: Vec<Vec2> = (0..10)
+        .map(|i| Vec2::from_angle(i as f32 * 0.628_318_5) * if i % 2 == 0 { 0.4 } else { 0.15 })
+        .collect();
     let comb: Vec<Vec2> = (0..12)
         .map(|i| vec2(0.05 * i as f32 - 0.3, if i % 2 == 0 { -0.2 } else { 0.3 }))
         .chain([vec2(0.25, -0.3), vec2(-0.3, -0.3)])
@@ -180,13 +191,26 @@ fn concave_polygons_keep_their_outline() {
         vec![vec2(-0.4, 0.4), vec2(-0.4, -0.3), vec2(0.4, -0.3), vec2(-0.1, -0.1)],
         // An L, with a corner in the middle of each long side.
         vec![
-            vec2(-0.4, -0.4), vec2(0.0, -0.4), vec2(0.4, -0.4), vec2(0.4, -0.1), vec2(0.1, -0.1), vec2(-0.1, -0.1),
-            vec2(-0.1, 0.4), vec2(-0.4, 0.4), vec2(-0.4, 0.1),
+            vec2(-0.4, -0.4),
+            vec2(0.0, -0.4),
+            vec2(0.4, -0.4),
+            vec2(0.4, -0.1),
+            vec2(0.1, -0.1),
+            vec2(-0.1, -0.1),
+            vec2(-0.1, 0.4),
+            vec2(-0.4, 0.4),
+            vec2(-0.4, 0.1),
         ],
         // A square with corners in the middle of its sides.
         vec![
-            vec2(-0.3, -0.3), vec2(0.0, -0.3), vec2(0.3, -0.3), vec2(0.3, 0.0), vec2(0.3, 0.3), vec2(0.0, 0.3),
-            vec2(-0.3, 0.3), vec2(-0.3, 0.0),
+            vec2(-0.3, -0.3),
+            vec2(0.0, -0.3),
+            vec2(0.3, -0.3),
+            vec2(0.3, 0.0),
+            vec2(0.3, 0.3),
+            vec2(0.0, 0.3),
+            vec2(-0.3, 0.3),
+            vec2(-0.3, 0.0),
         ],
         star.clone(),
         star.into_iter().rev().collect(),
@@ -200,7 +224,9 @@ fn concave_polygons_keep_their_outline() {
         // Points off the outline by more than rounding.
         for i in 0..900 {
             let point = vec2((i % 30) as f32, (i / 30) as f32) / 30.0 - 0.4837;
-            let hit = scene.intersect(&Ray::new(Vec3::new(point.x, 1.0, point.y), Vec3::NEG_Y)).is_some_and(|hit| hit.point.y > 0.05);
+            let hit = scene
+                .intersect(&Ray::new(Vec3::new(point.x, 1.0, point.y), Vec3::NEG_Y))
+                .is_some_and(|hit| hit.point.y > 0.05);
             assert_eq!(hit, inside(outline, point), "{number}: {point}");
         }
     }

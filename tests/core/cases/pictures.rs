@@ -3,8 +3,8 @@
 use std::io::{Cursor, Write as _};
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
-    Vec2 as Place, WritableImage as _,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
+    LayerAttributes, Vec2 as Place, WritableImage as _,
 };
 use glam::{Vec2, vec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, RgbImage};
@@ -37,11 +37,13 @@ const BLOCKS: [u32; 2] = [3, 2];
 
 /// A white block at the upper left, a grey one beside it.
 fn oriented() -> DynamicImage {
-    let pixel = |x, y| Rgb(match (x / 8, y / 8) {
-        (0, 0) => [255; 3],
-        (1, 0) => [160; 3],
-        _ => [0; 3],
-    });
+    let pixel = |x, y| {
+        Rgb(match (x / 8, y / 8) {
+            (0, 0) => [255; 3],
+            (1, 0) => [160; 3],
+            _ => [0; 3],
+        })
+    };
     RgbImage::from_fn(8 * BLOCKS[0], 8 * BLOCKS[1], pixel).into()
 }
 
@@ -50,7 +52,17 @@ fn exif(orientation: u8, little_endian: bool) -> Vec<u8> {
     let two = |value: u16| if little_endian { value.to_le_bytes() } else { value.to_be_bytes() };
     let four = |value: u32| if little_endian { value.to_le_bytes() } else { value.to_be_bytes() };
     let mut data = if little_endian { b"II".to_vec() } else { b"MM".to_vec() };
-    for part in [&two(42)[..], &four(8), &two(1), &two(274), &two(3), &four(1), &two(orientation.into()), &two(0), &four(0)] {
+    for part in [
+        &two(42)[..],
+        &four(8),
+        &two(1),
+        &two(274),
+        &two(3),
+        &four(1),
+        &two(orientation.into()),
+        &two(0),
+        &four(0),
+    ] {
         data.extend_from_slice(part);
     }
     data
@@ -68,7 +80,8 @@ fn jpeg_with_exif(orientation: u8, little_endian: bool) -> Vec<u8> {
 /// The PNG file with a chunk behind its header.
 fn with_chunk(mut png: Vec<u8>, name: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let typed = [&name[..], data].concat();
-    let chunk = [&(data.len() as u32).to_be_bytes()[..], &typed, &crc32fast::hash(&typed).to_be_bytes()].concat();
+    let chunk =
+        [&(data.len() as u32).to_be_bytes()[..], &typed, &crc32fast::hash(&typed).to_be_bytes()].concat();
     let after_header = 8 + 25;
     png.splice(after_header..after_header, chunk);
     png
@@ -136,7 +149,10 @@ fn icc(space: &[u8; 4], curve: &[u8]) -> Vec<u8> {
     if space == b"GRAY" {
         tags.push((b"kTRC", curve.to_vec()));
     } else {
-        tags.extend([(b"rXYZ", fixed([0.43607, 0.22249, 0.01392])), (b"gXYZ", fixed([0.38515, 0.71687, 0.09708]))]);
+        tags.extend([
+            (b"rXYZ", fixed([0.43607, 0.22249, 0.01392])),
+            (b"gXYZ", fixed([0.38515, 0.71687, 0.09708])),
+        ]);
         tags.push((b"bXYZ", fixed([0.14307, 0.06061, 0.71410])));
         tags.extend([b"rTRC", b"gTRC", b"bTRC"].map(|name| (name, curve.to_vec())));
     }
@@ -191,7 +207,8 @@ fn rec709(value: f64) -> f64 {
 #[test]
 fn colours_of_png_are_read_by_their_tags() {
     let gamma = |value: u32| value.to_be_bytes();
-    let chromaticities: Vec<u8> = [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000].map(u32::to_be_bytes).concat();
+    let chromaticities: Vec<u8> =
+        [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000].map(u32::to_be_bytes).concat();
     let line = |x: f64| x;
     let table: Vec<u16> = (0..256).map(|i| ((f64::from(i) / 255.0).powf(1.5) * 65535.0) as u16).collect();
     type Curve = fn(f64) -> f64;
@@ -201,19 +218,43 @@ fn colours_of_png_are_read_by_their_tags() {
         ("gAMA 1, in colour", with_chunk(halves_in_colour(), b"gAMA", &gamma(100_000)), line),
         ("gAMA 1/1.8", with_chunk(halves(), b"gAMA", &gamma(55_556)), |x| x.powf(1.8)),
         ("gAMA 1/2.2 of sRGB", with_chunk(halves(), b"gAMA", &gamma(45_455)), srgb),
-        ("gAMA of sRGB with its primaries", with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(45_455)), srgb),
-        ("gAMA 1 with primaries", with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(100_000)), line),
-        ("sRGB counts before gAMA", with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"sRGB", &[0]), srgb),
+        (
+            "gAMA of sRGB with its primaries",
+            with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(45_455)),
+            srgb,
+        ),
+        (
+            "gAMA 1 with primaries",
+            with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(100_000)),
+            line,
+        ),
+        (
+            "sRGB counts before gAMA",
+            with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"sRGB", &[0]),
+            srgb,
+        ),
         ("gAMA 0 means nothing", with_chunk(halves(), b"gAMA", &gamma(0)), srgb),
         ("iCCP, a line", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&[]))), line),
-        ("iCCP, a power of 2.2", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&[563]))), |x| x.powf(563.0 / 256.0)),
+        ("iCCP, a power of 2.2", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&[563]))), |x| {
+            x.powf(563.0 / 256.0)
+        }),
         ("iCCP, samples", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&table))), |x| x.powf(1.5)),
         ("iCCP of grey, a line", with_icc(halves(), &icc(b"GRAY", &curve(&[]))), line),
-        ("iCCP of grey, a power of 1.8", with_icc(halves(), &icc(b"GRAY", &curve(&[461]))), |x| x.powf(461.0 / 256.0)),
+        ("iCCP of grey, a power of 1.8", with_icc(halves(), &icc(b"GRAY", &curve(&[461]))), |x| {
+            x.powf(461.0 / 256.0)
+        }),
         ("iCCP of RGB for a grey picture", with_icc(halves(), &icc(b"RGB ", &curve(&[]))), line),
-        ("iCCP counts before gAMA", with_chunk(with_icc(halves(), &icc(b"RGB ", &curve(&[]))), b"gAMA", &gamma(45_455)), line),
+        (
+            "iCCP counts before gAMA",
+            with_chunk(with_icc(halves(), &icc(b"RGB ", &curve(&[]))), b"gAMA", &gamma(45_455)),
+            line,
+        ),
         ("cICP, linear", with_chunk(halves_in_colour(), b"cICP", &[1, 8, 0, 1]), line),
-        ("cICP, sRGB, before gAMA", with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"cICP", &[1, 13, 0, 1]), srgb),
+        (
+            "cICP, sRGB, before gAMA",
+            with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"cICP", &[1, 13, 0, 1]),
+            srgb,
+        ),
         ("cICP, PQ", with_chunk(halves_in_colour(), b"cICP", &[9, 16, 0, 1]), pq),
         ("cICP, Rec.709", with_chunk(halves_in_colour(), b"cICP", &[1, 1, 0, 1]), rec709),
     ];
@@ -221,7 +262,11 @@ fn colours_of_png_are_read_by_their_tags() {
         let shown = brightness(&file, 4).unwrap();
         let expected = curve(HALVES[0]) / curve(HALVES[1]);
         // Curves of a profile are tables, of 14 bits or more.
-        assert!((f64::from(shown.values[0]) / expected - 1.0).abs() < 2e-3, "{name}: {} for {expected}", shown.values[0]);
+        assert!(
+            (f64::from(shown.values[0]) / expected - 1.0).abs() < 2e-3,
+            "{name}: {} for {expected}",
+            shown.values[0]
+        );
         assert_eq!(shown.values[3], 1.0, "{name}");
     }
 }
@@ -255,7 +300,8 @@ fn primaries_are_those_of_the_tag() {
     let expected = 0.2126 * 1.2249 / (0.7152 * 1.0420);
     let pixel = |x: u32, _| Rgb([[255_u8, 0, 0], [0, 255, 0]][x as usize]);
     let png = encoded(&RgbImage::from_fn(2, 1, pixel).into(), ImageFormat::Png);
-    let points: Vec<u8> = [31270_u32, 32900, 68000, 32000, 26500, 69000, 15000, 6000].map(u32::to_be_bytes).concat();
+    let points: Vec<u8> =
+        [31270_u32, 32900, 68000, 32000, 26500, 69000, 15000, 6000].map(u32::to_be_bytes).concat();
     for file in [
         with_chunk(png.clone(), b"cICP", &[12, 13, 0, 1]),
         with_chunk(with_chunk(png.clone(), b"cHRM", &points), b"gAMA", &45_455_u32.to_be_bytes()),
@@ -276,7 +322,8 @@ fn exr_file(display: [i32; 4], data: [i32; 4], aspect: f32, layers: &[(&str, &[(
     ));
     attributes.pixel_aspect = aspect;
     let layer = |(name, channels): &(&str, &[(&str, &[f32])])| {
-        let channel = |(name, values): &(&str, &[f32])| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
+        let channel =
+            |(name, values): &(&str, &[f32])| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
         let mut own = LayerAttributes::named(*name);
         own.layer_position = Place(data[0], data[1]);
         let channels = AnyChannels::sort(channels.iter().map(channel).collect());
@@ -290,7 +337,8 @@ fn exr_file(display: [i32; 4], data: [i32; 4], aspect: f32, layers: &[(&str, &[(
 
 #[test]
 fn the_display_window_of_an_exr_file_is_shown() {
-    let rgb: &[(&str, &[f32])] = &[("R", &[1.0, 0.5, 0.25, 0.125]), ("G", &[1.0, 0.5, 0.25, 0.125]), ("B", &[1.0, 0.5, 0.25, 0.125])];
+    let rgb: &[(&str, &[f32])] =
+        &[("R", &[1.0, 0.5, 0.25, 0.125]), ("G", &[1.0, 0.5, 0.25, 0.125]), ("B", &[1.0, 0.5, 0.25, 0.125])];
     let (one, half, quarter) = (1.0, 0.5, 0.25);
     let rows: [([i32; 4], [i32; 4], [f32; 2], Vec<f32>); 6] = [
         ([0, 0, 2, 2], [0, 0, 2, 2], [2.0, 2.0], vec![one, half, quarter, 0.125]),
@@ -305,12 +353,19 @@ fn the_display_window_of_an_exr_file_is_shown() {
     ];
     for (display, data, size, expected) in rows {
         let shown = brightness(&exr_file(display, data, 1.0, &[("", rgb)]), 3).unwrap();
-        assert_eq!((shown.size, shown.values.len()), (Vec2::from(size), expected.len()), "{display:?} {data:?}");
+        assert_eq!(
+            (shown.size, shown.values.len()),
+            (Vec2::from(size), expected.len()),
+            "{display:?} {data:?}"
+        );
         let most = expected.iter().copied().fold(0.0, f32::max);
         // Over the brightest: the last row shows 0.5 of the file as 1, so it is compared as a ratio.
         let near = |(a, b): (&f32, &f32)| (a - b / most).abs() < 1e-6 || most < 1.0;
         assert!(shown.values.iter().zip(&expected).all(near), "{display:?} {data:?}: {:?}", shown.values);
-        assert_eq!(shown.values.iter().map(|v| *v > 0.0).collect::<Vec<_>>(), expected.iter().map(|v| *v > 0.0).collect::<Vec<_>>());
+        assert_eq!(
+            shown.values.iter().map(|v| *v > 0.0).collect::<Vec<_>>(),
+            expected.iter().map(|v| *v > 0.0).collect::<Vec<_>>()
+        );
     }
     let outside = brightness(&exr_file([0, 0, 2, 2], [5, 5, 2, 2], 1.0, &[("", rgb)]), 3).unwrap_err();
     assert!(outside.contains("display window"), "{outside}");
@@ -327,7 +382,8 @@ fn the_pixels_of_an_anamorphic_picture_are_wide() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.exr");
         std::fs::write(&path, file).unwrap();
-        let sampler = PictureSampler::load(&path, &ImageTarget::new("t.exr"), vec2(1.0, 1.0), "target").unwrap();
+        let sampler =
+            PictureSampler::load(&path, &ImageTarget::new("t.exr"), vec2(1.0, 1.0), "target").unwrap();
         let points = sampler.sample(1, 0, 4000).positions;
         let reach = points.iter().fold(Vec2::ZERO, |reach, p| reach.max((*p - 0.5).abs())) * 2.0;
         // Nine tenths of the receiver; 4000 points come within a hundredth of the border.
@@ -350,11 +406,21 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
         ("one layer", &[("", &[("rgba.R", A), ("rgba.G", A), ("rgba.B", A), ("rgba.A", &[1.0, 1.0])])], ""),
         (
             "Blender, Emit before Combined in the file",
-            &[("", &[
-                ("ViewLayer.AO.R", B), ("ViewLayer.AO.G", B), ("ViewLayer.AO.B", B),
-                ("ViewLayer.Combined.R", A), ("ViewLayer.Combined.G", A), ("ViewLayer.Combined.B", A),
-                ("ViewLayer.Depth.Z", Z), ("ViewLayer.Emit.R", B), ("ViewLayer.Emit.G", B), ("ViewLayer.Emit.B", B),
-            ])],
+            &[(
+                "",
+                &[
+                    ("ViewLayer.AO.R", B),
+                    ("ViewLayer.AO.G", B),
+                    ("ViewLayer.AO.B", B),
+                    ("ViewLayer.Combined.R", A),
+                    ("ViewLayer.Combined.G", A),
+                    ("ViewLayer.Combined.B", A),
+                    ("ViewLayer.Depth.Z", Z),
+                    ("ViewLayer.Emit.R", B),
+                    ("ViewLayer.Emit.G", B),
+                    ("ViewLayer.Emit.B", B),
+                ],
+            )],
             "'ViewLayer.Combined' is shown, not 'ViewLayer.AO', 'ViewLayer.Emit'",
         ),
         (
@@ -364,7 +430,17 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
         ),
         (
             "beauty before others",
-            &[("", &[("albedo.R", B), ("albedo.G", B), ("albedo.B", B), ("beauty.R", A), ("beauty.G", A), ("beauty.B", A)])],
+            &[(
+                "",
+                &[
+                    ("albedo.R", B),
+                    ("albedo.G", B),
+                    ("albedo.B", B),
+                    ("beauty.R", A),
+                    ("beauty.G", A),
+                    ("beauty.B", A),
+                ],
+            )],
             "'beauty' is shown",
         ),
         (
@@ -372,12 +448,19 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
             &[("", &[("a.Y", B), ("b.R", A), ("b.G", A), ("b.B", A)])],
             "'b' is shown, not 'a'",
         ),
-        ("normals are no grey", &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("c.R", A), ("c.G", A), ("c.B", A)])], ""),
+        (
+            "normals are no grey",
+            &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("c.R", A), ("c.G", A), ("c.B", A)])],
+            "",
+        ),
         ("depth beside colours", &[("", &[("R", A), ("G", A), ("B", A), ("Z", Z)])], ""),
         ("small letters", &[("", &[("r", A), ("g", A), ("b", A)])], ""),
         (
             "parts",
-            &[("depth", &[("Z", Z)]), ("Combined", &[("Combined.R", A), ("Combined.G", A), ("Combined.B", A)])],
+            &[
+                ("depth", &[("Z", Z)]),
+                ("Combined", &[("Combined.R", A), ("Combined.G", A), ("Combined.B", A)]),
+            ],
             "",
         ),
     ];
@@ -388,7 +471,12 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
         let notes = notes(&file);
         assert!(notes.contains(words) && (notes.is_empty() == words.is_empty()), "{name}: {notes}");
     }
-    let file = exr_file([0, 0, 2, 1], [0, 0, 2, 1], 1.0, &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("Z", Z), ("u.R", A)])]);
+    let file = exr_file(
+        [0, 0, 2, 1],
+        [0, 0, 2, 1],
+        1.0,
+        &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("Z", Z), ("u.R", A)])],
+    );
     let error = brightness(&file, 2).unwrap_err();
     assert!(error.contains("N.X, N.Y, N.Z, Z, u.R"), "{error}");
 }
@@ -398,8 +486,14 @@ fn radiance_files_of_any_program_are_read() {
     let pixel = |x: u32, _| Rgb([[1.0_f32, 0.5][x as usize]; 3]);
     let hdr = encoded(&DynamicImage::ImageRgb32F(ImageBuffer::from_fn(2, 1, pixel)), ImageFormat::Hdr);
     let body = hdr.strip_prefix(b"#?RADIANCE").unwrap();
-    for (head, width) in [("#?RADIANCE", 2.0), ("#?RGBE", 2.0), ("#?AUTOPANO\n# made by hand", 2.0), ("#?RGBE\nPIXASPECT=0.5", 4.0)] {
-        let shown = brightness(&[head.as_bytes(), body].concat(), 2).unwrap_or_else(|error| panic!("{head}: {error}"));
+    for (head, width) in [
+        ("#?RADIANCE", 2.0),
+        ("#?RGBE", 2.0),
+        ("#?AUTOPANO\n# made by hand", 2.0),
+        ("#?RGBE\nPIXASPECT=0.5", 4.0),
+    ] {
+        let shown = brightness(&[head.as_bytes(), body].concat(), 2)
+            .unwrap_or_else(|error| panic!("{head}: {error}"));
         assert_eq!((shown.size, &*shown.values), (vec2(width, 1.0), &[1.0, 0.5][..]), "{head}");
     }
 }
@@ -412,7 +506,8 @@ fn webp_and_tiff_are_read() {
         let shown = brightness(&encoded(&image, format), 4).unwrap();
         assert!((f64::from(shown.values[2]) - srgb(128.0 / 255.0)).abs() < 1e-5, "{format:?}");
     }
-    let linear = DynamicImage::ImageRgb32F(ImageBuffer::from_fn(2, 1, |x, _| Rgb([[1.0_f32, 0.25][x as usize]; 3])));
+    let linear =
+        DynamicImage::ImageRgb32F(ImageBuffer::from_fn(2, 1, |x, _| Rgb([[1.0_f32, 0.25][x as usize]; 3])));
     assert_eq!(brightness(&encoded(&linear, ImageFormat::Tiff), 2).unwrap().values, [1.0, 0.25]);
 }
 
@@ -445,6 +540,7 @@ fn what_is_not_read_is_named_with_the_way_out() {
         let error = brightness(head, 2).unwrap_err();
         assert!(error.contains(name) && error.contains("save it as PNG"), "{name}: {error}");
     }
-    let error = brightness(b"version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 9\n", 2).unwrap_err();
+    let error =
+        brightness(b"version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 9\n", 2).unwrap_err();
     assert!(error.contains("git lfs pull"), "{error}");
 }

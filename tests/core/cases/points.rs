@@ -66,7 +66,8 @@ fn arrays_are_read_by_rows_and_by_columns() {
     // Of two points, rows are points.
     let square = load(&npy(&[2, 2], false, &[0.25, 0.75, 0.5, 0.5])).unwrap();
     assert_eq!(square.positions, EXPECTED[..2]);
-    let coloured = load(&npy(&[5, 3], false, &[0.25, 0.5, 1.0, 0.75, 0.5, 0.125, 1., 1., 1., 0., 0., 0., 0., 0., 0.]));
+    let coloured =
+        load(&npy(&[5, 3], false, &[0.25, 0.5, 1.0, 0.75, 0.5, 0.125, 1., 1., 1., 0., 0., 0., 0., 0., 0.]));
     let coloured = coloured.unwrap();
     assert_eq!(coloured.positions, EXPECTED);
     assert!(coloured.colours.iter().all(|colour| colour.y == 0.0 && colour.x > 0.0));

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::mtl::{self, MtlMaterial};
 use super::obj::{Group, ObjFile};
 use super::text;
-use crate::scene::material::{Diffuse, Material};
 use crate::Result;
+use crate::scene::material::{Diffuse, Material};
 
 /// Resolves a path as written, for the value at a place, to a file; or refuses.
 pub(super) type Assets<'a> = &'a dyn Fn(&str, &str) -> Result<PathBuf>;
@@ -118,7 +118,9 @@ impl Library {
         let material = &self.materials[number];
         if let Some(count) = self.repeated.get(&number) {
             let name = material.clean_name();
-            notes.push(format!("{label}: its material '{name}' is defined {count} times; the last one counts"));
+            notes.push(format!(
+                "{label}: its material '{name}' is defined {count} times; the last one counts"
+            ));
         }
         material.material(label, notes)
     }
@@ -204,13 +206,12 @@ impl Owner<'_> {
             let entries = std::fs::read_dir(&folder).ok()?.flatten();
             let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
             // The order of a folder's entries is the system's.
-            let name = names.filter(|name| *name == part || name.to_lowercase() == wanted).min_by_key(|name| {
-                (name != part, name.clone())
-            })?;
+            let name = names
+                .filter(|name| *name == part || name.to_lowercase() == wanted)
+                .min_by_key(|name| (name != part, name.clone()))?;
             folder.push(&name);
             real.push(name);
         }
         Some(real.join("/"))
     }
 }
-

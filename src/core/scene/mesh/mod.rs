@@ -6,6 +6,7 @@ mod mtl;
 mod normals;
 mod obj;
 mod place;
+mod shells;
 mod text;
 
 use std::path::PathBuf;
@@ -116,6 +117,8 @@ pub(super) struct Part {
     pub name: String,
     pub material: Material,
     pub triangles: Vec<Triangle>,
+    /// The connected surface of each triangle, numbered from 0.
+    pub shells: Vec<u32>,
 }
 
 /// Reads a mesh file and splits it by material; `notes` tell what was changed.
@@ -132,7 +135,8 @@ pub(super) fn load(
     progress.check()?;
     let (bad, first) = file.bad_normals;
     if bad > 0 {
-        let what = format!("{bad} normals are no finite numbers (first on line {first}); theirs are computed");
+        let what =
+            format!("{bad} normals are no finite numbers (first on line {first}); theirs are computed");
         notes.push(format!("{}: {what}", desc.name));
     }
     let far = place::check(&file, desc, &path)?;
@@ -151,9 +155,9 @@ pub(super) fn load(
     let mut parts = Vec::new();
     for (name, material, group) in objects {
         progress.check()?;
-        let triangles = clean::triangles(&group, desc.smooth, &material, &name, notes);
+        let (triangles, shells) = clean::triangles(&group, desc.smooth, (&material, &name), notes);
         if !triangles.is_empty() {
-            parts.push(Part { name, material, triangles });
+            parts.push(Part { name, material, triangles, shells });
         }
     }
     if parts.is_empty() {

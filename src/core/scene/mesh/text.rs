@@ -65,9 +65,10 @@ impl<'a> Iterator for Lines<'a> {
 /// What stands before the `\` at the end of a line that goes on; a comment does not.
 fn continued(line: &[u8]) -> Option<&[u8]> {
     let head = line.strip_suffix(b"\\")?;
-    let comment = head.iter().enumerate().any(|(at, byte)| {
-        *byte == b'#' && (at == 0 || head[at - 1].is_ascii_whitespace())
-    });
+    let comment = head
+        .iter()
+        .enumerate()
+        .any(|(at, byte)| *byte == b'#' && (at == 0 || head[at - 1].is_ascii_whitespace()));
     (!comment).then_some(head)
 }
 
@@ -86,9 +87,10 @@ pub(super) fn keyword(line: &str) -> (&str, &str) {
 
 /// A name without what follows a `#`.
 pub(super) fn without_comment(name: &str) -> &str {
-    let comment = name.match_indices('#').map(|(at, _)| at).find(|at| {
-        name[..*at].chars().next_back().is_none_or(char::is_whitespace)
-    });
+    let comment = name
+        .match_indices('#')
+        .map(|(at, _)| at)
+        .find(|at| name[..*at].chars().next_back().is_none_or(char::is_whitespace));
     name[..comment.unwrap_or(name.len())].trim()
 }
 
@@ -108,6 +110,9 @@ pub(super) fn no_number(word: &str) -> String {
 
 /// The number of a word whose decimal point is a comma.
 pub(super) fn decimal_comma(word: &str) -> Option<f64> {
-    let comma = word.matches(',').count() == 1 && !word.contains('.') && !word.starts_with(',') && !word.ends_with(',');
+    let comma = word.matches(',').count() == 1
+        && !word.contains('.')
+        && !word.starts_with(',')
+        && !word.ends_with(',');
     comma.then(|| word.replace(',', ".").parse().ok()).flatten()
 }

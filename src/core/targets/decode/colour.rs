@@ -44,7 +44,9 @@ impl Encoding {
         let (layout, channels) = match profile.color_space {
             DataColorSpace::Rgb => (Layout::Rgb, 3),
             DataColorSpace::Gray => (Layout::Gray, 1),
-            other => return Err(format!("its ICC profile is for {other:?}, not for RGB; convert it to sRGB")),
+            other => {
+                return Err(format!("its ICC profile is for {other:?}, not for RGB; convert it to sRGB"));
+            }
         };
         let mut linear = ColorProfile::new_srgb();
         // Without entries the curve is a straight line.

@@ -27,7 +27,8 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture> {
     for header in &meta.headers {
         let (width, height) = (header.layer_size.x(), header.layer_size.y());
         require_size(path, width, height, 16 * width as u64 * height as u64)?;
-        let channels: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+        let channels: Vec<String> =
+            header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
         if !header.deep {
             layers.extend(layers_of(&channels));
         }
@@ -73,9 +74,11 @@ fn layers_of(channels: &[String]) -> Vec<Layer> {
     let mut names: Vec<String> = channels.iter().map(|channel| split(channel).0).collect();
     names.dedup();
     let layer = |name: String| {
-        let find = |wanted: &str| channels.iter().find(|channel| split(channel) == (name.clone(), wanted.into()));
+        let find =
+            |wanted: &str| channels.iter().find(|channel| split(channel) == (name.clone(), wanted.into()));
         let alpha = find("A").cloned().unwrap_or_else(|| joined(&name, "A"));
-        let colours = [["R", "RED"], ["G", "GREEN"], ["B", "BLUE"]].map(|names| names.into_iter().find_map(find));
+        let colours =
+            [["R", "RED"], ["G", "GREEN"], ["B", "BLUE"]].map(|names| names.into_iter().find_map(find));
         let grey = find("Y").filter(|_| find("X").is_none() && find("Z").is_none());
         let (rgb, is_grey) = match (colours, grey) {
             ([Some(r), Some(g), Some(b)], _) => ([r, g, b], false),

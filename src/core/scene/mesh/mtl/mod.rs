@@ -152,9 +152,10 @@ impl Values {
         }
         match self.filter {
             None => ([0.0; 3], String::new()),
-            Some(filter) if filter.iter().all(|left| *left <= BLACK_FILTER) => {
-                ([0.0; 3], "; its filter Tf lets no light through, which Maya writes for clear glass".to_owned())
-            }
+            Some(filter) if filter.iter().all(|left| *left <= BLACK_FILTER) => (
+                [0.0; 3],
+                "; its filter Tf lets no light through, which Maya writes for clear glass".to_owned(),
+            ),
             Some(filter) => {
                 let absorption = clamped(filter.map(|left| -left.clamp(1e-6, 1.0).ln() / FILTER_DISTANCE));
                 let [r, g, b] = absorption;

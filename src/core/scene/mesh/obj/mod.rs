@@ -68,7 +68,9 @@ fn parse(bytes: &[u8], path: &Path, placement: &impl Placement, progress: &Progr
     let mut repair = Repair::new(bytes, path, progress)?;
     let options = LoadOptions { single_index: false, triangulate: false, ..LoadOptions::default() };
     let (models, _) = tobj::load_obj_buf(&mut repair, &options, |_| Err(tobj::LoadError::ReadError))
-        .map_err(|error| repair.failure.take().unwrap_or_else(|| Error::format(path, "", error.to_string())))?;
+        .map_err(|error| {
+            repair.failure.take().unwrap_or_else(|| Error::format(path, "", error.to_string()))
+        })?;
     let mut groups: Vec<Group> = repair.materials.iter().map(|_| Group::default()).collect();
     let mut splitter = Splitter::default();
     for model in models {
@@ -103,7 +105,8 @@ impl Group {
             self.crossed += usize::from(!whole);
             self.faces.extend(split.as_chunks().0.iter().map(|triangle: &[u32; 3]| Face {
                 vertices: triangle.map(|corner| vertex + indices[corner as usize]),
-                normals: given.map_or([NONE; 3], |given| triangle.map(|corner| normal + given[corner as usize])),
+                normals:
+                    given.map_or([NONE; 3], |given| triangle.map(|corner| normal + given[corner as usize])),
             }));
             begin += corners;
         }

@@ -1,0 +1,59 @@
+//! What touches, in words.
+
+use std::collections::BTreeSet;
+
+use super::super::material::Material;
+use super::super::object::Mesh;
+
+/// Most pairs that are named.
+const MOST: usize = 12;
+
+/// Two meshes whose surfaces lie in one another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Touch {
+    /// Ascending.
+    pub meshes: [u16; 2],
+    /// Whether their outsides are on the same side.
+    pub same_side: bool,
+    /// Whether they could not be merged.
+    pub is_guess: bool,
+}
+
+/// One note for each pair, with what it means.
+pub(super) fn notes(meshes: &[Mesh], touches: &BTreeSet<Touch>) -> Vec<String> {
+    let mut notes: Vec<String> = touches.iter().take(MOST).map(|touch| note(meshes, touch)).collect();
+    if touches.len() > MOST {
+        notes.push(format!("{} more pairs of objects touch", touches.len() - MOST));
+    }
+    notes
+}
+
+fn note(meshes: &[Mesh], touch: &Touch) -> String {
+    let [a, b] = touch.meshes.map(|mesh| &meshes[mesh as usize]);
+    let names = format!("'{}' and '{}'", a.name, b.name);
+    if touch.is_guess {
+        return format!(
+            "{names} lie in one another along a surface that is not flat, with different triangles, so light there is a \
+             guess; give both the same triangles there, or let them overlap by a hair"
+        );
+    }
+    if touch.meshes[0] == touch.meshes[1] {
+        return format!("'{}' has parts that touch; they are one solid there", a.name);
+    }
+    let is_glass = |mesh: &Mesh| matches!(mesh.material, Material::Glass(_));
+    // In the list, b comes later.
+    let wins = if a.priority > b.priority { a } else { b };
+    match (is_glass(a), is_glass(b)) {
+        (true, true) if !touch.same_side => {
+            format!("{names} touch: light goes from one to the other without air between")
+        }
+        (true, true) => {
+            format!("{names} lie in one another: one glass, that of '{}', fills what they share", wins.name)
+        }
+        (false, false) => format!("{names} lie in one another: '{}' is seen", wins.name),
+        (glass, _) => {
+            let (glass, other) = if glass { (a, b) } else { (b, a) };
+            format!("'{}' touches '{}': light goes to it without air between", glass.name, other.name)
+        }
+    }
+}
