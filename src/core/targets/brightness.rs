@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec2;
 
-use super::decode::Picture;
+use super::decode;
 use super::picture::Cells;
 use super::settings::{Channel, ImageTarget};
 use crate::Result;
@@ -26,7 +26,7 @@ impl Brightness {
     /// # Errors
     /// `Io`, `Format` or `Limit` when the file cannot be used.
     pub fn load(path: &Path, target: &ImageTarget, side: usize) -> Result<Self> {
-        let picture = Picture::read(path)?;
+        let picture = decode::read(path)?;
         let mut cells = Cells::of(&picture, target, target.channel);
         if target.channel == Channel::Brightness && cells.black_with_shape {
             cells = Cells::of(&picture, target, Channel::Alpha);

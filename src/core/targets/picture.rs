@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::decode::{Picture, linear_from_srgb};
+use super::decode::{self, Picture, linear_from_srgb};
 use super::points::Points;
 use super::settings::{Channel, ImageTarget};
 use crate::math::colour::luminance;
@@ -40,7 +40,7 @@ impl PictureSampler {
     /// `Value` when a setting is out of range; `Io`, `Format` or `Limit` when the file cannot be used, or has no light.
     pub fn load(path: &Path, target: &ImageTarget, extent: Vec2, place: &str) -> Result<Self> {
         target.check(place)?;
-        let picture = Picture::read(path)?;
+        let picture = decode::read(path)?;
         let mut notes = picture.notes.clone();
         let mut cells = Cells::of(&picture, target, target.channel);
         if cells.bad_pixels > 0 {

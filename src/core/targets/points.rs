@@ -117,7 +117,9 @@ impl PointReader<'_> {
                 Error::format(self.path, "", "this is neither NPY nor UTF-8 text; save it as one of them")
             })?;
         let mut first = true;
-        for (number, line) in text.lines().enumerate() {
+        // Lines that end with CR alone are those of old Macs.
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        for (number, line) in text.split(end).enumerate() {
             if line.trim().is_empty() || line.trim_start().starts_with('#') {
                 continue;
             }

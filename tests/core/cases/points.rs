@@ -21,6 +21,7 @@ fn numbers_with_decimal_commas_are_read_where_other_separators_tell_them_apart()
         "x; y\r\n0,25; 0,75\r\n0,5; 0,5\r\n1; 0,125\r\n",
         "0,25\t0,75\n0,5\t0,5\n1\t0,125\n",
         "0,25 0,75\n0,5 0,5\n1 0,125\n",
+        "x,y\r0.25,0.75\r0.5,0.5\r1,0.125\r",
         "0.25, 0.75\n0.5, 0.5\n1, 0.125\n",
         "0.25;0.75\n0.5;0.5\n1;0.125\n",
     ] {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use glam::{DMat3, DVec3, EulerRot, Vec3};
 
+use super::desc::{MeshDesc, Transform};
 use super::obj::{ObjFile, Placement};
-use super::{MeshDesc, Transform};
 use crate::{Error, Result};
 
 /// Farthest from the origin (m): squares of lengths must stay within f32.

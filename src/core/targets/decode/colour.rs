@@ -10,8 +10,6 @@ use moxcms::{
 };
 use png::{Info, ScaledFloat};
 
-use super::linear_from_srgb;
-
 /// gAMA of sRGB, which has no power law.
 const SRGB_GAMMA: f32 = 0.45455;
 
@@ -153,4 +151,9 @@ fn of_gamma(info: &Info<'_>) -> Result<Encoding, String> {
 fn is_rec709(points: [Chromaticity; 4]) -> bool {
     let rec709 = [(0.3127, 0.329), (0.64, 0.33), (0.3, 0.6), (0.15, 0.06)];
     points.iter().zip(rec709).all(|(point, (x, y))| (point.x - x).abs() < 2e-3 && (point.y - y).abs() < 2e-3)
+}
+
+/// IEC 61966-2-1.
+pub(in crate::targets) fn linear_from_srgb(value: f32) -> f32 {
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use exr::prelude::{IntegerBounds, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Vec2};
 
-use super::{Picture, Pixels, damaged, require_size};
+use super::decoded::{Picture, Pixels, damaged, require_size};
 use crate::{Error, Result};
 
 /// Words in the names of layers that hold the whole picture.

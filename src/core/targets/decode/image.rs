@@ -7,7 +7,8 @@ use image::codecs::hdr::HdrDecoder;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 use super::colour::{self, Encoding};
-use super::{Picture, Pixels, damaged, formats, require_size};
+use super::decoded::{Picture, Pixels, damaged, require_size};
+use super::formats;
 use crate::{Error, Result};
 
 /// Formats that are read.

@@ -17,8 +17,6 @@ use crate::{Error, Progress, Result};
 
 /// Largest file read [bytes].
 const MAX_BYTES: u64 = 8 << 30;
-/// Most triangles of one file.
-const MAX_TRIANGLES: usize = 50_000_000;
 /// No normal given.
 pub(super) const NONE: u32 = u32::MAX;
 

@@ -9,9 +9,10 @@ use std::io::{self, BufRead, Read, Write as _};
 use std::path::Path;
 
 use super::super::text::{self, Lines};
-use super::MAX_TRIANGLES;
 use crate::{Error, Progress, Result};
 
+/// Most triangles of one file.
+const MAX_TRIANGLES: usize = 50_000_000;
 /// Bytes handed on at once.
 const CHUNK: usize = 64 << 10;
 /// Most polygons of a group.
