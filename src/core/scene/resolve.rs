@@ -38,8 +38,8 @@ impl Scene {
         let size = receiver.metres_per_plane_unit();
         let mut notes: Vec<String> =
             geometry.meshes().iter().filter_map(|mesh| size_hint(mesh, size)).collect();
-        let on_receiver = OnReceiver::new(&geometry, &receiver);
-        notes.extend(on_receiver.iter().flat_map(|on| on.notes.iter().cloned()));
+        let (on_receiver, of_contact) = OnReceiver::new(&geometry, &receiver);
+        notes.extend(of_contact);
         let scene = Self {
             on_receiver,
             geometry,

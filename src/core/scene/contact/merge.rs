@@ -8,8 +8,8 @@ use super::super::material::Material;
 use super::super::object::Mesh;
 use super::arrangement::{Arrangement, same_corners, same_side};
 use super::interface::Contact;
-use super::notes::{Touch, notes};
-use super::touching::touching;
+use super::notes::{Touch, near_notes, notes};
+use super::touching::{Pairs, touching};
 use crate::{Progress, Result};
 
 /// Triangles of which no two lie in one another.
@@ -33,9 +33,10 @@ pub(in crate::scene) fn merge(
     meshes: &[Mesh],
     progress: &Progress,
 ) -> Result<Merged> {
-    let pairs = touching(&triangles, shells, progress)?;
+    let Pairs { touching: pairs, near } = touching(&triangles, shells, progress)?;
+    let notes_on_near = near_notes(meshes, &near_meshes(&triangles, &near));
     if pairs.is_empty() {
-        return Ok(Merged { triangles, contacts: Vec::new(), notes: Vec::new() });
+        return Ok(Merged { triangles, contacts: Vec::new(), notes: notes_on_near });
     }
     let mut merger = Merger {
         triangles: &triangles,
@@ -57,7 +58,20 @@ pub(in crate::scene) fn merge(
     let mut kept: Vec<Triangle> =
         triangles.iter().zip(&is_in_contact).filter(|(_, is)| !**is).map(|(t, _)| *t).collect();
     kept.extend(merged);
-    Ok(Merged { triangles: kept, contacts, notes: notes(meshes, &touches) })
+    let mut notes = notes(meshes, &touches);
+    notes.extend(notes_on_near);
+    Ok(Merged { triangles: kept, contacts, notes })
+}
+
+/// The largest distance (m) of the triangles of two meshes that nearly touch.
+fn near_meshes(triangles: &[Triangle], near: &[(u32, u32, f64)]) -> BTreeMap<[u16; 2], f64> {
+    let mut found = BTreeMap::new();
+    for (a, b, distance) in near {
+        let [a, b] = [a, b].map(|index| triangles[*index as usize].mesh);
+        let largest = found.entry([a.min(b), a.max(b)]).or_insert(0.0);
+        *largest = distance.max(*largest);
+    }
+    found
 }
 
 /// How the meshes of two triangles touch.

@@ -15,7 +15,8 @@
 //! | glass, the receiver or its floor | the receiver: light goes from the glass to it, without air between |
 //! | a mirror or a matt surface, the receiver or its floor | the receiver |
 //!
-//! A gap above rounding, be it of 1e-6 m, is a gap of air. Every pair of objects that touch is noted, with what it means.
+//! A gap above rounding, be it of 1e-6 m, is a gap of air. Every pair of objects that touch is noted, with what it means, and
+//! every pair of which one is glass and that nearly touches.
 
 mod arrangement;
 mod interface;

@@ -1,6 +1,6 @@
 //! What touches, in words.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::material::Material;
 use super::super::object::Mesh;
@@ -26,6 +26,20 @@ pub(super) fn notes(meshes: &[Mesh], touches: &BTreeSet<Touch>) -> Vec<String> {
         notes.push(format!("{} more pairs of objects touch", touches.len() - MOST));
     }
     notes
+}
+
+/// One note for each two meshes of which one is glass, and which nearly touch.
+pub(super) fn near_notes(meshes: &[Mesh], near: &BTreeMap<[u16; 2], f64>) -> Vec<String> {
+    let is_glass = |mesh: &u16| matches!(meshes[usize::from(*mesh)].material, Material::Glass(_));
+    let pairs = near.iter().filter(|([a, b], _)| a != b && (is_glass(a) || is_glass(b)));
+    let note = |([a, b], distance): (&[u16; 2], &f64)| {
+        let [a, b] = [a, b].map(|mesh| &meshes[usize::from(*mesh)].name);
+        format!(
+            "'{a}' and '{b}' nearly touch, {distance:.0e} m apart: a gap is a film of air, an overlap is contact; let them \
+             meet exactly, or overlap by more, if that is not meant"
+        )
+    };
+    pairs.take(MOST).map(note).collect()
 }
 
 fn note(meshes: &[Mesh], touch: &Touch) -> String {

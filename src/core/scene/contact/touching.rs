@@ -20,10 +20,14 @@ pub(super) fn largest(corners: &[Vec3; 3]) -> f32 {
     corners.iter().map(|corner| corner.abs().max_element()).fold(0.0, f32::max)
 }
 
-/// Lower and upper corner, enlarged by rounding.
+/// Distance, in roundings, within which two surfaces nearly touch: their authors meant contact, and coordinates of a few
+/// digits keep them apart, here a film of air and there an overlap.
+pub(super) const NEARLY: f64 = 100.0;
+
+/// Lower and upper corner, enlarged so that boxes of surfaces that nearly touch overlap.
 fn bounds(corners: &[Vec3; 3]) -> (Vec3, Vec3) {
     let [a, b, c] = *corners;
-    let margin = Vec3::splat(2.0 * rounding(largest(corners)) as f32);
+    let margin = Vec3::splat((NEARLY * rounding(largest(corners))) as f32);
     (a.min(b).min(c) - margin, a.max(b).max(c) + margin)
 }
 
@@ -66,31 +70,35 @@ pub(super) fn area2(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether two triangles lie in one another on some area: their common part is wider than rounding, and all of it lies
-/// within rounding of both planes.
-fn coincide(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
+/// How far two triangles are apart that nearly lie in one another (m), the most over their common part, which is wider than
+/// that; and whether it is rounding alone.
+fn apart(a: &[Vec3; 3], b: &[Vec3; 3]) -> Option<(f64, bool)> {
     let size = |c: &[Vec3; 3]| (c[1] - c[0]).cross(c[2] - c[0]).length_squared();
     let (large, small) = if size(a) >= size(b) { (a, b) } else { (b, a) };
     let tolerance = rounding(largest(a).max(largest(b)));
+    let near = NEARLY * tolerance;
     let frame = Frame::of(large);
     let mut part: Vec<DVec3> = small.map(|corner| corner.as_dvec3()).to_vec();
     let heights = part.iter().map(|point| frame.height(*point));
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), z| (l.min(z), h.max(z)));
-    if low > tolerance || high < -tolerance {
-        return false;
+    if low > near || high < -near {
+        return None;
     }
     let corners = large.map(|corner| frame.flat(corner.as_dvec3()));
     for side in 0..3 {
         let (from, to) = (corners[side], corners[(side + 1) % 3]);
         part = clip(&part, |point| area2(from, to, frame.flat(point)));
     }
-    if part.len() < 3 || part.iter().any(|point| frame.height(*point).abs() > tolerance) {
-        return false;
+    let distance = part.iter().map(|point| frame.height(*point).abs()).fold(0.0, f64::max);
+    if part.len() < 3 || distance > near {
+        return None;
     }
     let flat: Vec<DVec2> = part.iter().map(|point| frame.flat(*point)).collect();
     let area: f64 = (1..flat.len() - 1).map(|i| area2(flat[0], flat[i], flat[i + 1])).sum();
     let longest = flat.iter().flat_map(|a| flat.iter().map(|b| a.distance(*b))).fold(0.0, f64::max);
-    area.abs() > 8.0 * tolerance * longest
+    let is_touching = distance <= tolerance;
+    let width = 8.0 * if is_touching { tolerance } else { near };
+    (area.abs() > width * longest).then_some((distance, is_touching))
 }
 
 /// The part of a convex polygon where `inside` is not negative (Sutherland & Hodgman 1974).
@@ -109,12 +117,16 @@ fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     kept
 }
 
-/// Pairs of triangles of different shells that lie in one another, each as (lower, higher) index, sorted.
-pub(super) fn touching(
-    triangles: &[Triangle],
-    shells: &[u32],
-    progress: &Progress,
-) -> Result<Vec<(u32, u32)>> {
+/// Pairs of triangles of different shells, each as (lower, higher) index.
+pub(super) struct Pairs {
+    /// Those that lie in one another, sorted.
+    pub touching: Vec<(u32, u32)>,
+    /// Those that nearly do, with their distance (m).
+    pub near: Vec<(u32, u32, f64)>,
+}
+
+/// The pairs of triangles that lie in one another, or nearly.
+pub(super) fn touching(triangles: &[Triangle], shells: &[u32], progress: &Progress) -> Result<Pairs> {
     let near = near_other_shells(triangles, shells);
     let item = |index: &u32| {
         let (lower, upper) = bounds(&triangles[*index as usize].corners);
@@ -123,20 +135,25 @@ pub(super) fn touching(
     };
     let tree = RTree::bulk_load(near.iter().map(item).collect());
     progress.check()?;
-    let pairs_of = |&index: &u32| -> Result<Vec<(u32, u32)>> {
+    let pairs_of = |&index: &u32| -> Result<Vec<(u32, u32, f64, bool)>> {
         progress.check()?;
         let own = &triangles[index as usize].corners;
         let (lower, upper) = bounds(own);
         let met = tree
             .locate_in_envelope_intersecting(AABB::from_corners(lower.to_array(), upper.to_array()))
             .map(|item| item.data)
-            .filter(|other| *other > index && shells[*other as usize] != shells[index as usize])
-            .filter(|other| coincide(own, &triangles[*other as usize].corners));
-        Ok(met.map(|other| (index, other)).collect())
+            .filter(|other| *other > index && shells[*other as usize] != shells[index as usize]);
+        let pair = |other: u32| {
+            let (distance, is_touching) = apart(own, &triangles[other as usize].corners)?;
+            Some((index, other, distance, is_touching))
+        };
+        Ok(met.filter_map(pair).collect())
     };
-    let mut pairs = near.par_iter().map(pairs_of).collect::<Result<Vec<_>>>()?.concat();
-    pairs.sort_unstable();
-    Ok(pairs)
+    let pairs = near.par_iter().map(pairs_of).collect::<Result<Vec<_>>>()?.concat();
+    let mut touching: Vec<_> = pairs.iter().filter(|pair| pair.3).map(|pair| (pair.0, pair.1)).collect();
+    touching.sort_unstable();
+    let near = pairs.into_iter().filter(|pair| !pair.3).map(|pair| (pair.0, pair.1, pair.2)).collect();
+    Ok(Pairs { touching, near })
 }
 
 /// The triangles within the bounds of another shell than their own.
