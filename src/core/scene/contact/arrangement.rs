@@ -1,6 +1,7 @@
 //! The division of triangles that lie in one another into parts that each belong to the same triangles throughout.
 
 use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use glam::{DVec2, DVec3, Vec3};
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -56,6 +57,11 @@ impl Arrangement {
 
     /// The parts: a constrained Delaunay triangulation of all edges. None where the triangulation fails.
     pub(super) fn pieces(&self, cluster: &[[Vec3; 3]]) -> Option<Vec<Piece>> {
+        // Where edges cross in slivers, its rounded crossings contradict each other, which it asserts not to happen.
+        catch_unwind(AssertUnwindSafe(|| self.divided(cluster))).ok().flatten()
+    }
+
+    fn divided(&self, cluster: &[[Vec3; 3]]) -> Option<Vec<Piece>> {
         // In steps of one rounding, as whole numbers: equal corners become one, and predicates are exact.
         let step = tolerance(cluster);
         let mut plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
