@@ -19,11 +19,12 @@ const FILE: &[(&str, &str)] = &[("glass.mtl", GLASS)];
 const WOOD: &str = "newmtl Wood\nKd 0.5 0.3 0.1\n";
 
 #[rustfmt::skip]
-const ROWS: [Row; 34] = [
+const ROWS: [Row; 35] = [
     ("plain", |t| with("mtllib glass.mtl\nusemtl Glass", t), FILE, &[]),
     ("two libraries on a line", |t| with("mtllib wood.mtl glass.mtl\nusemtl Glass", t), &[("wood.mtl", WOOD), ("glass.mtl", GLASS)], &[]),
     ("two libraries in quotes", |t| with("mtllib \"wood.mtl\" \"my glass.mtl\"\nusemtl Glass", t), &[("wood.mtl", WOOD), ("my glass.mtl", GLASS)], &["found as"]),
     ("a name with spaces", |t| with("mtllib my clear glass.mtl\nusemtl Glass", t), &[("my clear glass.mtl", GLASS)], &[]),
+    ("a name with spaces as in an address", |t| with("mtllib my%20glass.mtl\nusemtl Glass", t), &[("my glass.mtl", GLASS)], &["found as 'my glass.mtl'"]),
     ("names with spaces, two on a line", |t| with("mtllib old wood.mtl my glass.mtl\nusemtl Glass", t), &[("old wood.mtl", WOOD), ("my glass.mtl", GLASS)], &[]),
     ("one of two is missing", |t| with("mtllib lost.mtl glass.mtl\nusemtl Glass", t), FILE, &["material file was not used", "lost.mtl"]),
     ("backslash", |t| with("mtllib .\\glass.mtl\nusemtl Glass", t), FILE, &["found as 'glass.mtl'"]),
@@ -246,6 +247,11 @@ fn a_polygon_that_crosses_itself_is_told() {
     let bow = "v 0 0 0\nv 1 0 1\nv 1 0 0\nv 0 0 2\nf 1 2 3 4\n";
     let (_, notes) = load(bow, &[], Transform::default()).unwrap();
     assert!(notes.contains("1 polygons cross themselves"), "{notes}");
+    let corners = 5000;
+    let mut saw: String = (0..corners).map(|i| format!("v {} 0.1 {}\n", i, i % 2)).collect();
+    saw += &format!("v 0 0.1 -9\nf {}\n", (1..=corners + 1).map(|i| format!("{i} ")).collect::<String>());
+    let (_, notes) = load(saw, &[], Transform::default()).unwrap();
+    assert!(notes.contains("have thousands of corners"), "{notes}");
 }
 
 #[test]

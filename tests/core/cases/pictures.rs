@@ -7,7 +7,9 @@ use exr::prelude::{
     LayerAttributes, Vec2 as Place, WritableImage as _,
 };
 use glam::{Vec2, vec2};
-use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, RgbImage};
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::webp::WebPEncoder;
+use image::{DynamicImage, ImageBuffer, ImageEncoder as _, ImageFormat, Luma, Rgb, RgbImage};
 use lightloom_core::targets::{Brightness, ImageTarget, PictureSampler};
 
 /// The brightness of a file's pixels over that of the brightest, in blocks of a picture's longer side over `side`.
@@ -268,6 +270,26 @@ fn colours_of_png_are_read_by_their_tags() {
             shown.values[0]
         );
         assert_eq!(shown.values[3], 1.0, "{name}");
+    }
+}
+
+#[test]
+fn profiles_of_other_formats_count_too() {
+    let pixel = |x: u32, _| Rgb([(HALVES[x as usize / 8] * 255.0).round() as u8; 3]);
+    let image = RgbImage::from_fn(16, 8, pixel);
+    let profile = icc(b"RGB ", &curve(&[]));
+    let mut jpeg = Vec::new();
+    let mut encoder = JpegEncoder::new_with_quality(&mut jpeg, 100);
+    encoder.set_icc_profile(profile.clone()).unwrap();
+    encoder.encode_image(&image).unwrap();
+    let mut webp = Vec::new();
+    let mut encoder = WebPEncoder::new_lossless(&mut webp);
+    encoder.set_icc_profile(profile).unwrap();
+    encoder.encode(&image, 16, 8, image::ExtendedColorType::Rgb8).unwrap();
+    for file in [jpeg, webp] {
+        let shown = brightness(&file, 2).unwrap();
+        // A step of 255, and those of JPEG.
+        assert!((shown.values[0] - 0.5).abs() < 0.02, "{}", shown.values[0]);
     }
 }
 

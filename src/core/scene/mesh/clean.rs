@@ -25,7 +25,7 @@ pub(super) fn triangles(
         }
     };
     note(group.faces.len() - kept.len(), "triangles without area were dropped");
-    note(group.crossed, "polygons cross themselves; mend them, or split them into triangles");
+    note(group.crossed, "polygons cross themselves or have thousands of corners; split them into triangles");
     let is_glass = matches!(material, Material::Glass(_));
     let vertices = |kept: &[Face]| -> Vec<[u32; 3]> {
         kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect()

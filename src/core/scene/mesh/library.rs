@@ -9,6 +9,9 @@ use super::text;
 use crate::Result;
 use crate::scene::material::{Diffuse, Material};
 
+/// Most material files of a mesh.
+const MOST_FILES: usize = 256;
+
 /// Resolves a path as written, for the value at a place, to a file; or refuses.
 pub(super) type Assets<'a> = &'a dyn Fn(&str, &str) -> Result<PathBuf>;
 
@@ -72,7 +75,8 @@ impl Library {
     fn read(lines: &[String], owner: &Owner<'_>, notes: &mut Vec<String>) -> Self {
         let mut library = Self::default();
         let mut read = Vec::new();
-        for (name, found) in lines.iter().flat_map(|line| owner.files(line)) {
+        let mut files = lines.iter().flat_map(|line| owner.files(line));
+        for (name, found) in files.by_ref().take(MOST_FILES) {
             match found {
                 Ok(found) if read.contains(&found.path) => (),
                 Ok(found) => {
@@ -85,6 +89,9 @@ impl Library {
                 }
                 Err(error) => notes.push(format!("{}: its material file was not used: {error}", owner.name)),
             }
+        }
+        if files.next().is_some() {
+            notes.push(format!("{}: names more than {MOST_FILES} material files; join them", owner.name));
         }
         library
     }
@@ -167,7 +174,11 @@ impl Owner<'_> {
         let clean = text::without_comment(line);
         match [line, clean].into_iter().find_map(|whole| self.open(whole).ok()) {
             Some(found) => vec![(found.written.clone(), Ok(found))],
-            None => file_names(clean).into_iter().map(|name| (name.clone(), self.find(&name))).collect(),
+            None => file_names(clean)
+                .into_iter()
+                .take(MOST_FILES + 1)
+                .map(|name| (name.clone(), self.find(&name)))
+                .collect(),
         }
     }
 
@@ -180,7 +191,13 @@ impl Owner<'_> {
         let clean = text::without_quotes(name).replace('\\', "/");
         let bare = clean.rsplit('/').next().unwrap_or_default().to_owned();
         let relative = clean.trim_start_matches("./");
-        let candidates = [Some(relative.to_owned()), self.in_any_case(relative), self.in_any_case(&bare)];
+        let spaced = bare.replace("%20", " ");
+        let candidates = [
+            Some(relative.to_owned()),
+            self.in_any_case(relative),
+            self.in_any_case(&bare),
+            self.in_any_case(&spaced),
+        ];
         let found = candidates.into_iter().flatten().find_map(|candidate| self.open(&candidate).ok());
         found.map_or(written, Ok)
     }

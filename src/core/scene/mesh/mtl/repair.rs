@@ -4,7 +4,12 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::super::text::{self, Lines};
-use crate::Result;
+use crate::{Error, Result};
+
+/// Most materials of a file: a scene can tell no more objects apart.
+const MOST_MATERIALS: usize = u16::MAX as usize;
+/// Most notes on a material.
+const MOST_NOTES: usize = 8;
 
 /// The spelling of the values that are used.
 const VALUES: [(&str, Kind); 8] = [
@@ -41,12 +46,16 @@ pub(super) struct Repaired {
 /// Repairs the file at `path`.
 ///
 /// # Errors
-/// `Format` where the file is no text.
+/// `Format` where the file is no text or has too many materials.
 pub(super) fn repair(bytes: &[u8], path: &Path) -> Result<Repaired> {
     let mut file = Repaired::default();
     for (number, line) in Lines::new(bytes, path)? {
         let (keyword, rest) = text::keyword(&line);
         if keyword.eq_ignore_ascii_case("newmtl") {
+            if file.headers.len() == MOST_MATERIALS {
+                let what = format!("more than {MOST_MATERIALS} materials; leave out those that are not used");
+                return Err(Error::format(path, format!("line {number}"), what));
+            }
             let _ = writeln!(file.text, "newmtl {}", file.headers.len());
             file.headers.push(Header { name: rest.to_owned(), notes: Vec::new() });
             continue;
@@ -58,9 +67,9 @@ pub(super) fn repair(bytes: &[u8], path: &Path) -> Result<Repaired> {
         if let Some(value) = kind.spelled(&numbers) {
             let _ = writeln!(file.text, "{name} {value}");
         } else {
-            why.get_or_insert_with(|| "a number is missing".to_owned());
+            why.get_or_insert_with(|| "a number is missing or out of range".to_owned());
         }
-        if let Some(why) = why {
+        if let Some(why) = why.filter(|_| header.notes.len() < MOST_NOTES) {
             let file = path.file_name().unwrap_or_default().to_string_lossy();
             header.notes.push(format!("'{file}', line {number}, {keyword}: {why}"));
         }

@@ -36,7 +36,7 @@ pub(super) struct Group {
     /// Not normalized; may be zero.
     pub normals: Vec<Vec3>,
     pub faces: Vec<Face>,
-    /// Polygons that cross themselves.
+    /// Polygons that cross themselves, or have too many corners to be split along their outline.
     pub crossed: usize,
 }
 
@@ -74,7 +74,7 @@ fn parse(bytes: &[u8], path: &Path, placement: &impl Placement, progress: &Progr
     for model in models {
         progress.check()?;
         if let Some(group) = model.name.parse().ok().and_then(|name: usize| groups.get_mut(name)) {
-            group.add(model, placement, &mut splitter);
+            group.add(model, placement, (&mut splitter, progress))?;
         }
     }
     let groups = repair.materials.into_iter().zip(groups).filter(|(_, group)| !group.faces.is_empty());
@@ -83,7 +83,12 @@ fn parse(bytes: &[u8], path: &Path, placement: &impl Placement, progress: &Progr
 
 impl Group {
     /// Adds the polygons of a model, as triangles.
-    fn add(&mut self, model: Model, placement: &impl Placement, splitter: &mut Splitter) {
+    fn add(
+        &mut self,
+        model: Model,
+        placement: &impl Placement,
+        (splitter, progress): (&mut Splitter, &Progress),
+    ) -> Result<()> {
         let mesh = model.mesh;
         let (vertex, normal) = (self.positions.len() as u32, self.normals.len() as u32);
         let positions: &[[f64; 3]] = mesh.positions.as_chunks().0;
@@ -99,6 +104,9 @@ impl Group {
             let given = mesh.normal_indices.get(begin..begin + corners);
             polygon.clear();
             polygon.extend(indices.iter().map(|index| DVec3::from(positions[*index as usize])));
+            if corners > 4 {
+                progress.check()?;
+            }
             let (split, whole) = splitter.split(&polygon);
             self.crossed += usize::from(!whole);
             self.faces.extend(split.as_chunks().0.iter().map(|triangle: &[u32; 3]| Face {
@@ -108,6 +116,7 @@ impl Group {
             }));
             begin += corners;
         }
+        Ok(())
     }
 
     /// Adds the faces of another group.

@@ -5,6 +5,8 @@ use glam::{DVec2, DVec3};
 
 /// Most corners of a polygon for which every corner is tried as the tip of a fan.
 const MANY: usize = 32;
+/// Most corners of a polygon that is split by ear clipping: the time for those that cross themselves grows with the square.
+const MOST: usize = 4096;
 /// Share of its size squared below which a triangle counts as flat.
 const FLAT: f64 = 1e-9;
 
@@ -38,6 +40,10 @@ impl Splitter {
         if let Some(tip) = (0..tips).find(|tip| self.fan_areas(*tip).all(|area| area > least)) {
             self.fan(tip);
             return (&self.triangles, true);
+        }
+        if count > MOST {
+            self.fan(0);
+            return (&self.triangles, false);
         }
         self.earcut.earcut(self.flat.iter().copied(), &[], &mut self.triangles);
         self.restore();
