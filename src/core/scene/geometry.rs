@@ -69,14 +69,21 @@ impl Geometry {
         &self.meshes
     }
 
-    /// The nearest hit before `limit`; the triangle the ray leaves is skipped.
+    /// The nearest hit before `limit`; the triangle the ray leaves is skipped. Its surface is a number, for [`Self::known`],
+    /// where there are contacts.
     #[inline]
     pub(super) fn intersect(&self, ray: &Ray, limit: f32) -> Option<Hit> {
-        let mut hit = self.accel.intersect(ray, limit)?;
-        if !self.contacts.is_empty() {
-            hit.surface = self.surface(hit.surface);
-        }
-        Some(hit)
+        self.accel.intersect(ray, limit)
+    }
+
+    /// The hit with its surface, a mesh or a contact.
+    pub(super) fn known(&self, hit: Hit) -> Hit {
+        Hit { surface: self.surface(hit.surface), ..hit }
+    }
+
+    /// Whether any solids lie in one another.
+    pub(super) fn has_contacts(&self) -> bool {
+        !self.contacts.is_empty()
     }
 
     /// Whether any triangle but the one the ray leaves is hit before `distance`.
@@ -135,24 +142,28 @@ impl Geometry {
         single.into_iter().chain(several.iter().map(|side| side.0))
     }
 
-    /// The media `before` and `after` a surface of glass in their present state, where a ray that is inside `before` crosses
-    /// it; `inward` tells whether it comes from the outside of the triangle.
+    /// The media before and after a surface of glass, for a ray that meets it in `media`; `inward` tells whether it comes from
+    /// the outside of the triangle.
     #[inline]
     pub(super) fn cross(&self, surface: SurfaceId, inward: bool, media: Media) -> [Media; 2] {
         let (mut before, mut after) = (media, media);
         match surface {
             SurfaceId::Mesh(mesh) if inward => after.enter(mesh),
             SurfaceId::Mesh(mesh) => leave(mesh, &mut before, &mut after),
-            SurfaceId::Contact(contact) => {
-                let sides = &self.contacts[contact as usize].sides;
-                sides
-                    .iter()
-                    .filter(|side| side.1 != inward)
-                    .for_each(|side| leave(side.0, &mut before, &mut after));
-                sides.iter().filter(|side| side.1 == inward).for_each(|side| after.enter(side.0));
-            }
+            SurfaceId::Contact(contact) => return self.cross_contact(contact, inward, media),
             SurfaceId::Receiver | SurfaceId::Floor => (),
         }
+        [before, after]
+    }
+
+    #[cold]
+    fn cross_contact(&self, contact: u16, inward: bool, media: Media) -> [Media; 2] {
+        let (mut before, mut after) = (media, media);
+        let sides = &self.contacts[contact as usize].sides;
+        for side in sides.iter().filter(|side| side.1 != inward) {
+            leave(side.0, &mut before, &mut after);
+        }
+        sides.iter().filter(|side| side.1 == inward).for_each(|side| after.enter(side.0));
         [before, after]
     }
 }

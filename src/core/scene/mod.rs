@@ -73,6 +73,8 @@ pub struct Scene {
     environment: EnvironmentDesc,
     /// The triangles that lie in the plane of the receiver; none in most scenes.
     on_receiver: Option<contact::OnReceiver>,
+    /// Whether anything touches, so that hits need a second look.
+    has_contacts: bool,
 }
 
 impl Scene {
@@ -86,14 +88,15 @@ impl Scene {
         let floor = self.receiver.intersect(ray);
         let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
         let hit = self.geometry.intersect(ray, limit).or(floor);
-        match &self.on_receiver {
-            None => hit,
-            Some(on_receiver) => self.past_contact(on_receiver, ray, hit),
-        }
+        if self.has_contacts { self.in_contact(ray, hit) } else { hit }
     }
 
-    /// The hit of a ray, where triangles that lie on the receiver or its floor are the receiver or its floor.
-    fn past_contact(&self, on: &contact::OnReceiver, ray: &Ray, mut found: Option<Hit>) -> Option<Hit> {
+    /// The hit of a ray in a scene in which something touches: triangles that lie on the receiver or its floor are the receiver
+    /// or its floor.
+    #[cold]
+    fn in_contact(&self, ray: &Ray, found: Option<Hit>) -> Option<Hit> {
+        let mut found = found.map(|hit| self.geometry.known(hit));
+        let Some(on) = &self.on_receiver else { return found };
         let mut passed = 0.0;
         // More than one only by rounding, at an edge.
         for _ in 0..8 {
@@ -105,7 +108,8 @@ impl Scene {
                 return Some(floor);
             }
             passed += hit.t;
-            found = self.geometry.intersect(&Ray::leaving(&hit, ray.direction), f32::INFINITY);
+            let next = self.geometry.intersect(&Ray::leaving(&hit, ray.direction), f32::INFINITY);
+            found = next.map(|hit| self.geometry.known(hit));
         }
         found.map(|hit| Hit { t: passed + hit.t, ..hit })
     }

@@ -41,6 +41,7 @@ impl Scene {
         let (on_receiver, of_contact) = OnReceiver::new(&geometry, &receiver);
         notes.extend(of_contact);
         let scene = Self {
+            has_contacts: on_receiver.is_some() || geometry.has_contacts(),
             on_receiver,
             geometry,
             lights: desc.lights.clone(),

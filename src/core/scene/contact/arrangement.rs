@@ -1,7 +1,6 @@
 //! The division of triangles that lie in one another into parts that each belong to the same triangles throughout.
 
-use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::collections::{BTreeSet, HashMap};
 
 use glam::{DVec2, DVec3, Vec3};
 use rstar::primitives::{GeomWithData, Rectangle};
@@ -55,51 +54,37 @@ impl Arrangement {
         [1.0 - u - v, u, v]
     }
 
-    /// The parts: a constrained Delaunay triangulation of all edges. None where the triangulation fails.
+    /// The parts: a constrained Delaunay triangulation of all edges, cut where they cross. None where the triangulation fails.
     pub(super) fn pieces(&self, cluster: &[[Vec3; 3]]) -> Option<Vec<Piece>> {
-        // Where edges cross in slivers, its rounded crossings contradict each other, which it asserts not to happen.
-        catch_unwind(AssertUnwindSafe(|| self.divided(cluster))).ok().flatten()
-    }
-
-    fn divided(&self, cluster: &[[Vec3; 3]]) -> Option<Vec<Piece>> {
         // In steps of one rounding, as whole numbers: equal corners become one, and predicates are exact.
         let step = tolerance(cluster);
-        let mut plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
-        let mut places = Places { step, known: HashMap::new() };
-        let mut points: Vec<Vec3> = Vec::new();
-        let mut handles = Vec::new();
+        let mut places = Places::default();
+        let mut given: Vec<Vec3> = Vec::new();
+        let mut edges = BTreeSet::new();
         for (corners, flat) in cluster.iter().zip(&self.flat) {
-            let mut of = [0; 3];
-            for k in 0..3 {
-                let (at, new) = places.find(flat[k], points.len());
-                if let Some([x, y]) = new {
-                    handles.push(plane.insert(Point2::new(x, y)).ok()?);
-                    points.push(corners[k]);
-                }
-                of[k] = at;
-            }
-            for (from, to) in [(of[0], of[1]), (of[1], of[2]), (of[2], of[0])] {
-                if from != to && !plane.exists_constraint(handles[from], handles[to]) {
-                    plane.add_constraint_and_split(handles[from], handles[to], |crossing| crossing);
+            let of = flat.map(|point| places.find(point / step));
+            for (corner, place) in corners.iter().zip(of) {
+                if place == given.len() {
+                    given.push(*corner);
                 }
             }
+            let sides = [(of[0], of[1]), (of[1], of[2]), (of[2], of[0])];
+            edges.extend(sides.into_iter().filter(|(a, b)| a != b).map(|(a, b)| [a.min(b), a.max(b)]));
         }
-        let given: HashMap<_, _> = handles.iter().copied().zip(points).collect();
+        let edges = cut(&edges.into_iter().collect::<Vec<_>>(), &mut places);
+        let points = places.points.iter().map(|p| Point2::new(p.x, p.y)).collect();
+        // Edges that rounding has made cross again differ by less than rounding: one of them is enough.
+        let plane: ConstrainedDelaunayTriangulation<Point2<f64>> =
+            ConstrainedDelaunayTriangulation::try_bulk_load_cdt(points, edges, |_| ()).ok()?;
         let owners = self.owners();
         let pieces = plane.inner_faces().filter_map(|face| {
-            let vertices = face.vertices();
-            let flat = vertices.map(|vertex| {
-                let Point2 { x, y } = vertex.position();
-                DVec2::new(x, y) * step
-            });
+            let flat = face.positions().map(|Point2 { x, y }| DVec2::new(x, y) * step);
             let of = owners((flat[0] + flat[1] + flat[2]) / 3.0);
-            let corners = vertices.map(|vertex| {
-                given.get(&vertex.fix()).copied().unwrap_or_else(|| {
-                    let Point2 { x, y } = vertex.position();
-                    self.frame.point(DVec2::new(x, y) * step).as_vec3()
-                })
-            });
-            (!of.is_empty()).then_some(Piece { corners, of })
+            let numbers = face.vertices().map(|vertex| vertex.fix().index());
+            let corner = |k: usize| {
+                given.get(numbers[k]).copied().unwrap_or_else(|| self.frame.point(flat[k]).as_vec3())
+            };
+            (!of.is_empty()).then(|| Piece { corners: [corner(0), corner(1), corner(2)], of })
         });
         Some(pieces.collect())
     }
@@ -130,23 +115,83 @@ fn tolerance(cluster: &[[Vec3; 3]]) -> f64 {
     rounding(cluster.iter().map(largest).fold(f32::MIN_POSITIVE, f32::max))
 }
 
-/// Places on a plane that are told apart by more than rounding.
+/// Places on a plane that are told apart by more than rounding, in steps of it, whole numbers.
+#[derive(Default)]
 struct Places {
-    step: f64,
+    points: Vec<DVec2>,
     known: HashMap<[i64; 2], usize>,
 }
 
 impl Places {
-    /// The number of the place, and where it is new, in steps, for it to be the place `next`.
-    fn find(&mut self, at: DVec2, next: usize) -> (usize, Option<[f64; 2]>) {
-        let cell = (at / self.step).round().to_array().map(|x| x as i64);
+    /// The number of the place at a point; of a new one if there is none.
+    fn find(&mut self, at: DVec2) -> usize {
+        let cell = at.round().to_array().map(|x| x as i64);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [cell[0] + dx, cell[1] + dy]));
         if let Some(known) = around.into_iter().find_map(|cell| self.known.get(&cell)) {
-            return (*known, None);
+            return *known;
         }
-        self.known.insert(cell, next);
-        (next, Some(cell.map(|x| x as f64)))
+        self.known.insert(cell, self.points.len());
+        self.points.push(at.round());
+        self.points.len() - 1
     }
+}
+
+/// The parts of edges between the places where they cross or meet.
+fn cut(edges: &[[usize; 2]], places: &mut Places) -> Vec<[usize; 2]> {
+    let ends = |edge: usize, places: &Places| edges[edge].map(|place| places.points[place]);
+    let item = |edge: usize| {
+        let [a, b] = ends(edge, places);
+        let (lower, upper) = (a.min(b) - 2.0, a.max(b) + 2.0);
+        GeomWithData::new(Rectangle::from_corners(lower.to_array(), upper.to_array()), edge)
+    };
+    let tree = RTree::bulk_load((0..edges.len()).map(item).collect());
+    let mut on: Vec<Vec<usize>> = edges.iter().map(|edge| edge.to_vec()).collect();
+    for edge in 0..edges.len() {
+        let [a, b] = ends(edge, places);
+        let envelope = AABB::from_corners((a.min(b) - 2.0).to_array(), (a.max(b) + 2.0).to_array());
+        let mut others: Vec<usize> = tree.locate_in_envelope_intersecting(envelope).map(|i| i.data).collect();
+        others.sort_unstable();
+        for other in others.into_iter().filter(|other| *other != edge) {
+            let [c, d] = ends(other, places);
+            // An end of the other that lies on this one.
+            for (point, place) in [c, d].into_iter().zip(edges[other]) {
+                if distance(point, [a, b]) < 2.0 {
+                    on[edge].push(place);
+                }
+            }
+            if other > edge
+                && let Some(crossing) = crossing([a, b], [c, d])
+            {
+                let place = places.find(crossing);
+                on[edge].push(place);
+                on[other].push(place);
+            }
+        }
+    }
+    let mut parts = BTreeSet::new();
+    for (edge, mut on) in on.into_iter().enumerate() {
+        let [a, b] = ends(edge, places);
+        on.sort_by(|p, q| {
+            let along = |place: &usize| (places.points[*place] - a).dot(b - a);
+            along(p).total_cmp(&along(q)).then(p.cmp(q))
+        });
+        on.dedup();
+        parts.extend(on.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+    }
+    parts.into_iter().filter(|[a, b]| a != b).collect()
+}
+
+/// Distance of a point from a segment.
+fn distance(point: DVec2, [a, b]: [DVec2; 2]) -> f64 {
+    let along = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+    point.distance(a.lerp(b, along))
+}
+
+/// Where two segments cross within both; none for parallel ones, which meet in their ends.
+fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
+    let [from, to] = [area2(c, d, a), area2(c, d, b)];
+    let [first, last] = [area2(a, b, c), area2(a, b, d)];
+    (from * to < 0.0 && first * last < 0.0).then(|| a.lerp(b, from / (from - to)))
 }
 
 /// Whether all corners of two triangles are the same within rounding, in any order.

@@ -21,17 +21,22 @@ pub(super) struct Touch {
 
 /// One note for each pair, with what it means.
 pub(super) fn notes(meshes: &[Mesh], touches: &BTreeSet<Touch>) -> Vec<String> {
-    let mut notes: Vec<String> = touches.iter().take(MOST).map(|touch| note(meshes, touch)).collect();
-    if touches.len() > MOST {
-        notes.push(format!("{} more pairs of objects touch", touches.len() - MOST));
+    // Matt parts of one mesh that lie in one another are seen as one.
+    let is_odd =
+        |touch: &&Touch| touch.meshes[0] != touch.meshes[1] || is_glass(&meshes[touch.meshes[0] as usize]);
+    let count = touches.iter().filter(is_odd).count();
+    let mut notes: Vec<String> =
+        touches.iter().filter(is_odd).take(MOST).map(|touch| note(meshes, touch)).collect();
+    if count > MOST {
+        notes.push(format!("{} more pairs of objects touch", count - MOST));
     }
     notes
 }
 
 /// One note for each two meshes of which one is glass, and which nearly touch.
 pub(super) fn near_notes(meshes: &[Mesh], near: &BTreeMap<[u16; 2], f64>) -> Vec<String> {
-    let is_glass = |mesh: &u16| matches!(meshes[usize::from(*mesh)].material, Material::Glass(_));
-    let pairs = near.iter().filter(|([a, b], _)| a != b && (is_glass(a) || is_glass(b)));
+    let glass = |mesh: &u16| is_glass(&meshes[usize::from(*mesh)]);
+    let pairs = near.iter().filter(|([a, b], _)| a != b && (glass(a) || glass(b)));
     let note = |([a, b], distance): (&[u16; 2], &f64)| {
         let [a, b] = [a, b].map(|mesh| &meshes[usize::from(*mesh)].name);
         format!(
@@ -40,6 +45,10 @@ pub(super) fn near_notes(meshes: &[Mesh], near: &BTreeMap<[u16; 2], f64>) -> Vec
         )
     };
     pairs.take(MOST).map(note).collect()
+}
+
+fn is_glass(mesh: &Mesh) -> bool {
+    matches!(mesh.material, Material::Glass(_))
 }
 
 fn note(meshes: &[Mesh], touch: &Touch) -> String {
@@ -54,7 +63,6 @@ fn note(meshes: &[Mesh], touch: &Touch) -> String {
     if touch.meshes[0] == touch.meshes[1] {
         return format!("'{}' has parts that touch; they are one solid there", a.name);
     }
-    let is_glass = |mesh: &Mesh| matches!(mesh.material, Material::Glass(_));
     // In the list, b comes later.
     let wins = if a.priority > b.priority { a } else { b };
     match (is_glass(a), is_glass(b)) {

@@ -10,7 +10,7 @@ use super::dispersion::sample_wavelength;
 use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use super::{Glass, Material, Mirror};
 use crate::math::rng::Stream;
-use crate::scene::{Geometry, Hit, Media, Mesh};
+use crate::scene::{Geometry, Hit, Media, Mesh, SurfaceId};
 
 /// The light carried along a path: flux for a photon, throughput for a camera path.
 #[derive(Clone, Debug)]
@@ -100,7 +100,9 @@ impl Glass {
         beam: &mut Beam,
         rng: &mut Stream,
     ) -> Vec3 {
-        let Some(boundary) = Boundary::met(geometry, hit, direction, beam, rng) else { return direction };
+        let Some(boundary) = Boundary::met(self, geometry, hit, direction, beam, rng) else {
+            return direction;
+        };
         boundary.cross(hit, direction, rng.f32(), beam)
     }
 
@@ -113,7 +115,7 @@ impl Glass {
         least: f32,
         rng: &mut Stream,
     ) -> [Option<Way>; 2] {
-        let Some(boundary) = Boundary::met(geometry, hit, direction, &mut beam, rng) else {
+        let Some(boundary) = Boundary::met(self, geometry, hit, direction, &mut beam, rng) else {
             return [Some((direction, beam)), None];
         };
         let reflected = boundary.reflectance(hit, direction);
@@ -141,9 +143,10 @@ struct Boundary {
 }
 
 impl Boundary {
-    /// The boundary that a ray meets at a hit of glass; none where the glass changes nothing. A beam that meets dispersive glass gets its
+    /// The boundary that a ray meets at a hit of `glass`; none where the glass changes nothing. A beam that meets dispersive glass gets its
     /// wavelength, one that passes straight on its media.
     fn met(
+        glass: &Glass,
         geometry: &Geometry,
         hit: &Hit,
         direction: Vec3,
@@ -157,8 +160,13 @@ impl Boundary {
             beam.media = after;
             return None;
         }
-        let disperses = |media: &Media| media.glass(meshes).is_some_and(|glass| glass.dispersion.is_some());
-        if beam.wavelength.is_none() && (disperses(&before) || disperses(&after)) {
+        let disperses = match hit.surface {
+            SurfaceId::Contact(_) => [&before, &after]
+                .iter()
+                .any(|media| media.glass(meshes).is_some_and(|glass| glass.dispersion.is_some())),
+            _ => glass.dispersion.is_some(),
+        };
+        if disperses && beam.wavelength.is_none() {
             let (nm, colour) = sample_wavelength(beam.weight, rng);
             beam.weight = colour;
             beam.wavelength = Some(nm);
