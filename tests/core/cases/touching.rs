@@ -80,7 +80,7 @@ fn water(overlap: f32) -> String {
 }
 
 fn placed<'a>(mesh: &'a mut MeshDesc, rotate: [f32; 3], translate: [f32; 3]) -> &'a mut MeshDesc {
-    mesh.transform = Transform { rotate, translate, scale: 1.0 };
+    mesh.transform = Transform { rotate, translate: translate.map(f64::from), scale: 1.0 };
     mesh
 }
 
