@@ -112,12 +112,13 @@ impl<'a> Tracer<'a> {
         if emission.plan.cells.is_empty() {
             return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
-        let cost = emission.pilot(scene, &mut lesson, progress)?;
+        let measured = emission.pilot(scene, &mut lesson, progress)?;
         if emission.rate == 0.0 {
             return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
         if guiding == EmissionGuiding::Learned {
-            emission.try_window(scene, lesson.window(), cost, progress)?;
+            let window = lesson.window([measured.rate as f32, measured.rays as f32]);
+            emission.try_window(scene, window, measured, progress)?;
         }
         Ok(Self { scene, guide: EmissionGuide(Arc::new(emission)) })
     }
@@ -177,31 +178,36 @@ impl<'a> Tracer<'a> {
 }
 
 impl GuidedEmission {
-    /// Measures the landing rate; cells that were missed become active. Rays for a photon of equal flux, and the fate of the
-    /// paths.
-    fn pilot(&mut self, scene: &Scene, lesson: &mut Lesson, progress: &Progress) -> Result<f64> {
-        let mut cost = 0.0;
+    /// Measures the landing rate and learns the fate of the paths; cells that were missed become active.
+    fn pilot(&mut self, scene: &Scene, lesson: &mut Lesson, progress: &Progress) -> Result<Measured> {
+        let mut measured = Measured::default();
         for pilot in 0..PILOTS {
             let run = (PILOT_PASS, pilot * PILOT, PILOT);
             let recorder = || Recorder::new(lesson.cells);
             let batches = self.trace_candidates(scene, run, recorder, progress)?;
             batches.iter().for_each(|batch| lesson.add(&batch.watch.trails));
-            (self.rate, cost) = rate_and_cost(&batches);
+            measured = Measured::of(&batches);
+            self.rate = measured.rate;
             let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
             if !self.plan.activate(&cells) {
                 break;
             }
         }
-        Ok(cost)
+        Ok(measured)
     }
 
-    /// Uses a window if it pays, against the cost without.
-    fn try_window(&mut self, scene: &Scene, window: Window, cost: f64, progress: &Progress) -> Result<()> {
+    /// Uses a window if it pays, against the cost `without`.
+    fn try_window(
+        &mut self,
+        scene: &Scene,
+        window: Window,
+        without: Measured,
+        progress: &Progress,
+    ) -> Result<()> {
         let run = (PILOT_PASS, PILOTS * PILOT, PILOT);
-        let batches = self.trace_candidates(scene, run, || Gate::new(&window), progress)?;
-        let (rate, with_window) = rate_and_cost(&batches);
-        if rate > 0.0 && cost > LEAST_GAIN * with_window {
-            (self.rate, self.window) = (rate, Some(window));
+        let with = Measured::of(&self.trace_candidates(scene, run, || Gate::new(&window), progress)?);
+        if with.rate > 0.0 && without.cost > LEAST_GAIN * with.cost {
+            (self.rate, self.window) = (with.rate, Some(window));
         }
         Ok(())
     }
@@ -284,10 +290,25 @@ impl GuidedEmission {
     }
 }
 
-/// Landing rate of a pilot run, and its rays for a photon of equal flux: unequal ones count by (sum w)^2 / sum w^2.
-fn rate_and_cost<W>(batches: &[Batch<W>]) -> (f64, f64) {
-    let flux = || batches.iter().flat_map(|batch| &batch.photons.flux).map(|f| f64::from(f.element_sum()));
-    let rays: u64 = batches.iter().map(|batch| batch.balance.rays).sum();
-    let (sum, squares) = flux().fold((0.0, 0.0), |(sum, squares), f| (sum + f, squares + f * f));
-    (flux().count() as f64 / PILOT as f64, rays as f64 * squares / (sum * sum))
+/// What a pilot run measures.
+#[derive(Clone, Copy, Default)]
+struct Measured {
+    /// Photons per candidate.
+    rate: f64,
+    /// Rays per candidate.
+    rays: f64,
+    /// Rays for a photon of equal flux: unequal ones count by (sum w)^2 / sum w^2.
+    cost: f64,
+}
+
+impl Measured {
+    fn of<W>(batches: &[Batch<W>]) -> Self {
+        let flux =
+            || batches.iter().flat_map(|batch| &batch.photons.flux).map(|f| f64::from(f.element_sum()));
+        let rays = batches.iter().map(|batch| batch.balance.rays).sum::<u64>() as f64;
+        let (sum, squares) = flux().fold((0.0, 0.0), |(sum, squares), f| (sum + f, squares + f * f));
+        let candidates = PILOT as f64;
+        let rate = flux().count() as f64 / candidates;
+        Self { rate, rays: rays / candidates, cost: rays * squares / (sum * sum) }
+    }
 }

@@ -2,12 +2,14 @@
 //! eight at once (Wald, Benthin, Boulos 2008).
 
 mod build;
+mod collapse;
 mod node;
 mod triangle;
 mod wide;
 
 use glam::Vec3;
 
+use collapse::Hierarchy;
 use node::{Child, Node, Stack};
 pub(super) use triangle::Triangle;
 use wide::{Nearest, Triangles, WideRay};
@@ -38,7 +40,7 @@ impl Accel {
         if triangles.is_empty() {
             return Ok(Self { nodes: Vec::new(), leaves: Vec::new(), surfaces: Vec::new() });
         }
-        let (nodes, leaves, order) = build::build(triangles, progress)?;
+        let Hierarchy { nodes, leaves, order } = build::build(triangles, progress)?;
         let surface = |i: &u32| {
             let Triangle { normals, mesh, .. } = triangles[*i as usize];
             ShadingData { normals, mesh }

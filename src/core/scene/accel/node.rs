@@ -37,13 +37,6 @@ impl Child {
     pub(super) fn as_leaf(self) -> usize {
         (self.0 & !Self::LEAF) as usize
     }
-
-    /// Offsets the index by the nodes and leaves now before its own.
-    pub(super) fn shift(&mut self, nodes: u32, leaves: u32) {
-        if self.0 != Self::EMPTY.0 {
-            self.0 += if self.as_node().is_some() { nodes } else { leaves };
-        }
-    }
 }
 
 /// The traversal stack: each level leaves at most seven children.
