@@ -79,8 +79,8 @@ impl Scene {
     /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
-        let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
-        self.geometry.accel.intersect(ray, limit).or(floor)
+        let limit = floor.map_or(f32::INFINITY, |(t, _)| t);
+        self.geometry.accel.intersect(ray, limit).or_else(|| floor.map(|floor| self.receiver.hit(floor)))
     }
 
     /// Whether any mesh, glass included, blocks the ray before `distance` (m). The floor never does.

@@ -204,7 +204,8 @@ impl Receiver {
         )
     }
 
-    pub(super) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+    /// The distance at which a ray meets the rectangle or the floor, and where.
+    pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec2)> {
         if ray.from == Primitive::FLOOR {
             return None;
         }
@@ -214,20 +215,18 @@ impl Receiver {
         }
         let plane = self.plane_from_world(ray.origin + ray.direction * t);
         let reach = Vec2::splat(self.surround);
-        let surface = if self.contains(plane) {
-            SurfaceId::Receiver
-        } else if plane.cmpge(-reach).all() && plane.cmple(self.extent + reach).all() {
-            SurfaceId::Floor
-        } else {
-            return None;
-        };
-        Some(Hit {
+        (plane.cmpge(-reach).all() && plane.cmple(self.extent + reach).all()).then_some((t, plane))
+    }
+
+    /// The hit of a ray that meets the plane there.
+    pub(super) fn hit(&self, (t, plane): (f32, Vec2)) -> Hit {
+        Hit {
             t,
             point: self.world_from_plane(plane),
             geometric_normal: self.normal,
             shading_normal: self.normal,
-            surface,
+            surface: if self.contains(plane) { SurfaceId::Receiver } else { SurfaceId::Floor },
             primitive: Primitive::FLOOR,
-        })
+        }
     }
 }

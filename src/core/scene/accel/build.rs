@@ -14,8 +14,12 @@ use super::collapse::{Hierarchy, collapse};
 use super::triangle::Triangle;
 use crate::{Progress, Result};
 
-/// Nodes that are tried for reinsertion, as shares of all, pass by pass: mostly those near the root.
-const REINSERTIONS: [f32; 8] = [0.2, 0.1, 0.05, 0.03, 0.02, 0.02, 0.01, 0.01];
+/// Passes of reinsertion. The first tries a share of all nodes, mostly those near the root, and each a smaller one; nodes
+/// of large meshes are too many.
+const PASSES: i32 = 8;
+const FIRST_SHARE: f32 = 0.5;
+const DECAY: f32 = 1.3;
+const MOST_NODES: f32 = 100_000.0;
 
 /// The hierarchy over triangles with area. Deterministic.
 ///
@@ -27,13 +31,14 @@ pub(super) fn build(triangles: &[Triangle], progress: &Progress) -> Result<Hiera
     progress.check()?;
     let distinct: Vec<Aabb> = groups.first.iter().map(|triangle| boxes[*triangle as usize]).collect();
     let all = (0..distinct.len() as u32).collect();
-    let mut tree = PlocBuilder::new().build(PlocSearchDistance::High, &distinct, all, SortPrecision::U64, 1);
+    let mut tree = PlocBuilder::new().build(PlocSearchDistance::High, &distinct, all, SortPrecision::U64, 0);
     progress.check()?;
     let mut optimizer = ReinsertionOptimizer::default();
-    for share in REINSERTIONS {
+    let first = FIRST_SHARE.min(MOST_NODES / tree.nodes.len() as f32);
+    for pass in 0..PASSES {
         // obvhs bounds its stack by this depth.
         tree.max_depth = depth(&tree);
-        optimizer.run(&mut tree, share, Some(vec![1.0]));
+        optimizer.run(&mut tree, first / DECAY.powi(pass), Some(vec![1.0]));
         progress.check()?;
     }
     collapse(&tree, &groups, triangles, progress)

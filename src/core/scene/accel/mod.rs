@@ -82,7 +82,7 @@ impl Accel {
     pub(super) fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         let mut occluded = false;
         self.search(ray, distance, |wide, leaf, limit| {
-            occluded = leaf.intersect(wide, *limit, ray.from.0).0 != 0;
+            occluded = leaf.intersect(wide, *limit, ray.from.0).mask != 0;
             !occluded
         });
         occluded
@@ -91,7 +91,7 @@ impl Accel {
     /// Calls `crossed` for every triangle hit, with its mesh and whether the ray leaves the solid there.
     pub(super) fn each_crossing(&self, ray: &Ray, mut crossed: impl FnMut(u16, bool)) {
         self.search(ray, f32::INFINITY, |wide, leaf, limit| {
-            let (mask, ..) = leaf.intersect(wide, *limit, ray.from.0);
+            let mask = leaf.intersect(wide, *limit, ray.from.0).mask;
             for lane in (0..8).filter(|lane| mask >> lane & 1 != 0) {
                 let (_, edge1, edge2) = leaf.lane(lane);
                 let mesh = self.surfaces[(leaf.first + lane) as usize].mesh;

@@ -56,6 +56,12 @@ impl Node {
             return Some(self.children[first]);
         }
         let enter = enter.to_array();
+        let second = mask.trailing_zeros() as usize;
+        if mask & (mask - 1) == 0 {
+            let (near, far) = if enter[first] <= enter[second] { (first, second) } else { (second, first) };
+            stack.push((enter[far], self.children[far]));
+            return Some(self.children[near]);
+        }
         let bottom = stack.len();
         stack.push((enter[first], self.children[first]));
         while mask != 0 {
