@@ -184,7 +184,9 @@ fn a_caustic_of_its_own_flow_is_not_moved_by_another() {
         let mut last = parted();
         last["caustics"]["right"]["shows"] = square(right);
         let mut project = project(&stage, last);
-        project["caustics"][0]["own_flow"] = json!(own);
+        for caustic in project["caustics"].as_array_mut().unwrap() {
+            caustic["own_flow"] = json!(own);
+        }
         Fit::new(&stage, &project)
     };
     let [near, far] = [[0.6, 0.4], LOWER].map(|right| fit(true, right));
