@@ -1,15 +1,15 @@
-//! The construction of the hierarchy. obvhs makes a binary tree of the boxes (PLOC, Benthin et al. 2022) and improves it by
-//! reinsertion (Meister & Bittner 2018); [`collapse`](super::collapse) makes nodes of eight of it.
+//! The construction of the hierarchy. obvhs makes a binary tree of the boxes (PLOC, Meister & Bittner 2018; see
+//! [`blocks`](super::blocks)) and improves it (parallel reinsertion, by the same); [`collapse`](super::collapse) makes nodes of
+//! eight of it.
 //!
-//! Equal boxes are one to the tree: it would chain them. All of it runs on one thread, so the result is the same on any
-//! machine.
+//! Equal boxes are one to the tree: it would chain them.
 
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
-use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use rayon::prelude::*;
 
+use super::blocks;
 use super::collapse::{Hierarchy, collapse};
 use super::triangle::Triangle;
 use crate::{Progress, Result};
@@ -19,7 +19,9 @@ use crate::{Progress, Result};
 const PASSES: i32 = 8;
 const FIRST_SHARE: f32 = 0.5;
 const DECAY: f32 = 1.3;
-const MOST_NODES: f32 = 100_000.0;
+const MOST_NODES: f32 = 200_000.0;
+/// Depth of the binary tree beyond which nodes are not reinserted; that of common meshes is 25 to 50.
+const DEEPEST: usize = 128;
 
 /// The hierarchy over triangles with area. Deterministic.
 ///
@@ -30,18 +32,27 @@ pub(super) fn build(triangles: &[Triangle], progress: &Progress) -> Result<Hiera
     let groups = Groups::new(&boxes);
     progress.check()?;
     let distinct: Vec<Aabb> = groups.first.iter().map(|triangle| boxes[*triangle as usize]).collect();
-    let all = (0..distinct.len() as u32).collect();
-    let mut tree = PlocBuilder::new().build(PlocSearchDistance::High, &distinct, all, SortPrecision::U64, 0);
-    progress.check()?;
+    let mut tree = blocks::tree(&distinct, progress)?;
+    improve(&mut tree, progress)?;
+    collapse(&tree, &groups, triangles, progress)
+}
+
+/// Reinserts nodes where that makes boxes smaller. A tree that is deep has boxes that nothing makes smaller, and a search
+/// among them would go through all.
+fn improve(tree: &mut Bvh2, progress: &Progress) -> Result<()> {
     let mut optimizer = ReinsertionOptimizer::default();
     let first = FIRST_SHARE.min(MOST_NODES / tree.nodes.len() as f32);
     for pass in 0..PASSES {
-        // obvhs bounds its stack by this depth.
-        tree.max_depth = depth(&tree);
-        optimizer.run(&mut tree, first / DECAY.powi(pass), Some(vec![1.0]));
         progress.check()?;
+        let depth = depth(tree);
+        if depth > DEEPEST {
+            return Ok(());
+        }
+        // obvhs bounds its stack by this depth.
+        tree.max_depth = depth;
+        optimizer.run(tree, first / DECAY.powi(pass), Some(vec![1.0]));
     }
-    collapse(&tree, &groups, triangles, progress)
+    progress.check()
 }
 
 fn bounds(triangle: &Triangle) -> Aabb {

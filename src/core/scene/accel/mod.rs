@@ -1,6 +1,7 @@
 //! The acceleration structure: a bounding volume hierarchy with eight boxes per node and eight triangles per leaf, tested
 //! eight at once (Wald, Benthin, Boulos 2008).
 
+mod blocks;
 mod build;
 mod collapse;
 mod node;
