@@ -86,8 +86,9 @@ impl Scene {
     /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
-        let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
-        let hit = self.geometry.intersect(ray, limit).or(floor);
+        let limit = floor.map_or(f32::INFINITY, |(t, _)| t);
+        let hit = self.geometry.intersect(ray, limit);
+        let hit = hit.or_else(|| floor.map(|floor| self.receiver.hit(floor)));
         if self.has_contacts { self.in_contact(ray, hit) } else { hit }
     }
 
