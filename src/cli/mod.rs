@@ -60,7 +60,9 @@ fn edit(project: Option<&Path>) -> Result<u8, Error> {
     match crate::editor::run(project) {
         Ok(()) => Ok(0),
         Err(why) => {
-            eprintln!("lightloom: cannot open a window: {why}");
+            eprintln!(
+                "lightloom: cannot open a window: {why}. Without one, `lightloom render PROJECT --out DIR` renders a project."
+            );
             Ok(NO_WINDOW)
         }
     }

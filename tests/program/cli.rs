@@ -67,7 +67,7 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
         "gap",
         "crossing_index",
         "fit_residual",
-        "solver_residual",
+        "solver_error",
         "solver_iterations",
         "unknowns",
         "divergence_rms",
@@ -220,6 +220,21 @@ fn turbulence_is_left_out_or_told_of_and_exported() {
 fn schema_is_json_and_knows_the_fields() {
     let schema: Value = serde_json::from_str(&run(&["schema"])).unwrap();
     assert!(schema["properties"]["keys"].is_object());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_screen_the_program_says_so_and_names_the_way_without() {
+    for display in [None, Some(":987")] {
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_lightloom"));
+        program.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        display.map(|display| program.env("DISPLAY", display));
+        let output = program.output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("screen") && said.contains("lightloom render PROJECT"), "{said}");
+        assert!(!said.contains(".rs:") && said.lines().count() == 1, "{said}");
+    }
 }
 
 #[test]

@@ -94,8 +94,9 @@ impl Scene {
     #[inline]
     fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
-        let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
-        self.geometry.intersect(ray, limit).or(floor)
+        let limit = floor.map_or(f32::INFINITY, |(t, _)| t);
+        let hit = self.geometry.intersect(ray, limit);
+        hit.or_else(|| floor.map(|floor| self.receiver.hit(floor)))
     }
 
     /// As [`Self::intersect`] in a scene in which something touches: triangles that lie on the receiver or its floor are the

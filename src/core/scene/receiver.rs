@@ -210,7 +210,8 @@ impl Receiver {
         )
     }
 
-    pub(super) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+    /// The distance at which a ray meets the rectangle or the floor, and where.
+    pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec2)> {
         if ray.from == Primitive::FLOOR {
             return None;
         }
@@ -219,31 +220,31 @@ impl Receiver {
             return None;
         }
         let plane = self.plane_from_world(ray.origin + ray.direction * t);
-        self.hit(t, plane)
+        self.reaches(plane).then_some((t, plane))
     }
 
     /// The hit of a surface that lies in the plane, as one of the receiver or the floor; none beyond.
     pub(super) fn hit_at(&self, hit: &Hit) -> Option<Hit> {
-        self.hit(hit.t, self.plane_from_world(hit.point))
+        let plane = self.plane_from_world(hit.point);
+        self.reaches(plane).then(|| self.hit((hit.t, plane)))
     }
 
-    fn hit(&self, t: f32, plane: Vec2) -> Option<Hit> {
+    /// Whether the floor reaches there.
+    fn reaches(&self, plane: Vec2) -> bool {
         let (lower, upper) = self.reach();
-        let surface = if self.contains(plane) {
-            SurfaceId::Receiver
-        } else if plane.cmpge(lower).all() && plane.cmple(upper).all() {
-            SurfaceId::Floor
-        } else {
-            return None;
-        };
-        Some(Hit {
+        plane.cmpge(lower).all() && plane.cmple(upper).all()
+    }
+
+    /// The hit of a ray that meets the plane there.
+    pub(super) fn hit(&self, (t, plane): (f32, Vec2)) -> Hit {
+        Hit {
             t,
             point: self.world_from_plane(plane),
             geometric_normal: self.normal,
             shading_normal: self.normal,
-            surface,
+            surface: if self.contains(plane) { SurfaceId::Receiver } else { SurfaceId::Floor },
             primitive: Primitive::FLOOR,
-        })
+        }
     }
 
     /// Lower and upper corner of the floor, plane units.

@@ -12,6 +12,11 @@ impl Primitive {
     pub const NONE: Self = Self(u32::MAX);
     /// The plane of the receiver and the floor.
     pub(super) const FLOOR: Self = Self(u32::MAX - 1);
+
+    /// The number of a triangle of a mesh: neighbours in space have near numbers.
+    pub(crate) fn index(self) -> u32 {
+        self.0
+    }
 }
 
 /// A half-line, world space (m).

@@ -1,18 +1,25 @@
-//! Scenes as people have them, in tables: what goes in, what must come out.
+//! Scenes and files as people have them, in tables: what goes in, what must come out.
 
 use std::path::Path;
 
+use glam::Vec3;
 use lightloom_core::engine::{CheckReport, Engine};
 use lightloom_core::photon::Tracer;
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::SpotLight;
+use lightloom_core::scene::mesh::Transform;
+use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Progress, Result};
 use serde_json::json;
 
-use crate::scenes::Stage;
+use crate::scenes::{Stage, sphere_obj};
 
+mod fuzz;
 mod meshes;
+mod mtl;
+mod obj;
+mod pictures;
+mod points;
 mod reasons;
 mod touching;
 
@@ -53,4 +60,34 @@ fn check(stage: &Stage) -> Result<CheckReport> {
     });
     let project = Project::parse(project.to_string().as_bytes(), Path::new("project.json"))?;
     Engine::new(AssetFolder::new(&stage.folder.path().join("project.json"), false)?).check(&project)
+}
+
+/// Glass by its material file.
+const GLASS: &str = "newmtl Glass\nNi 1.5\nd 0.1\nillum 7\nKd 0.8 0.8 0.8\n";
+
+/// A ball of glass over the origin, without a material.
+fn ball() -> String {
+    sphere_obj(2, BALL, RADIUS)
+}
+
+const BALL: Vec3 = Vec3::new(0.0, 0.2, 0.0);
+const RADIUS: f32 = 0.12;
+/// Triangles of the ball.
+const FACES: usize = 320;
+
+/// The scene of one mesh file beside other files, with the notes on it; or the error.
+fn load(
+    mesh: impl AsRef<[u8]>,
+    others: &[(&str, &str)],
+    place: Transform,
+) -> Result<(Scene, String), String> {
+    let mut stage = Stage::new();
+    for (name, content) in others {
+        let path = stage.folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, content).unwrap();
+    }
+    stage.mesh("mesh", mesh, None).transform = place;
+    let (scene, notes) = stage.try_load().map_err(|error| error.to_string())?;
+    Ok((scene, notes.join("\n")))
 }

@@ -80,7 +80,7 @@ fn water(overlap: f32) -> String {
 }
 
 fn placed(mesh: &mut MeshDesc, rotate: [f32; 3], translate: [f32; 3]) {
-    mesh.transform = Transform { rotate, translate, scale: 1.0 };
+    mesh.transform = Transform { rotate, translate: translate.map(f64::from), scale: 1.0 };
 }
 
 /// A box of glass on a tilted receiver, sunk into it by `overlap` along its own height.

@@ -5,28 +5,27 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::normals::{self, cross};
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
 use super::shells::{Sides, inward};
 use crate::scene::accel::Triangle;
 use crate::scene::material::Material;
 
-/// The triangles of one material, and for each its shell, numbered from 0. `welded` is of [`weld`].
+/// The triangles of one material, and for each its shell, numbered from 0.
 pub(super) fn triangles(
-    (file, welded): (&ObjFile, &[u32]),
-    faces: Vec<Face>,
+    group: &Group,
     smooth: bool,
     (material, name): (&Material, &str),
     notes: &mut Vec<String>,
 ) -> (Vec<Triangle>, Vec<u32>) {
-    let count = faces.len();
-    let mut kept: Vec<Face> = faces.into_iter().filter(|face| has_area(file, face)).collect();
+    let welded = weld(&group.positions);
+    let mut kept: Vec<Face> = group.faces.iter().copied().filter(|face| has_area(group, face)).collect();
     let mut note = |count: usize, what: &str| {
         if count > 0 {
             notes.push(format!("{name}: {count} {what}"));
         }
     };
-    note(count - kept.len(), "triangles without area were dropped");
-    note(file.polygons, "polygons of more than 4 corners were split into fans; concave ones may fold");
+    note(group.faces.len() - kept.len(), "triangles without area were dropped");
+    note(group.crossed, "polygons cross themselves or have thousands of corners; split them into triangles");
     let is_glass = matches!(material, Material::Glass(_));
     let vertices = |kept: &[Face]| -> Vec<[u32; 3]> {
         kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect()
@@ -47,7 +46,7 @@ pub(super) fn triangles(
     if is_glass {
         let corners: Vec<[DVec3; 3]> = kept
             .par_iter()
-            .map(|face| face.vertices.map(|v| file.positions[v as usize].as_dvec3()))
+            .map(|face| face.vertices.map(|v| group.positions[v as usize].as_dvec3()))
             .collect();
         let inward = inward(&sides, &shells, &corners);
         let turned = inward.iter().filter(|is| **is).count();
@@ -69,7 +68,7 @@ pub(super) fn triangles(
             "edges whose two faces are wound against each other; recalculate the normals outside",
         );
     }
-    let (triangles, turned) = normals::shade(file, &kept, &compact(vertices(&kept)), smooth);
+    let (triangles, turned) = normals::shade(group, &kept, &compact(vertices(&kept)), smooth);
     note(turned, "corner normals pointed against their face and were turned");
     (triangles, shells)
 }
@@ -131,8 +130,8 @@ fn compact(mut faces: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
 }
 
 /// Whether a face has an area that f32 can tell from 0.
-fn has_area(file: &ObjFile, face: &Face) -> bool {
-    let [a, b, c] = face.vertices.map(|v| file.positions[v as usize]);
+fn has_area(group: &Group, face: &Face) -> bool {
+    let [a, b, c] = face.vertices.map(|v| group.positions[v as usize]);
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     let area = cross([a, b, c]).length();
     // A squared length below the smallest normal number has lost its digits.
@@ -145,7 +144,7 @@ fn flip(face: &mut Face) {
 }
 
 /// For every vertex the first vertex at the same position.
-pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
+fn weld(positions: &[Vec3]) -> Vec<u32> {
     // Adding 0 turns -0 into 0, so that equal positions have equal bits.
     let key = |i: u32| (positions[i as usize] + 0.0).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

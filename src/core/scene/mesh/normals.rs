@@ -4,7 +4,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
 use crate::scene::accel::Triangle;
 
 /// Crease angle: cosine of the angle between faces above which an edge is sharp, 50 degrees.
@@ -15,31 +15,34 @@ const MANY: usize = 64;
 /// Triangles with their corner normals, and how many of the file's normals were turned to the side of their face.
 /// `vertices` are the welded vertices of the faces, numbered without gaps.
 pub(super) fn shade(
-    file: &ObjFile,
+    group: &Group,
     faces: &[Face],
     vertices: &[[u32; 3]],
     smooth: bool,
 ) -> (Vec<Triangle>, usize) {
     let corners: Vec<[Vec3; 3]> =
-        faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
-    let own = |face: &Face| {
-        let normals = face.normals.map(|n| if n == NONE { Vec3::ZERO } else { file.normals[n as usize] });
-        let normals = normals.map(Vec3::normalize_or_zero);
-        (smooth && !normals.contains(&Vec3::ZERO)).then_some(normals)
+        faces.par_iter().map(|face| face.vertices.map(|v| group.positions[v as usize])).collect();
+    // That of the file, where it has a length.
+    let own = |normal: u32| {
+        let given = if smooth && normal != NONE { group.normals[normal as usize] } else { Vec3::ZERO };
+        given.try_normalize()
     };
-    let averages = (smooth && faces.par_iter().any(|face| own(face).is_none()))
+    let averages = (smooth && faces.par_iter().any(|face| face.normals.iter().any(|n| own(*n).is_none())))
         .then(|| Averages::new(vertices, &corners));
     let (triangles, turned): (Vec<Triangle>, Vec<usize>) = (0..faces.len())
         .into_par_iter()
         .map(|i| {
             let flat = cross(corners[i]).normalize();
-            let given = own(&faces[i]);
-            let turned = given.map_or(0, |normals| normals.iter().filter(|n| n.dot(flat) < 0.0).count());
-            let normals = match (given, &averages) {
-                (Some(normals), _) => normals.map(|n| if n.dot(flat) < 0.0 { -n } else { n }),
-                (None, Some(averages)) => [0, 1, 2].map(|corner| averages.at(i, corner, flat)),
-                (None, None) => [flat; 3],
-            };
+            let mut turned = 0;
+            let normals = [0, 1, 2].map(|corner| match (own(faces[i].normals[corner]), &averages) {
+                (Some(normal), _) if normal.dot(flat) < 0.0 => {
+                    turned += 1;
+                    -normal
+                }
+                (Some(normal), _) => normal,
+                (None, Some(averages)) => averages.at(i, corner, flat),
+                (None, None) => flat,
+            });
             (Triangle { corners: corners[i], normals, mesh: 0 }, turned)
         })
         .unzip();
