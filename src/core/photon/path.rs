@@ -145,7 +145,7 @@ pub(super) fn follow(
         beam.travel(scene.meshes(), hit.t);
         let next = match scene.mesh_of(hit.surface) {
             Some(mesh) => {
-                let material = scene.material(hit.surface);
+                let material = &scene.meshes()[usize::from(mesh)].material;
                 let next = material.scatter(scene.geometry(), &hit, ray.direction, &mut beam, rng);
                 last_specular = next.map(|_| mesh).or(last_specular);
                 next

@@ -142,37 +142,24 @@ impl Geometry {
         single.into_iter().chain(several.iter().map(|side| side.0))
     }
 
-    /// The media before and after a surface of glass, for a ray that meets it in `media`; `inward` tells whether it comes from
-    /// the outside of the triangle.
-    #[inline]
-    pub(super) fn cross(&self, surface: SurfaceId, inward: bool, media: Media) -> [Media; 2] {
-        let (mut before, mut after) = (media, media);
-        match surface {
-            SurfaceId::Mesh(mesh) if inward => after.enter(mesh),
-            SurfaceId::Mesh(mesh) => leave(mesh, &mut before, &mut after),
-            SurfaceId::Contact(contact) => return self.cross_contact(contact, inward, media),
-            SurfaceId::Receiver | SurfaceId::Floor => (),
-        }
-        [before, after]
-    }
-
+    /// Takes the media before and after a place where several solids of glass lie in one another, both those in which a ray
+    /// comes, across it; `inward` tells whether it comes from the outside of the triangle.
     #[cold]
-    fn cross_contact(&self, contact: u16, inward: bool, media: Media) -> [Media; 2] {
-        let (mut before, mut after) = (media, media);
+    pub(super) fn cross_contact(
+        &self,
+        surface: SurfaceId,
+        inward: bool,
+        (before, after): (&mut Media, &mut Media),
+    ) {
+        let SurfaceId::Contact(contact) = surface else { return };
         let sides = &self.contacts[contact as usize].sides;
-        for side in sides.iter().filter(|side| side.1 != inward) {
-            leave(side.0, &mut before, &mut after);
+        for (mesh, _) in sides.iter().filter(|side| side.1 != inward) {
+            // A ray that leaves what it was not in was in it before.
+            if !after.leave(*mesh) {
+                before.enter(*mesh);
+            }
         }
         sides.iter().filter(|side| side.1 == inward).for_each(|side| after.enter(side.0));
-        [before, after]
-    }
-}
-
-/// Leaves a shell; a ray that leaves what it was not in was in it before.
-#[inline]
-fn leave(mesh: u16, before: &mut Media, after: &mut Media) {
-    if !after.leave(mesh) {
-        before.enter(mesh);
     }
 }
 

@@ -85,18 +85,25 @@ impl Scene {
 
     /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if self.has_contacts {
+            return self.intersect_in_contact(ray);
+        }
+        self.nearest(ray)
+    }
+
+    #[inline]
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
         let limit = floor.map_or(f32::INFINITY, |(t, _)| t);
         let hit = self.geometry.intersect(ray, limit);
-        let hit = hit.or_else(|| floor.map(|floor| self.receiver.hit(floor)));
-        if self.has_contacts { self.in_contact(ray, hit) } else { hit }
+        hit.or_else(|| floor.map(|floor| self.receiver.hit(floor)))
     }
 
-    /// The hit of a ray in a scene in which something touches: triangles that lie on the receiver or its floor are the receiver
-    /// or its floor.
+    /// As [`Self::intersect`] in a scene in which something touches: triangles that lie on the receiver or its floor are the
+    /// receiver or its floor.
     #[cold]
-    fn in_contact(&self, ray: &Ray, found: Option<Hit>) -> Option<Hit> {
-        let mut found = found.map(|hit| self.geometry.known(hit));
+    fn intersect_in_contact(&self, ray: &Ray) -> Option<Hit> {
+        let mut found = self.nearest(ray).map(|hit| self.geometry.known(hit));
         let Some(on) = &self.on_receiver else { return found };
         let mut passed = 0.0;
         // More than one only by rounding, at an edge.

@@ -29,7 +29,9 @@ fn around(radius: f32) -> LightDesc {
 }
 
 /// A change of the scene with the ball, and words of the note or of the error.
-fn table() -> Vec<(fn(&mut Stage), &'static [&'static str])> {
+type Row = (fn(&mut Stage), &'static [&'static str]);
+
+fn table() -> Vec<Row> {
     vec![
         (
             |s| s.desc.camera.look_at = [0.0, 2.0, 3.0],

@@ -79,9 +79,8 @@ fn water(overlap: f32) -> String {
     turned(&[[r, 0.06 - overlap], [r, 0.1], [r, 0.14], [r, 0.2]], 48)
 }
 
-fn placed<'a>(mesh: &'a mut MeshDesc, rotate: [f32; 3], translate: [f32; 3]) -> &'a mut MeshDesc {
+fn placed(mesh: &mut MeshDesc, rotate: [f32; 3], translate: [f32; 3]) {
     mesh.transform = Transform { rotate, translate: translate.map(f64::from), scale: 1.0 };
-    mesh
 }
 
 /// A box of glass on a tilted receiver, sunk into it by `overlap` along its own height.

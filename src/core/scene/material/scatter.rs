@@ -154,7 +154,16 @@ impl Boundary {
         rng: &mut Stream,
     ) -> Option<Self> {
         let inward = direction.dot(hit.geometric_normal) < 0.0;
-        let [before, after] = geometry.cross(hit.surface, inward, beam.media);
+        let (mut before, mut after) = (beam.media, beam.media);
+        match hit.surface {
+            SurfaceId::Mesh(mesh) if inward => after.enter(mesh),
+            SurfaceId::Mesh(mesh) => {
+                if !after.leave(mesh) {
+                    before.enter(mesh);
+                }
+            }
+            other => geometry.cross_contact(other, inward, (&mut before, &mut after)),
+        }
         let meshes = geometry.meshes();
         if before.filling(meshes) == after.filling(meshes) {
             beam.media = after;
