@@ -5,6 +5,7 @@ use std::path::Path;
 
 mod advection;
 mod background;
+mod camera;
 mod caustics;
 mod constraints;
 mod continuity;
@@ -25,6 +26,7 @@ mod meeting_walls;
 mod meshes;
 mod method;
 mod optics;
+mod photon_files;
 mod photons;
 mod preview;
 mod preview_light;
