@@ -43,7 +43,31 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         let setup = Setup { document, message, folders, preferences, dialogs, gpu };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
-    eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| error.to_string())
+    if !has_screen() {
+        return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
+    }
+    eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| in_words(&error))
+}
+
+/// Whether a window can be asked for. Only Unix desktops say so in the environment.
+fn has_screen() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !cfg!(all(unix, not(target_os = "macos")))
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
+}
+
+/// The cause of a window that does not open, without places in other people's sources.
+fn in_words(error: &eframe::Error) -> String {
+    match error {
+        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => {
+            "the screen that DISPLAY or WAYLAND_DISPLAY names does not answer".to_owned()
+        }
+        eframe::Error::Wgpu(_) => {
+            "nothing here draws: no graphics device was found (on Linux, Mesa's lavapipe is one: package mesa-vulkan-drivers)"
+                .to_owned()
+        }
+        other => other.to_string(),
+    }
 }
 
 /// The requested project; where it cannot be read, the first example and a message.
@@ -57,7 +81,10 @@ fn first_document(project: Option<&Path>) -> Result<(Document, Option<(String, S
     match example {
         Some(Ok((file, _))) => Ok((Document::opened(Arc::new(file), None), problem)),
         Some(Err(error)) => Err(error.to_string()),
-        None => Err("the folder 'projects' of the examples is neither beside the program nor in the current folder; name a project file".into()),
+        None => {
+            Err("the examples are not beside the program, and cannot be written into your folder; name a project file"
+                .into())
+        }
     }
 }
 

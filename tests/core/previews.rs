@@ -61,7 +61,7 @@ pub fn two_balls() -> (Stage, Project, Engine) {
         "scene": stage.desc,
         "caustics": [
             { "name": "left", "mesh": "left ball", "own_flow": true },
-            { "name": "right", "mesh": "right ball" }
+            { "name": "right", "mesh": "right ball", "own_flow": false }
         ],
         "keys": [
             { "frame": 1, "shows": "physical_caustic" },

@@ -138,9 +138,6 @@ impl Drawn {
             "plane": { "aspect": self.aspect },
             "matching": if self.light == (Light::Points { given: true }) { "given" } else { "transport" },
             "keys": [ { "frame": 1, "shows": from }, { "frame": 3, "shows": to } ],
-            // Of few photons with wide gaps some still cross a wall where both key frames flow to a meeting; its own tests
-            // have walls in plain places.
-            "method": if self.constraints.iter().any(|drawn| drawn["type"] == "wall") { "guided" } else { "flow" },
             "constraints": self.constraints,
             "flow": self.flow,
             "render": { "width": 24, "height": 24, "photons": PHOTONS, "passes": 2, "background_samples": 1 }

@@ -222,6 +222,21 @@ fn schema_is_json_and_knows_the_fields() {
     assert!(schema["properties"]["keys"].is_object());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_screen_the_program_says_so_and_names_the_way_without() {
+    for display in [None, Some(":987")] {
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_lightloom"));
+        program.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        display.map(|display| program.env("DISPLAY", display));
+        let output = program.output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("screen") && said.contains("lightloom render PROJECT"), "{said}");
+        assert!(!said.contains(".rs:") && said.lines().count() == 1, "{said}");
+    }
+}
+
 #[test]
 fn exit_codes_tell_causes_apart() {
     let (folder, project) = letters("flow");

@@ -13,7 +13,7 @@ use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
 
 /// One caustic: the light of one lamp that came over one piece of glass or one mirror last.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct CausticDesc {
@@ -26,8 +26,18 @@ pub struct CausticDesc {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
     /// Whether it flows by a field of its own ([`Self::OWN_FLOW`]).
-    #[serde(default)]
+    #[serde(default = "own_flow")]
     pub own_flow: bool,
+}
+
+fn own_flow() -> bool {
+    CausticDesc::OWN_FLOW.is_on()
+}
+
+impl Default for CausticDesc {
+    fn default() -> Self {
+        Self { name: String::new(), light: None, mesh: None, own_flow: own_flow() }
+    }
 }
 
 settings! { CausticDesc {
@@ -38,8 +48,8 @@ settings! { CausticDesc {
     /// Name of the glass or mirror that the light met last: that of the mesh, or "mesh/material" for one part of a file of
     /// several materials. Default: any. What fits several caustics belongs to the first in the list.
     MESH = Setting::part("caustics[].mesh");
-    /// Whether it flows by a field of its own and never mixes with the others; else all that move share one field.
-    OWN_FLOW = Setting::switch("caustics[].own_flow", false);
+    /// Whether it flows by a field of its own; else it shares one with all others that do, which tears where they cross.
+    OWN_FLOW = Setting::switch("caustics[].own_flow", true);
 } }
 
 /// What one caustic does at a key frame, where it differs from the others.

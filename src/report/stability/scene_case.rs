@@ -181,6 +181,7 @@ fn imbalance(report: &TraceReport) -> f64 {
         balance.blocked,
         balance.absorbed,
         balance.capped,
+        balance.ended,
         balance.direct,
     ]
     .into_iter()

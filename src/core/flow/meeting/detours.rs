@@ -37,6 +37,8 @@ struct Detour {
 pub(super) struct Detours {
     /// By half, whether each photon comes near a wall.
     beside: [Vec<bool>; 2],
+    /// Whether each photon is on a detour, which makes up for all of its gap.
+    on_detour: Vec<bool>,
     /// Steps of a half before photons beside walls make up for their gap, and all steps of a half.
     steps: [usize; 2],
     /// By row, ascending.
@@ -57,10 +59,17 @@ impl Detours {
         let Some(graph) = fields.walls_at_any_time(progress)? else { return Ok(None) };
         let count = halves[0].count();
         let late = ((count as f64 * LATE) as usize).min(count - 1);
-        let beside = [0, 1].map(|half| beside(fields, half, halves[half]));
-        let mut all =
-            Self { beside, steps: [late, count], detours: Vec::new(), violations: WallViolations::default() };
+        let beside = [0, 1].map(|half| beside(fields, half, halves));
+        let on_detour = vec![false; halves[0].end().len()];
+        let mut all = Self {
+            beside,
+            on_detour,
+            steps: [late, count],
+            detours: Vec::new(),
+            violations: WallViolations::default(),
+        };
         let rows = all.blocked(fields, halves, progress)?;
+        rows.iter().for_each(|&row| all.on_detour[row as usize] = true);
         // A detour may take so long that other walls stand than at the meeting.
         let detour = |&row: &u32| detour(fields, halves, &graph, row);
         all.detours = rows.par_iter().map(detour).collect();
@@ -80,6 +89,9 @@ impl Detours {
 
     /// The share of its gap that photon `row` has made up for at the time `since` the key frame of a half, in halves.
     pub(super) fn share(&self, half: usize, row: usize, since: f64, early: f32) -> f32 {
+        if self.on_detour[row] {
+            return 0.0;
+        }
         if !self.beside[half][row] {
             return early;
         }
@@ -106,18 +118,26 @@ impl Detours {
             let mut at = halves[half].after(late).to_vec();
             for done in late..count {
                 progress.check()?;
-                let Some(walls) = WallMotion::new(fields, half, done) else { continue };
+                let gap = |row: usize| if half == 0 { y[row] - x[row] } else { x[row] - y[row] };
+                let free = |row: usize| {
+                    let since = (done + 1) as f64 / count as f64;
+                    halves[half].after(done + 1)[row] + self.share(half, row, since, 0.0) * gap(row)
+                };
+                let Some(walls) = WallMotion::new(fields, half, done) else {
+                    at.par_iter_mut().enumerate().for_each(|(row, at)| *at = free(row));
+                    continue;
+                };
                 let stages = fields.step(half, done);
                 let h = if half == 0 { 1.0 } else { -1.0 } / fields.steps() as f32;
                 let begins = halves[half].after(done);
                 let each = (at.par_iter_mut(), blocked.par_iter_mut(), begins.par_iter());
                 each.into_par_iter().enumerate().with_min_len(1024).for_each(
                     |(row, (at, blocked, begin))| {
-                        if *blocked || !self.beside[half][row] || walls.is_far(*begin) {
-                            *at = halves[half].after(done + 1)[row];
+                        let gap = gap(row);
+                        if *blocked || !self.beside[half][row] || walls.is_far_with(*begin, gap) {
+                            *at = free(row);
                             return;
                         }
-                        let gap = if half == 0 { y[row] - x[row] } else { x[row] - y[row] };
                         let mut place = *begin;
                         for part in 0..SUBSTEPS {
                             place = walls.substep(&stages, h / SUBSTEPS as f32, place, part);
@@ -177,13 +197,15 @@ fn detour(fields: &MeetingFields, halves: [&HalfTracks; 2], graph: &VisibilityGr
     })
 }
 
-/// Whether each photon comes near a wall on its track.
-fn beside(fields: &MeetingFields, half: usize, tracks: &HalfTracks) -> Vec<bool> {
+/// Whether each photon comes near a wall on its track, or while it makes up for its gap.
+fn beside(fields: &MeetingFields, half: usize, halves: [&HalfTracks; 2]) -> Vec<bool> {
+    let tracks = halves[half];
+    let gap = |row: usize| halves[1].end()[row] - halves[0].end()[row];
     let mut beside = vec![false; tracks.end().len()];
     for done in 0..tracks.count() {
         let Some(walls) = WallMotion::new(fields, half, done) else { continue };
-        let each = beside.par_iter_mut().zip(tracks.after(done)).with_min_len(4096);
-        each.for_each(|(beside, p)| *beside |= !walls.is_far(*p));
+        let each = beside.par_iter_mut().zip(tracks.after(done)).enumerate().with_min_len(4096);
+        each.for_each(|(row, (beside, p))| *beside |= !walls.is_far_with(*p, gap(row)));
     }
     beside
 }

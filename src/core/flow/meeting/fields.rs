@@ -18,8 +18,8 @@ use crate::{Progress, Result};
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],
-    /// The planned velocities near walls, by half and step; empty where no wall stands.
-    planned: [Vec<CellVelocities>; 2],
+    /// The planned velocities near walls, and a bound on the fitted speed, by half and step; empty where no wall stands.
+    planned: [Vec<(CellVelocities, f32)>; 2],
     steps: usize,
     mean_way: f32,
     turbulence: Option<Turbulence>,
@@ -63,8 +63,8 @@ impl MeetingFields {
 
     /// Appends the next field of a half, with the planned velocities where walls stand.
     pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
+        self.planned[half].extend(planned.map(|planned| (planned, field.speed_bound())));
         self.halves[half].push(field);
-        self.planned[half].extend(planned);
     }
 
     /// Time steps of the whole segment, an even number.
@@ -120,7 +120,23 @@ impl MeetingFields {
 
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
     pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
-        self.planned[half].get(done)
+        self.planned[half].get(done).map(|(planned, _)| planned)
+    }
+
+    /// A bound on the speed of a photon in step `done` of a half; none where no wall stands.
+    pub(super) fn speed_bound(&self, half: usize, done: usize) -> Option<f32> {
+        let (_, bound) = self.planned[half].get(done)?;
+        let [begin, middle, end] =
+            self.step_times(half, done).map(|t| self.noise(t).iter().map(Field::speed_bound).sum::<f32>());
+        Some(bound + begin.max(middle).max(end))
+    }
+
+    /// Begin, middle and end of the step after `done` steps of a half.
+    fn step_times(&self, half: usize, done: usize) -> [f64; 3] {
+        [0.0, 0.5, 1.0].map(|x| {
+            let since = (done as f64 + x) / self.steps as f64;
+            if half == 0 { since } else { 1.0 - since }
+        })
     }
 
     /// The turbulence at time `t`: fields whose velocities add up.
@@ -143,10 +159,6 @@ impl MeetingFields {
     /// The velocities at the begin, middle and end of the step after `done` steps of a half, forward in time.
     pub(super) fn step(&self, half: usize, done: usize) -> [StageVelocity; 3] {
         let field = &self.halves[half][done];
-        [0.0, 0.5, 1.0].map(|x| {
-            let since = (done as f64 + x) / self.steps as f64;
-            let t = if half == 0 { since } else { 1.0 - since };
-            StageVelocity { field: field.clone(), noise: self.noise(t) }
-        })
+        self.step_times(half, done).map(|t| StageVelocity { field: field.clone(), noise: self.noise(t) })
     }
 }

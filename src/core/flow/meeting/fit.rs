@@ -78,7 +78,7 @@ pub fn fit_meeting_with(
     let (obstacles, steps) = Obstacles::new(walls, (even, SUBSTEPS), extent, &progress.inner())?;
     let obstacles = obstacles.map(Arc::new);
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
-    let fields = MeetingFields::new(steps.next_multiple_of(2), 0.0, turbulence, obstacles.clone());
+    let fields = MeetingFields::new(steps, 0.0, turbulence, obstacles.clone());
     let standing = obstacles.as_deref().map_or_else(Vec::new, standing);
     let fitter = MeetingFitter::new(segment, (fields, &standing), guides, refine)?;
     fitter.run(segment, progress)
@@ -131,11 +131,14 @@ impl<'a> MeetingFitter<'a> {
         let plan = refine(plan);
         let liquid = LIQUID * f64::from(settings.hold);
         let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
+        let widths = lines.iter().map(|line| line.width);
+        let line_width = (settings.beta > 0.0).then(|| widths.reduce(f32::min)).flatten();
+        let leading = || LeadingFit::new(fit, liquid, line_width);
         Ok(Self {
             fields,
             bridges: photons.iter().map(|_| Bridge::new(plan, standing)).collect(),
             photons,
-            fits: [LeadingFit::new(fit, liquid)?, LeadingFit::new(fit, liquid)?],
+            fits: [leading()?, leading()?],
             lines: [0, 1].map(of_half),
             grid: fit.grid,
             statistics: FitStatistics::default(),

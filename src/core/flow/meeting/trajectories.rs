@@ -203,7 +203,9 @@ impl Kinematics for MeetingTrajectories<'_> {
             let share =
                 detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
             let at = match &walls {
-                Some((walls, stages)) if !walls.is_far(begin) => walls.advance(stages, h, begin, curve.x),
+                Some((walls, stages)) if !walls.is_far_with(begin, gap) => {
+                    walls.advance(stages, h, begin, curve.x)
+                }
                 _ => curve.position(),
             };
             at + share * gap

@@ -13,8 +13,8 @@ use crate::flow::walls::{Clearance, SUBSTEPS, slide};
 /// keys' on a C of walls, instead of 3.4).
 const PLANNED: f32 = 3.0;
 const FITTED: f32 = 6.0;
-/// Fastest speed over the mean one that a photon far from walls is taken to have.
-const FASTEST: f32 = 12.0;
+/// How much farther the cubic between two steps may stray than its photon moves in a step.
+const STRAY: f32 = 1.5;
 
 /// The walls of one step of a half.
 pub(super) struct WallMotion<'a> {
@@ -33,7 +33,7 @@ impl<'a> WallMotion<'a> {
         let barriers = obstacles.graph(step)?.barriers();
         let clearance = obstacles.clearance(step)?;
         let planned = fields.planned(half, done)?;
-        let far = FITTED * planned.side() + FASTEST * fields.mean_way() / fields.steps() as f32;
+        let far = FITTED * planned.side() + STRAY * fields.speed_bound(half, done)? / fields.steps() as f32;
         Some(Self { barriers, clearance, planned, far })
     }
 
@@ -41,6 +41,12 @@ impl<'a> WallMotion<'a> {
     #[inline]
     pub(super) fn is_far(&self, p: Vec2) -> bool {
         self.clearance.at(p) > self.far
+    }
+
+    /// The same for one that makes up for `gap` besides.
+    #[inline]
+    pub(super) fn is_far_with(&self, p: Vec2, gap: Vec2) -> bool {
+        self.clearance.at(p) > self.far + 0.5 * gap.length()
     }
 
     /// The position of a photon after the fraction `x` of a step of length `h` from `c`. Each substep is a straight move, or one

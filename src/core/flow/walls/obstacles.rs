@@ -67,7 +67,8 @@ impl Obstacles {
                 let stands = all.epochs.iter().any(|epoch| epoch.graph.is_some());
                 return Ok((stands.then_some(all), steps / SUBSTEPS));
             }
-            steps = needed.next_multiple_of(SUBSTEPS);
+            // An even number of fits: a meeting needs halves.
+            steps = needed.next_multiple_of(2 * SUBSTEPS);
         }
         let epochs = epochs(walls, (steps, granule), extent, progress)?;
         Ok((Some(Self { walls: walls.to_vec(), extent, steps, epochs }), steps / SUBSTEPS))
