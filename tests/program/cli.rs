@@ -226,7 +226,7 @@ fn schema_is_json_and_knows_the_fields() {
 #[test]
 fn without_a_screen_the_program_says_so_and_names_the_way_without() {
     for display in [None, Some(":987")] {
-        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_lightloom"));
+        let mut program = Command::new(env!("CARGO_BIN_EXE_lightloom"));
         program.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         display.map(|display| program.env("DISPLAY", display));
         let output = program.output().unwrap();

@@ -136,9 +136,9 @@ impl Collapser<'_> {
     fn children(&self, index: u32) -> Vec<Part> {
         let mut parts = Vec::with_capacity(8);
         if self.is_leaf(index) {
-            parts.push(Part::Subtree(index))
+            parts.push(Part::Subtree(index));
         } else {
-            self.divide(index, 8, &mut parts)
+            self.divide(index, 8, &mut parts);
         }
         parts
     }
