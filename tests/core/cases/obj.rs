@@ -121,7 +121,7 @@ fn what_nobody_can_read_is_refused_with_its_line() {
         (&format!("{V}f 1 2 \\\n-4\n"), "line 4", "only 3 stand before it"),
         (&format!("{V}v 1e39 0 0\nv 0 1.#INF 0\nf 1 2 3\n"), "line 4", "2 vertices"),
         ("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n", "", "git lfs pull"),
-        ("v\0 \00\0 \00\0", "", "UTF-16"),
+        ("v\0 \x001\0 \x001\0", "", "UTF-16"),
     ];
     for (text, line, words) in rows {
         let error = load(text, &[], Transform::default()).err().unwrap();

@@ -336,14 +336,21 @@ fn primaries_are_those_of_the_tag() {
     assert!((plain.values[0] - 0.2126 / 0.7152).abs() < 1e-3);
 }
 
+/// A channel of an EXR file, with its values.
+type Channel<'a> = (&'a str, &'a [f32]);
+/// The parts of an EXR file, with their channels.
+type Layers<'a> = &'a [(&'a str, &'a [Channel<'a>])];
+/// Corner, width and height.
+type Window = [i32; 4];
+
 /// An EXR file: its display window, its data window, and channels with their values, left to right, top to bottom.
-fn exr_file(display: [i32; 4], data: [i32; 4], aspect: f32, layers: &[(&str, &[(&str, &[f32])])]) -> Vec<u8> {
+fn exr_file(display: Window, data: Window, aspect: f32, layers: Layers<'_>) -> Vec<u8> {
     let mut attributes = ImageAttributes::new(IntegerBounds::new(
         Place(display[0], display[1]),
         Place(display[2] as usize, display[3] as usize),
     ));
     attributes.pixel_aspect = aspect;
-    let layer = |(name, channels): &(&str, &[(&str, &[f32])])| {
+    let layer = |(name, channels): &(&str, &[Channel<'_>])| {
         let channel =
             |(name, values): &(&str, &[f32])| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
         let mut own = LayerAttributes::named(*name);
@@ -362,7 +369,7 @@ fn the_display_window_of_an_exr_file_is_shown() {
     let rgb: &[(&str, &[f32])] =
         &[("R", &[1.0, 0.5, 0.25, 0.125]), ("G", &[1.0, 0.5, 0.25, 0.125]), ("B", &[1.0, 0.5, 0.25, 0.125])];
     let (one, half, quarter) = (1.0, 0.5, 0.25);
-    let rows: [([i32; 4], [i32; 4], [f32; 2], Vec<f32>); 6] = [
+    let rows: [(Window, Window, [f32; 2], Vec<f32>); 6] = [
         ([0, 0, 2, 2], [0, 0, 2, 2], [2.0, 2.0], vec![one, half, quarter, 0.125]),
         // A part of it is stored.
         ([0, 0, 3, 3], [1, 0, 2, 2], [3.0, 3.0], vec![0., one, half, 0., quarter, 0.125, 0., 0., 0.]),
@@ -419,7 +426,6 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
     const A: &[f32] = &[1.0, 0.5];
     const B: &[f32] = &[0.1, 0.5];
     const Z: &[f32] = &[7.0, 9.0];
-    type Layers<'a> = &'a [(&'a str, &'a [(&'a str, &'a [f32])])];
     // All have 1 and 0.5 in the layer that counts; words of the note.
     let rows: [(&str, Layers<'_>, &str); 12] = [
         ("grey", &[("", &[("Y", A)])], ""),
