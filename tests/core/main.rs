@@ -5,6 +5,7 @@ use std::path::Path;
 
 mod advection;
 mod background;
+mod camera;
 mod cases;
 mod caustics;
 mod constraints;
@@ -28,6 +29,7 @@ mod meeting_walls;
 mod meshes;
 mod method;
 mod optics;
+mod photon_files;
 mod photons;
 mod preview;
 mod preview_light;

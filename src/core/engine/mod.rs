@@ -39,6 +39,7 @@ mod observer;
 mod output_folder;
 mod pairing;
 mod passes;
+mod photon_files;
 mod plan;
 mod prepare;
 mod preview;

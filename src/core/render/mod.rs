@@ -38,6 +38,6 @@ pub use plane_image::{PlaneMaterial, plane_image};
 pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};
 pub use settings::RenderSettings;
-pub use still_light::{StillPictures, StillTextures, still_layout, still_pictures};
+pub use still_light::{StillPictures, StillTextures, still_layout, still_pictures, watts_at};
 pub use texture::{ReceiverTexture, TextureLayout};
 pub use view::{View, ViewSettings, ViewTransform};
