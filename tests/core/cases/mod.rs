@@ -14,10 +14,12 @@ use serde_json::json;
 
 use crate::scenes::{Stage, sphere_obj};
 
+mod exr_files;
 mod fuzz;
 mod meshes;
 mod mtl;
 mod obj;
+mod picture_colours;
 mod pictures;
 mod points;
 mod reasons;

@@ -1,19 +1,15 @@
-//! Pictures: orientation, windows and layers, colour tags, formats. All files are built here, byte by byte where it matters.
+//! Pictures: orientation and formats. All files are built here, byte by byte where it matters.
 
-use std::io::{Cursor, Write as _};
+use std::io::Cursor;
 
-use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, Vec2 as Place, WritableImage as _,
-};
 use glam::{Vec2, vec2};
-use image::codecs::jpeg::JpegEncoder;
-use image::codecs::webp::WebPEncoder;
-use image::{DynamicImage, ImageBuffer, ImageEncoder as _, ImageFormat, Luma, Rgb, RgbImage};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb, RgbImage};
 use lightloom_core::targets::{Brightness, ImageTarget, PictureSampler};
 
+use super::picture_colours;
+
 /// The brightness of a file's pixels over that of the brightest, in blocks of a picture's longer side over `side`.
-fn brightness(content: &[u8], side: usize) -> Result<Brightness, String> {
+pub(super) fn brightness(content: &[u8], side: usize) -> Result<Brightness, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("picture");
     std::fs::write(&path, content).unwrap();
@@ -21,14 +17,14 @@ fn brightness(content: &[u8], side: usize) -> Result<Brightness, String> {
 }
 
 /// The notes on a file.
-fn notes(content: &[u8]) -> String {
+pub(super) fn notes(content: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("picture");
     std::fs::write(&path, content).unwrap();
     PictureSampler::load(&path, &ImageTarget::new("picture"), Vec2::ONE, "target").unwrap().notes().join("\n")
 }
 
-fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+pub(super) fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
@@ -80,7 +76,7 @@ fn jpeg_with_exif(orientation: u8, little_endian: bool) -> Vec<u8> {
 }
 
 /// The PNG file with a chunk behind its header.
-fn with_chunk(mut png: Vec<u8>, name: &[u8; 4], data: &[u8]) -> Vec<u8> {
+pub(super) fn with_chunk(mut png: Vec<u8>, name: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let typed = [&name[..], data].concat();
     let chunk =
         [&(data.len() as u32).to_be_bytes()[..], &typed, &crc32fast::hash(&typed).to_be_bytes()].concat();
@@ -127,382 +123,6 @@ fn pictures_are_turned_as_their_cameras_say() {
     }
 }
 
-/// Values of a PNG file's left and right half.
-const HALVES: [f64; 2] = [0.25, 0.5];
-
-fn halves() -> Vec<u8> {
-    let pixel = |x: u32, _| Luma([(HALVES[x as usize / 2] * 65535.0) as u16]);
-    encoded(&ImageBuffer::from_fn(4, 2, pixel).into(), ImageFormat::Png)
-}
-
-fn halves_in_colour() -> Vec<u8> {
-    let pixel = |x: u32, _| Rgb([(HALVES[x as usize / 2] * 65535.0) as u16; 3]);
-    encoded(&ImageBuffer::<Rgb<u16>, _>::from_fn(4, 2, pixel).into(), ImageFormat::Png)
-}
-
-/// A profile of the ICC, version 2.1: `RGB ` with the colorants of sRGB, or `GRAY`; all its curves are `curve`.
-fn icc(space: &[u8; 4], curve: &[u8]) -> Vec<u8> {
-    let fixed = |values: [f64; 3]| -> Vec<u8> {
-        let number = |value: f64| ((value * 65536.0).round() as i32).to_be_bytes();
-        [&b"XYZ \0\0\0\0"[..], &values.map(number).concat()].concat()
-    };
-    let white = [0.9642, 1.0, 0.8249];
-    let mut tags: Vec<(&[u8; 4], Vec<u8>)> = vec![(b"wtpt", fixed(white))];
-    if space == b"GRAY" {
-        tags.push((b"kTRC", curve.to_vec()));
-    } else {
-        tags.extend([
-            (b"rXYZ", fixed([0.43607, 0.22249, 0.01392])),
-            (b"gXYZ", fixed([0.38515, 0.71687, 0.09708])),
-        ]);
-        tags.push((b"bXYZ", fixed([0.14307, 0.06061, 0.71410])));
-        tags.extend([b"rTRC", b"gTRC", b"bTRC"].map(|name| (name, curve.to_vec())));
-    }
-    let mut table = (tags.len() as u32).to_be_bytes().to_vec();
-    let mut data = Vec::new();
-    for (name, tag) in &tags {
-        let at = 128 + 4 + 12 * tags.len() + data.len();
-        table.extend([&name[..], &(at as u32).to_be_bytes(), &(tag.len() as u32).to_be_bytes()].concat());
-        data.extend_from_slice(tag);
-        data.resize(data.len().next_multiple_of(4), 0);
-    }
-    let size = 128 + table.len() + data.len();
-    let mut header = vec![0; 128];
-    header[..4].copy_from_slice(&(size as u32).to_be_bytes());
-    header[8] = 2;
-    header[9] = 0x10;
-    header[12..24].copy_from_slice(&[&b"mntr"[..], space, b"XYZ "].concat());
-    header[36..40].copy_from_slice(b"acsp");
-    header[68..80].copy_from_slice(&fixed(white)[8..]);
-    [header, table, data].concat()
-}
-
-/// A curve of the ICC: a straight line, a power, or samples.
-fn curve(values: &[u16]) -> Vec<u8> {
-    let mut tag = b"curv\0\0\0\0".to_vec();
-    tag.extend((values.len() as u32).to_be_bytes());
-    tag.extend(values.iter().flat_map(|value| value.to_be_bytes()));
-    tag
-}
-
-fn with_icc(png: Vec<u8>, profile: &[u8]) -> Vec<u8> {
-    let mut packed = flate2::write::ZlibEncoder::new(b"own\0\0".to_vec(), flate2::Compression::default());
-    packed.write_all(profile).unwrap();
-    with_chunk(png, b"iCCP", &packed.finish().unwrap())
-}
-
-fn srgb(value: f64) -> f64 {
-    ((value + 0.055) / 1.055).powf(2.4)
-}
-
-/// SMPTE ST 2084.
-fn pq(value: f64) -> f64 {
-    let v = value.powf(1.0 / 78.84375);
-    ((v - 0.8359375).max(0.0) / (18.8515625 - 18.6875 * v)).powf(1.0 / 0.1593017578125)
-}
-
-/// ITU-R BT.709.
-fn rec709(value: f64) -> f64 {
-    ((value + 0.099) / 1.099).powf(1.0 / 0.45)
-}
-
-#[test]
-fn colours_of_png_are_read_by_their_tags() {
-    let gamma = |value: u32| value.to_be_bytes();
-    let chromaticities: Vec<u8> =
-        [31270_u32, 32900, 64000, 33000, 30000, 60000, 15000, 6000].map(u32::to_be_bytes).concat();
-    let line = |x: f64| x;
-    let table: Vec<u16> = (0..256).map(|i| ((f64::from(i) / 255.0).powf(1.5) * 65535.0) as u16).collect();
-    type Curve = fn(f64) -> f64;
-    let rows: [(&str, Vec<u8>, Curve); 20] = [
-        ("no tag", halves(), srgb),
-        ("gAMA 1", with_chunk(halves(), b"gAMA", &gamma(100_000)), line),
-        ("gAMA 1, in colour", with_chunk(halves_in_colour(), b"gAMA", &gamma(100_000)), line),
-        ("gAMA 1/1.8", with_chunk(halves(), b"gAMA", &gamma(55_556)), |x| x.powf(1.8)),
-        ("gAMA 1/2.2 of sRGB", with_chunk(halves(), b"gAMA", &gamma(45_455)), srgb),
-        (
-            "gAMA of sRGB with its primaries",
-            with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(45_455)),
-            srgb,
-        ),
-        (
-            "gAMA 1 with primaries",
-            with_chunk(with_chunk(halves(), b"cHRM", &chromaticities), b"gAMA", &gamma(100_000)),
-            line,
-        ),
-        (
-            "sRGB counts before gAMA",
-            with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"sRGB", &[0]),
-            srgb,
-        ),
-        ("gAMA 0 means nothing", with_chunk(halves(), b"gAMA", &gamma(0)), srgb),
-        ("iCCP, a line", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&[]))), line),
-        ("iCCP, a power of 2.2", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&[563]))), |x| {
-            x.powf(563.0 / 256.0)
-        }),
-        ("iCCP, samples", with_icc(halves_in_colour(), &icc(b"RGB ", &curve(&table))), |x| x.powf(1.5)),
-        ("iCCP of grey, a line", with_icc(halves(), &icc(b"GRAY", &curve(&[]))), line),
-        ("iCCP of grey, a power of 1.8", with_icc(halves(), &icc(b"GRAY", &curve(&[461]))), |x| {
-            x.powf(461.0 / 256.0)
-        }),
-        ("iCCP of RGB for a grey picture", with_icc(halves(), &icc(b"RGB ", &curve(&[]))), line),
-        (
-            "iCCP counts before gAMA",
-            with_chunk(with_icc(halves(), &icc(b"RGB ", &curve(&[]))), b"gAMA", &gamma(45_455)),
-            line,
-        ),
-        ("cICP, linear", with_chunk(halves_in_colour(), b"cICP", &[1, 8, 0, 1]), line),
-        (
-            "cICP, sRGB, before gAMA",
-            with_chunk(with_chunk(halves(), b"gAMA", &gamma(100_000)), b"cICP", &[1, 13, 0, 1]),
-            srgb,
-        ),
-        ("cICP, PQ", with_chunk(halves_in_colour(), b"cICP", &[9, 16, 0, 1]), pq),
-        ("cICP, Rec.709", with_chunk(halves_in_colour(), b"cICP", &[1, 1, 0, 1]), rec709),
-    ];
-    for (name, file, curve) in rows {
-        let shown = brightness(&file, 4).unwrap();
-        let expected = curve(HALVES[0]) / curve(HALVES[1]);
-        // Curves of a profile are tables, of 14 bits or more.
-        assert!(
-            (f64::from(shown.values[0]) / expected - 1.0).abs() < 2e-3,
-            "{name}: {} for {expected}",
-            shown.values[0]
-        );
-        assert_eq!(shown.values[3], 1.0, "{name}");
-    }
-}
-
-#[test]
-fn profiles_of_other_formats_count_too() {
-    let pixel = |x: u32, _| Rgb([(HALVES[x as usize / 8] * 255.0).round() as u8; 3]);
-    let image = RgbImage::from_fn(16, 8, pixel);
-    let profile = icc(b"RGB ", &curve(&[]));
-    let mut jpeg = Vec::new();
-    let mut encoder = JpegEncoder::new_with_quality(&mut jpeg, 100);
-    encoder.set_icc_profile(profile.clone()).unwrap();
-    encoder.encode_image(&image).unwrap();
-    let mut webp = Vec::new();
-    let mut encoder = WebPEncoder::new_lossless(&mut webp);
-    encoder.set_icc_profile(profile).unwrap();
-    encoder.encode(&image, 16, 8, image::ExtendedColorType::Rgb8).unwrap();
-    for file in [jpeg, webp] {
-        let shown = brightness(&file, 2).unwrap();
-        // A step of 255, and those of JPEG.
-        assert!((shown.values[0] - 0.5).abs() < 0.02, "{}", shown.values[0]);
-    }
-}
-
-#[test]
-fn dark_linear_light_keeps_its_digits() {
-    let pixel = |x: u32, _| Luma([[20_u16, 40, 200, 65535][x as usize]]);
-    let png = encoded(&ImageBuffer::from_fn(4, 1, pixel).into(), ImageFormat::Png);
-    let shown = brightness(&with_chunk(png, b"gAMA", &100_000_u32.to_be_bytes()), 4).unwrap();
-    for (value, stored) in shown.values.iter().zip([20.0, 40.0, 200.0, 65535.0]) {
-        assert!((value * 65535.0 / stored - 1.0).abs() < 0.02, "{value} for {stored}");
-    }
-}
-
-#[test]
-fn profiles_that_cannot_be_used_are_told() {
-    for (file, words) in [
-        (with_icc(halves(), b"no profile"), "ICC profile"),
-        (with_icc(halves_in_colour(), &icc(b"CMYK", &curve(&[]))), "ICC profile"),
-        (with_chunk(halves(), b"cICP", &[1, 250, 0, 1]), "cICP"),
-    ] {
-        let notes = notes(&file);
-        assert!(notes.contains(words) && notes.contains("read as sRGB"), "{words}: {notes}");
-    }
-    assert_eq!(notes(&halves()), "");
-}
-
-#[test]
-fn primaries_are_those_of_the_tag() {
-    // Pure red and pure green of Display P3 in Rec.709 (SMPTE EG 432-1), what is negative left out, times luminance.
-    let expected = 0.2126 * 1.2249 / (0.7152 * 1.0420);
-    let pixel = |x: u32, _| Rgb([[255_u8, 0, 0], [0, 255, 0]][x as usize]);
-    let png = encoded(&RgbImage::from_fn(2, 1, pixel).into(), ImageFormat::Png);
-    let points: Vec<u8> =
-        [31270_u32, 32900, 68000, 32000, 26500, 69000, 15000, 6000].map(u32::to_be_bytes).concat();
-    for file in [
-        with_chunk(png.clone(), b"cICP", &[12, 13, 0, 1]),
-        with_chunk(with_chunk(png.clone(), b"cHRM", &points), b"gAMA", &45_455_u32.to_be_bytes()),
-    ] {
-        let shown = brightness(&file, 2).unwrap();
-        // Four digits of the matrix.
-        assert!((shown.values[0] / expected - 1.0).abs() < 2e-3, "{} for {expected}", shown.values[0]);
-    }
-    let plain = brightness(&png, 2).unwrap();
-    assert!((plain.values[0] - 0.2126 / 0.7152).abs() < 1e-3);
-}
-
-/// An EXR file: its display window, its data window, and channels with their values, left to right, top to bottom.
-fn exr_file(display: [i32; 4], data: [i32; 4], aspect: f32, layers: &[(&str, &[(&str, &[f32])])]) -> Vec<u8> {
-    let mut attributes = ImageAttributes::new(IntegerBounds::new(
-        Place(display[0], display[1]),
-        Place(display[2] as usize, display[3] as usize),
-    ));
-    attributes.pixel_aspect = aspect;
-    let layer = |(name, channels): &(&str, &[(&str, &[f32])])| {
-        let channel =
-            |(name, values): &(&str, &[f32])| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()));
-        let mut own = LayerAttributes::named(*name);
-        own.layer_position = Place(data[0], data[1]);
-        let channels = AnyChannels::sort(channels.iter().map(channel).collect());
-        Layer::new((data[2] as usize, data[3] as usize), own, Encoding::UNCOMPRESSED, channels)
-    };
-    let image = Image::from_layers(attributes, layers.iter().map(layer).collect::<Vec<_>>());
-    let mut bytes = Cursor::new(Vec::new());
-    image.write().non_parallel().to_buffered(&mut bytes).unwrap();
-    bytes.into_inner()
-}
-
-#[test]
-fn the_display_window_of_an_exr_file_is_shown() {
-    let rgb: &[(&str, &[f32])] =
-        &[("R", &[1.0, 0.5, 0.25, 0.125]), ("G", &[1.0, 0.5, 0.25, 0.125]), ("B", &[1.0, 0.5, 0.25, 0.125])];
-    let (one, half, quarter) = (1.0, 0.5, 0.25);
-    let rows: [([i32; 4], [i32; 4], [f32; 2], Vec<f32>); 6] = [
-        ([0, 0, 2, 2], [0, 0, 2, 2], [2.0, 2.0], vec![one, half, quarter, 0.125]),
-        // A part of it is stored.
-        ([0, 0, 3, 3], [1, 0, 2, 2], [3.0, 3.0], vec![0., one, half, 0., quarter, 0.125, 0., 0., 0.]),
-        // More than it is stored.
-        ([0, 0, 1, 2], [0, 0, 2, 2], [1.0, 2.0], vec![one, quarter]),
-        ([0, 0, 2, 2], [-1, 0, 2, 2], [2.0, 2.0], vec![one, 0., quarter, 0.]),
-        // An origin of its own.
-        ([-5, -7, 3, 2], [-4, -7, 2, 2], [3.0, 2.0], vec![0., one, half, 0., quarter, 0.125]),
-        ([10, 10, 2, 3], [9, 12, 2, 2], [2.0, 3.0], vec![0., 0., 0., 0., one, 0.]),
-    ];
-    for (display, data, size, expected) in rows {
-        let shown = brightness(&exr_file(display, data, 1.0, &[("", rgb)]), 3).unwrap();
-        assert_eq!(
-            (shown.size, shown.values.len()),
-            (Vec2::from(size), expected.len()),
-            "{display:?} {data:?}"
-        );
-        let most = expected.iter().copied().fold(0.0, f32::max);
-        // Over the brightest: the last row shows 0.5 of the file as 1, so it is compared as a ratio.
-        let near = |(a, b): (&f32, &f32)| (a - b / most).abs() < 1e-6 || most < 1.0;
-        assert!(shown.values.iter().zip(&expected).all(near), "{display:?} {data:?}: {:?}", shown.values);
-        assert_eq!(
-            shown.values.iter().map(|v| *v > 0.0).collect::<Vec<_>>(),
-            expected.iter().map(|v| *v > 0.0).collect::<Vec<_>>()
-        );
-    }
-    let outside = brightness(&exr_file([0, 0, 2, 2], [5, 5, 2, 2], 1.0, &[("", rgb)]), 3).unwrap_err();
-    assert!(outside.contains("display window"), "{outside}");
-    let huge = brightness(&exr_file([0, 0, 60_000, 60_000], [0, 0, 2, 2], 1.0, &[("", rgb)]), 3).unwrap_err();
-    assert!(huge.contains("the limits are"), "{huge}");
-}
-
-#[test]
-fn the_pixels_of_an_anamorphic_picture_are_wide() {
-    let rgb: &[(&str, &[f32])] = &[("R", &[1.0; 8]), ("G", &[1.0; 8]), ("B", &[1.0; 8])];
-    for (aspect, width) in [(1.0, 4.0), (2.0, 8.0), (0.5, 2.0)] {
-        let file = exr_file([0, 0, 4, 2], [0, 0, 4, 2], aspect, &[("", rgb)]);
-        assert_eq!(brightness(&file, 4).unwrap().size, vec2(width, 2.0), "{aspect}");
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("t.exr");
-        std::fs::write(&path, file).unwrap();
-        let sampler =
-            PictureSampler::load(&path, &ImageTarget::new("t.exr"), vec2(1.0, 1.0), "target").unwrap();
-        let points = sampler.sample(1, 0, 4000).positions;
-        let reach = points.iter().fold(Vec2::ZERO, |reach, p| reach.max((*p - 0.5).abs())) * 2.0;
-        // Nine tenths of the receiver; 4000 points come within a hundredth of the border.
-        let shown = vec2(width, 2.0) * 0.9 / width.max(2.0);
-        assert!((reach - shown).abs().max_element() < 0.01, "{aspect}: {reach} for {shown}");
-    }
-}
-
-#[test]
-fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
-    const A: &[f32] = &[1.0, 0.5];
-    const B: &[f32] = &[0.1, 0.5];
-    const Z: &[f32] = &[7.0, 9.0];
-    type Layers<'a> = &'a [(&'a str, &'a [(&'a str, &'a [f32])])];
-    // All have 1 and 0.5 in the layer that counts; words of the note.
-    let rows: [(&str, Layers<'_>, &str); 12] = [
-        ("grey", &[("", &[("Y", A)])], ""),
-        ("grey with alpha", &[("", &[("A", &[1.0, 1.0]), ("Y", A)])], ""),
-        ("grey in a layer", &[("", &[("mask.Y", A)])], ""),
-        ("one layer", &[("", &[("rgba.R", A), ("rgba.G", A), ("rgba.B", A), ("rgba.A", &[1.0, 1.0])])], ""),
-        (
-            "Blender, Emit before Combined in the file",
-            &[(
-                "",
-                &[
-                    ("ViewLayer.AO.R", B),
-                    ("ViewLayer.AO.G", B),
-                    ("ViewLayer.AO.B", B),
-                    ("ViewLayer.Combined.R", A),
-                    ("ViewLayer.Combined.G", A),
-                    ("ViewLayer.Combined.B", A),
-                    ("ViewLayer.Depth.Z", Z),
-                    ("ViewLayer.Emit.R", B),
-                    ("ViewLayer.Emit.G", B),
-                    ("ViewLayer.Emit.B", B),
-                ],
-            )],
-            "'ViewLayer.Combined' is shown, not 'ViewLayer.AO', 'ViewLayer.Emit'",
-        ),
-        (
-            "no layer before others",
-            &[("", &[("R", A), ("G", A), ("B", A), ("diffuse.R", B), ("diffuse.G", B), ("diffuse.B", B)])],
-            "not 'diffuse'",
-        ),
-        (
-            "beauty before others",
-            &[(
-                "",
-                &[
-                    ("albedo.R", B),
-                    ("albedo.G", B),
-                    ("albedo.B", B),
-                    ("beauty.R", A),
-                    ("beauty.G", A),
-                    ("beauty.B", A),
-                ],
-            )],
-            "'beauty' is shown",
-        ),
-        (
-            "colour before grey",
-            &[("", &[("a.Y", B), ("b.R", A), ("b.G", A), ("b.B", A)])],
-            "'b' is shown, not 'a'",
-        ),
-        (
-            "normals are no grey",
-            &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("c.R", A), ("c.G", A), ("c.B", A)])],
-            "",
-        ),
-        ("depth beside colours", &[("", &[("R", A), ("G", A), ("B", A), ("Z", Z)])], ""),
-        ("small letters", &[("", &[("r", A), ("g", A), ("b", A)])], ""),
-        (
-            "parts",
-            &[
-                ("depth", &[("Z", Z)]),
-                ("Combined", &[("Combined.R", A), ("Combined.G", A), ("Combined.B", A)]),
-            ],
-            "",
-        ),
-    ];
-    for (name, layers, words) in rows {
-        let file = exr_file([0, 0, 2, 1], [0, 0, 2, 1], 1.0, layers);
-        let shown = brightness(&file, 2).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!(shown.values, [1.0, 0.5], "{name}");
-        let notes = notes(&file);
-        assert!(notes.contains(words) && (notes.is_empty() == words.is_empty()), "{name}: {notes}");
-    }
-    let file = exr_file(
-        [0, 0, 2, 1],
-        [0, 0, 2, 1],
-        1.0,
-        &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("Z", Z), ("u.R", A)])],
-    );
-    let error = brightness(&file, 2).unwrap_err();
-    assert!(error.contains("N.X, N.Y, N.Z, Z, u.R"), "{error}");
-}
-
 #[test]
 fn radiance_files_of_any_program_are_read() {
     let pixel = |x: u32, _| Rgb([[1.0_f32, 0.5][x as usize]; 3]);
@@ -526,7 +146,10 @@ fn webp_and_tiff_are_read() {
     let image: DynamicImage = RgbImage::from_fn(4, 2, pixel).into();
     for format in [ImageFormat::WebP, ImageFormat::Tiff] {
         let shown = brightness(&encoded(&image, format), 4).unwrap();
-        assert!((f64::from(shown.values[2]) - srgb(128.0 / 255.0)).abs() < 1e-5, "{format:?}");
+        assert!(
+            (f64::from(shown.values[2]) - picture_colours::srgb(128.0 / 255.0)).abs() < 1e-5,
+            "{format:?}"
+        );
     }
     let linear =
         DynamicImage::ImageRgb32F(ImageBuffer::from_fn(2, 1, |x, _| Rgb([[1.0_f32, 0.25][x as usize]; 3])));
