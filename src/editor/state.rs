@@ -56,7 +56,8 @@ impl EditorState {
     /// its own: no late answer shows the light of another project.
     pub fn open(&mut self, document: Document) {
         let Session { layout, overlays, snapping, looping, speed, panel, tool, .. } = self.session.clone();
-        self.session = Session { layout, overlays, snapping, looping, speed, panel, tool, ..start_of(&document) };
+        self.session =
+            Session { layout, overlays, snapping, looping, speed, panel, tool, ..start_of(&document) };
         self.document = document;
         self.status.clear();
         let old = std::mem::replace(&mut self.preview, (self.new_preview)());

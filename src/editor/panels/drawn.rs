@@ -70,7 +70,8 @@ fn tools(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Constraint]) {
             }
         });
         let lines = constraints.iter().filter(|c| matches!(c, Constraint::DirectedLine(_))).count();
-        let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let counted =
+            |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         ui.weak(format!("{}, {}", counted(lines, "line"), counted(constraints.len() - lines, "wall")));
     });
 }

@@ -59,7 +59,9 @@ pub fn controls() -> impl Iterator<Item = &'static Control> {
 
 /// The controls of all panels with their panel.
 pub fn controls_by_panel() -> impl Iterator<Item = (&'static PanelInfo, &'static Control)> {
-    PANELS.iter().flat_map(|entry| entry.controls.iter().copied().flatten().map(move |control| (entry, control)))
+    PANELS
+        .iter()
+        .flat_map(|entry| entry.controls.iter().copied().flatten().map(move |control| (entry, control)))
 }
 
 /// The tabs, and the selected panel.
