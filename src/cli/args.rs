@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Fit the flow without rendering: photon tracks, flux and fields as NPY and NPZ.
     Fit(FitArgs),
+    /// Write the photons of all frames and the drawn lines for other programs: USD, or PLY per frame.
+    Photons(PhotonsArgs),
     /// Render a project by the vector field, by the method of 2016 and by straight lines, side by side on one sheet.
     Compare(CompareArgs),
     /// Measure how well the light of projects holds together on its way: cracks, torn pieces, bunching, speed. A table with a
@@ -58,6 +60,19 @@ pub(crate) struct FitArgs {
     /// Folder for tracks.npy, flux.npy, fields.npz and summary.json; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(crate) struct PhotonsArgs {
+    /// Without --photons, at most 20000 photons are written.
+    #[command(flatten)]
+    pub(crate) project: ProjectArgs,
+    /// Folder for photons.usda, or for photons.0001.ply and so on and lines.ply, and for summary.json; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// usda: one file with a sample for each frame; ply: a file for each frame.
+    #[arg(long = "as", value_name = "FORMAT", default_value = "usda")]
+    pub(crate) format: String,
 }
 
 #[derive(Args)]
@@ -128,12 +143,13 @@ pub(crate) struct ProjectArgs {
     passes: Option<u32>,
     /// Photons per pass.
     #[arg(long)]
-    photons: Option<u64>,
+    pub(crate) photons: Option<u64>,
     /// Picture formats, such as exr,png.
     #[arg(long, value_delimiter = ',')]
     format: Vec<String>,
-    /// Layers of EXR files: beauty, caustic, caustics (one for each named caustic), background, depth. With caustic alone no
-    /// background is traced, and PNG files show the caustics on black.
+    /// Layers of EXR files: beauty, caustic, caustics (one for each named caustic), background, depth, plane (the
+    /// light on the receiver in W/m², a texture for any renderer, in files NAME_plane.0001.exr). Without beauty and background
+    /// none is traced, and PNG files show the caustics on black.
     #[arg(long, value_delimiter = ',')]
     layers: Vec<String>,
     /// Draw the lines and walls of the project on sheets, thin.

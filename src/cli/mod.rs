@@ -7,6 +7,7 @@ mod exit_code;
 mod figures;
 mod fit;
 mod job;
+mod photons;
 mod progress;
 mod render;
 mod report;
@@ -35,6 +36,7 @@ pub fn main() -> ExitCode {
         None => edit(cli.project.as_deref()),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Fit(args)) => fit::run(args),
+        Some(Command::Photons(args)) => photons::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),

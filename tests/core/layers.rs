@@ -4,7 +4,7 @@ use std::path::Path;
 
 use exr::meta::header::Header;
 use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 use half::f16;
 use lightloom_core::Progress;
 use lightloom_core::engine::Engine;
@@ -151,7 +151,10 @@ fn alpha_and_depth_are_those_of_the_surfaces() {
 
 #[test]
 fn the_header_tells_camera_and_time_as_openexr_defines_them() {
-    let read = rendered(r#"["caustic"]"#);
+    let (mut project, place) = project(r#"["caustic"]"#);
+    let shifted = CameraDesc { shift: [0.2, -0.1], ..CameraDesc::default() };
+    project.scene.as_mut().unwrap().camera = shifted.clone();
+    let read = last_frame(&project, &place);
     assert_eq!(read.headers.len(), 1);
     let header = &read.headers[0];
     let code = header.shared_attributes.time_code.unwrap();
@@ -160,7 +163,7 @@ fn the_header_tells_camera_and_time_as_openexr_defines_them() {
     let matrix = |values: Option<[f32; 16]>| Mat4::from_cols_array(&values.unwrap());
     let to_camera = matrix(header.own_attributes.world_to_camera);
     let to_ndc = matrix(header.own_attributes.world_to_normalized_device);
-    let camera = CameraDesc::default().resolve("").unwrap();
+    let camera = shifted.resolve("").unwrap();
     // Straight ahead is +z, the space is left-handed.
     let ahead = to_camera * (camera.position + 2.0 * camera.forward).extend(1.0);
     assert!(ahead.distance(Vec4::new(0.0, 0.0, 2.0, 1.0)) < 1e-5, "{ahead}");
@@ -192,4 +195,86 @@ fn layers_that_cannot_be_are_refused() {
     project.caustics.clear();
     let error = project.check().unwrap_err().to_string();
     assert!(error.starts_with("output.layers: ") && error.contains("named caustic"), "{error}");
+}
+
+/// R, G, B of the plane's file of a frame, and its size and attributes.
+fn plane_of(project: &Project, place: &Path, folder: &Path) -> (Vec<[f32; 3]>, [usize; 2], Header) {
+    let engine = Engine::new(AssetFolder::new(place, false).unwrap());
+    engine.render(project, folder, &Progress::new(), &|_| ()).unwrap();
+    let path = folder.join(format!("a_plane.{:04}.exr", project.keys[0].frame));
+    let header = MetaData::read_from_file(&path, true).unwrap().headers[0].clone();
+    let layer = read_all_flat_layers_from_file(&path).unwrap().layer_data.remove(0);
+    let size = [layer.size.0, layer.size.1];
+    let values = |name: &str| {
+        let channel =
+            layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name).unwrap();
+        let FlatSamples::F32(values) = &channel.sample_data else { panic!("32 bits") };
+        values.clone()
+    };
+    let [r, g, b] = ["R", "G", "B"].map(values);
+    ((0..r.len()).map(|i| [r[i], g[i], b[i]]).collect(), size, header)
+}
+
+#[test]
+fn the_plane_alone_is_a_texture_of_all_its_light() {
+    let text = r#"{ "lightloom": 1, "plane": { "watts": 3 },
+      "keys": [{ "frame": 1, "shows": { "image": { "file": "../assets/targets/star.png" } } }],
+      "render": { "width": 64, "height": 64, "photons": 20000, "passes": 1 },
+      "output": { "name": "a.####", "formats": ["exr"], "layers": ["plane"] } }"#;
+    let place = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../projects/layers.json"));
+    let project = Project::parse(text.as_bytes(), place).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (light, [width, height], header) = plane_of(&project, place, folder.path());
+    // The star lies within the plane: its watts are the mean irradiance times one square metre, to the kernel's reach.
+    let watts = light.iter().map(|v| v.iter().sum::<f32>()).sum::<f32>() / (width * height) as f32;
+    assert!((watts - 3.0).abs() < 0.01, "{watts} W");
+    assert!(!folder.path().join("a.0001.exr").exists(), "no frames through the camera were asked for");
+    let unit = &header.own_attributes.other[&exr::prelude::Text::from("lightloom:unit")];
+    assert!(format!("{unit:?}").contains("W/m^2"), "{unit:?}");
+}
+
+#[test]
+fn the_light_on_the_plane_is_what_the_camera_sees_of_it() {
+    let (mut project, place) = project(r#"["caustic", "caustics", "plane"]"#);
+    let desc = project.scene.as_mut().unwrap();
+    // High above, so that the glass hides little.
+    desc.camera = CameraDesc { position: [0.0, 3.0, 0.01], fov_deg: 20.0, ..CameraDesc::default() };
+    project.render.photons = 40_000;
+    let folder = tempfile::tempdir().unwrap();
+    let (light, [width, height], header) = plane_of(&project, &place, folder.path());
+    assert!(header.own_attributes.world_to_camera.is_none());
+    let image = read_all_flat_layers_from_file(folder.path().join("a.0001.exr")).unwrap();
+    let layer =
+        image.layer_data.iter().find(|layer| layer.attributes.layer_name == Some("caustic".into())).unwrap();
+    let red = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == "caustic.R").unwrap();
+    let seen: Vec<f32> = red.sample_data.values_as_f32().collect();
+    let (camera, receiver) = project.scene.as_ref().unwrap().camera_and_receiver().unwrap();
+    // Blocks of the plane on the far side of the lamps, in the light and out of the glass; each pixel in its block.
+    let (mut on_plane, mut through_camera) = (0.0, 0.0);
+    for y in 0..36 {
+        for x in 0..64 {
+            let ray = camera.ray((x as f32 + 0.5) / 32.0 - 1.0, 1.0 - (y as f32 + 0.5) / 18.0, 64.0 / 36.0);
+            let place = receiver.plane_from_ray(&ray).unwrap();
+            let inside = place.min_element() > 0.0 && place.max_element() < 1.0;
+            if inside && place.distance(Vec2::splat(0.5)) > 0.12 {
+                let [column, row] =
+                    [place.x * width as f32, (1.0 - place.y) * height as f32].map(|v| v as usize);
+                on_plane += f64::from(light[row * width + column][0] * 0.8 / std::f32::consts::PI);
+                through_camera += f64::from(seen[y * 64 + x]);
+            }
+        }
+    }
+    // One texel of about five by five in each pixel: sampling noise over some hundred lit pixels.
+    assert!((on_plane / through_camera - 1.0).abs() < 0.05, "{on_plane} {through_camera}");
+}
+
+#[test]
+fn the_plane_needs_exr() {
+    let (mut project, _) = project(r#"["caustic", "plane"]"#);
+    project.output.formats = vec![lightloom_core::export::FrameFormat::Png];
+    let error = project.check().unwrap_err().to_string();
+    assert!(error.starts_with("output.formats: ") && error.contains("plane"), "{error}");
+    project.output.formats = vec![lightloom_core::export::FrameFormat::Exr];
+    project.check().unwrap();
+    assert!(project.output.writes("a_plane.0001.exr") && project.output.writes("a.0001.exr"));
 }

@@ -283,7 +283,7 @@ fn refracted_way(scene: &Scene, mut ray: Ray) -> Vec<(Vec3, Media)> {
     while let Some(hit) = scene.intersect(&ray).filter(|hit| matches!(hit.surface, SurfaceId::Mesh(_))) {
         let mut next = beam.clone();
         let material = scene.material(hit.surface);
-        let direction = material.scatter(scene.meshes(), &hit, ray.direction, &mut next, &mut rng).unwrap();
+        let direction = material.scatter(scene.geometry(), &hit, ray.direction, &mut next, &mut rng).unwrap();
         let crossed = direction.dot(hit.geometric_normal) * ray.direction.dot(hit.geometric_normal) > 0.0;
         if crossed {
             ray = Ray::leaving(&hit, direction);

@@ -356,7 +356,7 @@ fn a_missing_caustic_is_explained() {
         let lid = box_obj(Vec3::new(-2.0, 1.0, -2.0), Vec3::new(2.0, 1.1, 2.0));
         stage.mesh("lid", lid, Some(Material::Diffuse(Diffuse::default())));
     });
-    assert!(shaded.contains("something matt stands between"), "{shaded}");
+    assert!(shaded.contains("'lid' stands between it and 'ball'"), "{shaded}");
     let black = complaint(|stage| stage.desc.meshes[0].material = mirror(0.0));
     assert!(black.contains("100 % is absorbed"), "{black}");
 }

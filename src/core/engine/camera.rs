@@ -173,7 +173,8 @@ impl Stages {
         let shares = shares(project, &grouping);
         let photons = (project.render.photons, project.render.passes);
         let apart = project.output.separates_caustics();
-        let input = StillInput { view, photons, caustics: project.caustics.clone(), shares, apart };
+        let (caustics, on_plane) = (project.caustics.clone(), project.output.shows_plane());
+        let input = StillInput { view, photons, caustics, shares, apart, on_plane };
         self.still.get(slot, input, progress, |StillInput { shares, .. }| {
             let make = || StillLight::new(scene, project, (&grouping, shares), progress);
             meter.measure("still", make).map(Arc::new)

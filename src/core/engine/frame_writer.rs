@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
+use glam::{Vec2, Vec4, vec2};
 use rayon::prelude::*;
 
 use super::camera::CameraPictures;
@@ -10,10 +11,12 @@ use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
 use super::summary::BadValues;
 use crate::export::{
-    Frame, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet, write_frame,
+    Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet,
+    write_frame, write_plane,
 };
 use crate::project::{Project, SegmentTime};
-use crate::render::{Image, PlaneView, ProgressiveRender, View};
+use crate::render::{Image, PlaneMaterial, PlaneView, ProgressiveRender, ReceiverTexture, View, plane_image};
+use crate::scene::Receiver;
 use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
@@ -33,6 +36,8 @@ struct FrameLight {
     all: Image,
     /// Of each by itself with the name of its layer, where they are apart.
     caustics: Vec<(String, Image)>,
+    /// The irradiance on the plane, where it is wanted.
+    plane: Option<Image>,
     /// The passes in it.
     passes: usize,
 }
@@ -46,6 +51,10 @@ pub(super) struct FrameWriter<'a> {
     /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
     pub(super) caustic_names: &'a [String],
     pub(super) camera: Option<Camera>,
+    /// None without a scene.
+    pub(super) receiver: Option<&'a Receiver>,
+    /// Size of the plane, plane units.
+    pub(super) extent: Vec2,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
@@ -117,8 +126,10 @@ impl FrameWriter<'_> {
         if self.caustic_names.is_empty() {
             let (texture, passes) = self.render.mean(slot)?;
             let all = self.pictures.caustic(&texture, None, moment);
-            return Ok(FrameLight { all, caustics: Vec::new(), passes });
+            let plane = self.on_plane(&texture, moment);
+            return Ok(FrameLight { all, caustics: Vec::new(), plane, passes });
         }
+        let mut together = ReceiverTexture::new(*self.render.layout());
         let image = &self.pictures.background.image;
         let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
         let mut caustics = Vec::new();
@@ -126,10 +137,29 @@ impl FrameWriter<'_> {
             let (texture, of_group) = self.render.mean(slot * self.caustic_names.len() + group)?;
             let caustic = self.pictures.caustic(&texture, Some(group), moment);
             all = all.plus(&caustic);
+            together
+                .texels_mut()
+                .iter_mut()
+                .zip(texture.texels())
+                .for_each(|(sum, one): (&mut Vec4, _)| *sum += *one);
             caustics.push((name.clone(), caustic));
             passes = of_group;
         }
-        Ok(FrameLight { all, caustics, passes })
+        let plane = self.on_plane(&together, moment);
+        Ok(FrameLight { all, caustics, plane, passes })
+    }
+
+    /// The irradiance on the plane (W/m²), where it is wanted: the light that flows, and what stays in its place.
+    fn on_plane(&self, texture: &ReceiverTexture, moment: SegmentTime) -> Option<Image> {
+        if !self.project.output.shows_plane() {
+            return None;
+        }
+        let metres = self.receiver.map_or(1.0, Receiver::metres_per_plane_unit);
+        let mut plane = plane_image(texture, self.extent, PlaneMaterial::irradiance(metres));
+        if let Some(still) = &self.pictures.still {
+            still.add_to_plane(&mut plane, (self.extent, metres), moment);
+        }
+        Some(plane)
     }
 
     /// Writes one frame in all formats; returns its beauty picture.
@@ -139,7 +169,7 @@ impl FrameWriter<'_> {
         (slot, moment): (usize, SegmentTime),
         view: &View,
     ) -> Result<(RepairedSamples, Image)> {
-        let FrameLight { all: caustic, caustics, passes } = self.light(slot, moment)?;
+        let FrameLight { all: caustic, caustics, plane, passes } = self.light(slot, moment)?;
         let background = &self.pictures.background.image;
         let output = &self.project.output;
         let metadata = self.metadata(frame, passes);
@@ -154,11 +184,32 @@ impl FrameWriter<'_> {
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {
+            if format == FrameFormat::Exr && !output.shows_frames() {
+                continue;
+            }
             let path = pattern.path(self.folder, frame, format);
             all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }
+        if let Some(plane) = plane {
+            let path = pattern.beside(FrameLayer::Plane.name()).path(self.folder, frame, FrameFormat::Exr);
+            all += write_plane(&path, &plane, &self.plane_metadata(metadata))?;
+            (self.saved)(&path);
+        }
         Ok((all, background.plus(&caustic)))
+    }
+
+    /// The metadata of the light on the plane: its unit and its place in the world.
+    fn plane_metadata(&self, mut of_frame: Metadata) -> Metadata {
+        of_frame.camera = None;
+        let mut tell = |name: &str, value: String| of_frame.settings.push((name.into(), value));
+        tell("unit", "W/m^2, irradiance; times albedo / pi it is the radiance of a matt plane".into());
+        if let Some(receiver) = self.receiver {
+            let corners = [Vec2::ZERO, vec2(self.extent.x, 0.0), vec2(0.0, self.extent.y)];
+            let corners = corners.map(|corner| receiver.world_from_plane(corner).to_array());
+            tell("corners", format!("{corners:?}: lower left, lower right, upper left; metres, y is up"));
+        }
+        of_frame
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {

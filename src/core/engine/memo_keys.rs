@@ -39,6 +39,8 @@ pub(super) struct StillInput {
     pub(super) shares: Vec<Option<StillShares>>,
     /// Whether the light of each caustic is wanted by itself.
     pub(super) apart: bool,
+    /// Whether it is wanted on the plane, too.
+    pub(super) on_plane: bool,
 }
 
 /// Everything that the frames of a segment depend on.

@@ -104,6 +104,8 @@ impl Engine {
             pictures: &camera,
             caustic_names: &prepared.caustic_layer_names(),
             camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
+            receiver: prepared.scene.as_deref().map(|scene| scene.receiver()),
+            extent: prepared.extent,
             folder,
             drawn: &active_constraints::drawn(project),
             plane: plane.clone(),

@@ -1,6 +1,7 @@
 //! The light that does not flow, in every frame: it shows the physical caustic, and fades as that one leaves.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, vec2};
+use rayon::prelude::*;
 
 use super::energy_balance::between;
 use super::grouping::Grouping;
@@ -8,7 +9,9 @@ use crate::photon::{EmissionGuiding, LightPart, Photons, Tracer};
 use crate::project::{Project, SegmentTime, Shows};
 use crate::render::density::{KernelFilter, default_radius};
 use crate::render::splat::Splatter;
-use crate::render::{Image, ReceiverTexture, StillPictures, StillTextures, still_layout, still_pictures};
+use crate::render::{
+    Image, ReceiverTexture, StillPictures, StillTextures, still_layout, still_pictures, watts_at,
+};
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -62,6 +65,8 @@ struct Layer {
     groups: Vec<usize>,
     shares: StillShares,
     pictures: StillPictures,
+    /// What stays, on the plane, where that is wanted.
+    on_plane: Option<ReceiverTexture>,
 }
 
 impl StillLight {
@@ -92,27 +97,22 @@ impl StillLight {
         });
         let textures: Vec<StillTextures> = textures.collect();
         let pictures = still_pictures(scene, &textures, render, seed, progress)?;
-        let layers = layers.into_iter().zip(pictures);
         let layers =
-            layers.map(|((groups, shares), pictures)| Layer { groups, shares: shares.clone(), pictures });
+            layers.into_iter().zip(pictures).zip(textures).map(|(((groups, shares), pictures), light)| {
+                let on_plane = project.output.shows_plane().then_some(light.stays);
+                Layer { groups, shares: shares.clone(), pictures, on_plane }
+            });
         Ok(Self { layers: layers.collect() })
     }
 
     /// Adds the light of a moment to a picture of the same size: that of one group, which must be apart, or of all.
-    pub(super) fn add_to(
-        &self,
-        picture: &mut Image,
-        group: Option<usize>,
-        SegmentTime { segment, time }: SegmentTime,
-    ) {
+    pub(super) fn add_to(&self, picture: &mut Image, group: Option<usize>, moment: SegmentTime) {
         let wanted = |layer: &&Layer| group.is_none_or(|group| layer.groups == [group]);
         for Layer { shares, pictures: StillPictures { stays, in_glass }, .. } in
             self.layers.iter().filter(wanted)
         {
             for (share, light) in [(&shares.stays, stays), (&shares.kept, in_glass)] {
-                // A picture may be asked for a moment of a project that has got more keys since.
-                let ends = [segment, segment + 1].map(|key| share[key.min(share.len() - 1)]);
-                let now = Vec3::from([0, 1, 2].map(|c| between(ends.map(|end| end[c].into()), time) as f32));
+                let now = share_at(share, moment);
                 if now != Vec3::ZERO {
                     let pixels = picture.pixels.iter_mut().zip(&light.pixels);
                     pixels.for_each(|(pixel, light)| *pixel += now * *light);
@@ -120,6 +120,37 @@ impl StillLight {
             }
         }
     }
+}
+
+impl StillLight {
+    /// Adds what stays of all groups to the irradiance on a receiver of `extent` (W/m²), where its textures were wanted; the
+    /// top row is its upper edge.
+    pub(super) fn add_to_plane(
+        &self,
+        irradiance: &mut Image,
+        (extent, metres): (Vec2, f32),
+        moment: SegmentTime,
+    ) {
+        let size = vec2(irradiance.width as f32, irradiance.height as f32);
+        let lights = self.layers.iter().filter_map(|layer| Some((&layer.shares, layer.on_plane.as_ref()?)));
+        for (shares, texture) in lights {
+            let now = share_at(&shares.stays, moment) / (texture.layout().texel * metres).powi(2);
+            if now == Vec3::ZERO {
+                continue;
+            }
+            let width = irradiance.width;
+            irradiance.pixels.par_iter_mut().enumerate().for_each(|(i, pixel)| {
+                let place = vec2((i % width) as f32 + 0.5, (i / width) as f32 + 0.5) / size;
+                *pixel += now * watts_at(texture, vec2(place.x, 1.0 - place.y) * extent);
+            });
+        }
+    }
+}
+
+/// A share at a moment. A picture may be asked for a moment of a project that has got more keys since.
+fn share_at(share: &[Vec3], SegmentTime { segment, time }: SegmentTime) -> Vec3 {
+    let ends = [segment, segment + 1].map(|key| share[key.min(share.len() - 1)]);
+    Vec3::from([0, 1, 2].map(|c| between(ends.map(|end| end[c].into()), time) as f32))
 }
 
 /// The groups that have light that does not flow: those with equal shares together, or each `apart`.

@@ -62,19 +62,46 @@ pub fn write<'a>(path: &Path, frame: &Frame<'a>) -> Result<RepairedSamples> {
             FrameLayer::Depth => parts.extend(frame.first_hits.map(|hits| {
                 ("depth", vec![AnyChannel::new("depth.Z", FlatSamples::F32(hits.depth.clone()))])
             })),
+            FrameLayer::Plane => (),
         }
     }
+    save(path, parts, size, frame.metadata, repairs)?;
+    Ok(repairs)
+}
+
+/// Writes the light on the plane in 32-bit floats, `R`, `G` and `B`; returns the repaired samples.
+pub fn write_plane(path: &Path, irradiance: &Image, metadata: &Metadata) -> Result<RepairedSamples> {
+    let bad = |v: &Vec3| v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
+    let repairs =
+        RepairedSamples { half_clamped: 0, nonfinite_replaced: irradiance.pixels.iter().map(bad).sum() };
+    let channel = |(i, name)| {
+        let values = irradiance.pixels.iter().map(|v| if v[i].is_finite() { v[i] } else { 0.0 });
+        AnyChannel::new(name, FlatSamples::F32(values.collect()))
+    };
+    let channels = ["R", "G", "B"].into_iter().enumerate().map(channel).collect();
+    save(path, vec![("plane", channels)], (irradiance.width, irradiance.height), metadata, repairs)?;
+    Ok(repairs)
+}
+
+/// Writes parts of one size atomically.
+fn save(
+    path: &Path,
+    parts: Vec<(&str, Vec<AnyChannel<FlatSamples>>)>,
+    size: (usize, usize),
+    metadata: &Metadata,
+    repairs: RepairedSamples,
+) -> Result<()> {
     let count = parts.len();
     let layers: Vec<_> = parts
         .into_iter()
         .map(|(name, channels)| {
-            let attributes = attributes(name, frame.metadata, size, repairs);
+            let attributes = attributes(name, metadata, size, repairs);
             Layer::new(size, attributes, encoding(), AnyChannels::sort(channels.into()))
         })
         .collect();
     let mut shared = ImageAttributes::new(IntegerBounds::from_dimensions(size));
     shared.chromaticities = Some(REC709);
-    shared.time_code = time_code(frame.metadata.frame, frame.metadata.frames_per_second);
+    shared.time_code = time_code(metadata.frame, metadata.frames_per_second);
     let image = ExrImage::from_layers(shared, layers);
     let mut bytes = Vec::new();
     image
@@ -83,8 +110,7 @@ pub fn write<'a>(path: &Path, frame: &Frame<'a>) -> Result<RepairedSamples> {
         .to_buffered(Cursor::new(&mut bytes))
         .map_err(|error| Error::format(path, "", format!("cannot be made: {error}")))?;
     sort_attributes(&mut bytes, count);
-    crate::files::write_atomic(path, |file| file.write_all(&bytes))?;
-    Ok(repairs)
+    crate::files::write_atomic(path, |file| file.write_all(&bytes))
 }
 
 /// The primaries of Rec.709 and D65.

@@ -1,4 +1,4 @@
-//! The layers of an EXR file. A new layer is a variant here and a part in `exr`.
+//! The layers of EXR files. A new layer is a variant here and a part in `exr`; the plane has files of its own.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,11 +17,15 @@ pub enum FrameLayer {
     Background,
     /// Depth of the first surface along the view (m): `depth.Z`. A project without scene has none.
     Depth,
+    /// The irradiance of the caustics on the receiver, without its albedo (W/m²): a texture for any renderer, in files of its
+    /// own, `NAME_plane.0001.exr`, with `R`, `G`, `B` in 32 bits.
+    Plane,
 }
 
 impl FrameLayer {
     /// All layers, in the order of the parts of a file.
-    pub const ALL: [Self; 5] = [Self::Beauty, Self::Caustic, Self::Caustics, Self::Background, Self::Depth];
+    pub const ALL: [Self; 6] =
+        [Self::Beauty, Self::Caustic, Self::Caustics, Self::Background, Self::Depth, Self::Plane];
 
     /// The layers of a project that names none.
     pub const DEFAULT: [Self; 4] = [Self::Beauty, Self::Caustic, Self::Background, Self::Depth];
@@ -34,6 +38,7 @@ impl FrameLayer {
             Self::Caustics => "caustics",
             Self::Background => "background",
             Self::Depth => "depth",
+            Self::Plane => "plane",
         }
     }
 
@@ -45,7 +50,13 @@ impl FrameLayer {
             Self::Caustics => "one layer for each named caustic, and one for the rest",
             Self::Background => "the picture without caustics, with alpha",
             Self::Depth => "distance of the first surface along the view, in metres",
+            Self::Plane => "light on the receiver in W/m², in files of its own: a texture for any renderer",
         }
+    }
+
+    /// Whether it is a part of the frames through the camera.
+    pub fn is_in_frame(self) -> bool {
+        self != Self::Plane
     }
 
     /// Whether the picture without caustics is part of the layer.

@@ -7,6 +7,7 @@ pub mod film;
 pub mod layer;
 pub mod overlay;
 pub mod pattern;
+pub mod photons;
 pub mod png;
 pub mod sheet;
 
@@ -21,12 +22,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
+pub use exr::write_plane;
 pub use fields::{SegmentFields, load_fields, write_fields};
 pub use film::{FilmFormat, Reel, write_film};
 pub use frame::{Frame, Metadata, RepairedSamples};
 pub use layer::{FrameLayer, caustic_layer_names};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
+pub use photons::{DrawnLine, PhotonFormat, PhotonFrame, PhotonSequence, PhotonWriter};
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};
 

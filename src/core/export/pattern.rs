@@ -48,6 +48,12 @@ impl FramePattern {
         Ok(Self { before: before.to_owned(), digits, after: after.to_owned() })
     }
 
+    /// The pattern of a sequence beside this one: `name_LAYER.####`.
+    pub fn beside(&self, layer: &str) -> Self {
+        let name = self.before.strip_suffix('.').unwrap_or(&self.before);
+        Self { before: format!("{name}_{layer}."), ..self.clone() }
+    }
+
     /// The file of a frame in `folder`.
     pub fn path(&self, folder: &Path, frame: i32, format: FrameFormat) -> PathBuf {
         let Self { before, digits, after } = self;

@@ -16,7 +16,7 @@ pub(super) fn world_to_ndc(camera: &Camera, aspect: f32) -> [f32; 16] {
     let ndc = Mat4::from_cols(
         Vec4::new(scale / aspect, 0.0, 0.0, 0.0),
         Vec4::new(0.0, -scale, 0.0, 0.0),
-        Vec4::new(0.5, 0.5, 1.0, 1.0),
+        Vec4::new(0.5 - camera.shift.x, 0.5 + camera.shift.y, 1.0, 1.0),
         Vec4::ZERO,
     );
     (ndc * to_camera(camera)).to_cols_array()

@@ -143,14 +143,14 @@ pub(super) fn follow(
         }
         let arriving = beam.weight;
         beam.travel(scene.meshes(), hit.t);
-        let next = match hit.surface {
-            SurfaceId::Mesh(mesh) => {
-                let material = scene.material(hit.surface);
-                let next = material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng);
+        let next = match scene.mesh_of(hit.surface) {
+            Some(mesh) => {
+                let material = &scene.meshes()[usize::from(mesh)].material;
+                let next = material.scatter(scene.geometry(), &hit, ray.direction, &mut beam, rng);
                 last_specular = next.map(|_| mesh).or(last_specular);
                 next
             }
-            SurfaceId::Receiver | SurfaceId::Floor => None,
+            None => None,
         };
         let survived = roulette(&mut beam.weight, flux, rng);
         balance.absorbed += (arriving - beam.weight).as_dvec3();
@@ -211,7 +211,9 @@ fn land(
             return Some(Landing { position, flux, mesh });
         }
         SurfaceId::Receiver | SurfaceId::Floor if lit => &mut balance.surround,
-        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut balance.blocked,
+        SurfaceId::Mesh(_) | SurfaceId::Contact(_) | SurfaceId::Receiver | SurfaceId::Floor => {
+            &mut balance.blocked
+        }
     };
     *column += flux.as_dvec3();
     None

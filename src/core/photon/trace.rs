@@ -133,6 +133,11 @@ impl<'a> Tracer<'a> {
         &self.guide
     }
 
+    /// The lights, by index, of which no trial path reached the receiver, each with a note on the reason.
+    pub fn idle_lights(&self) -> Vec<(usize, String)> {
+        diagnosis::idle_lights(self.scene, &self.guide.0.plan.balances)
+    }
+
     /// Landing rate: photons per candidate.
     pub fn landing_rate(&self) -> f64 {
         self.guide.0.rate

@@ -39,8 +39,9 @@ settings! { OutputSettings {
     FPS = Setting::whole("output.fps", [1.0, 1e6], &[24.0, 1.0]);
     /// Formats: "exr" holds the light itself in layers, for compositing; "png" shows it as on a screen. Default both.
     FORMATS = Setting::part("output.formats");
-    /// Layers of EXR files: "beauty", "caustic", "caustics" (one for each named caustic), "background", "depth". Without
-    /// beauty and background none is traced, and PNG files show the caustics alone. Default all but "caustics".
+    /// Layers of EXR files: "beauty", "caustic", "caustics" (one for each named caustic), "background", "depth",
+    /// "plane" (the light on the receiver, W/m², in files of its own). Without beauty and background none is traced, and PNG
+    /// files show the caustics alone. Default all but "caustics" and "plane".
     LAYERS = Setting::part("output.layers");
     /// Bits per channel of PNG files.
     PNG_BITS = Setting::choice("output.png_bits", &[
@@ -87,13 +88,28 @@ impl OutputSettings {
         self.layers.contains(&FrameLayer::Caustics) && self.formats.contains(&FrameFormat::Exr)
     }
 
+    /// Whether EXR files of the frames through the camera are written.
+    pub fn shows_frames(&self) -> bool {
+        self.layers.iter().any(|layer| layer.is_in_frame())
+    }
+
+    /// Whether the light on the plane is written.
+    pub fn shows_plane(&self) -> bool {
+        self.layers.contains(&FrameLayer::Plane) && self.formats.contains(&FrameFormat::Exr)
+    }
+
     /// Whether `name` matches the file name of a frame.
     pub fn writes(&self, name: &str) -> bool {
         let frame_of = |format: &FrameFormat| {
             let (before, after) = self.name.split_once(['#', '%'])?;
             let after = after.trim_start_matches(['#', '0', '4', 'd']);
             let stem = name.strip_suffix(format.extension())?.strip_suffix('.')?;
-            stem.strip_prefix(before)?.strip_suffix(after)?.parse::<i64>().ok()
+            let beside = format!("{}_plane.", before.strip_suffix('.').unwrap_or(before));
+            stem.strip_prefix(before)
+                .or_else(|| stem.strip_prefix(&beside))?
+                .strip_suffix(after)?
+                .parse::<i64>()
+                .ok()
         };
         self.formats.iter().any(|format| frame_of(format).is_some())
     }
@@ -112,6 +128,12 @@ impl OutputSettings {
         if self.layers.iter().all(|layer| *layer == FrameLayer::Depth) {
             let names = FrameLayer::ALL.map(|layer| format!("\"{}\"", layer.name())).join(", ");
             return wrong("layers", format!("the list shows no light; name at least one of {names}"));
+        }
+        if self.layers.contains(&FrameLayer::Plane) && !self.formats.contains(&FrameFormat::Exr) {
+            return wrong(
+                "formats",
+                "the layer \"plane\" is light in EXR files; add \"exr\" to the formats".into(),
+            );
         }
         if ![8, 16].contains(&self.png_bits) {
             return wrong("png_bits", format!("{} is not offered; give 8 or 16", self.png_bits));

@@ -20,6 +20,11 @@ impl PlaneMaterial {
     /// Perfectly white, one metre per plane unit: the plane of a project without scene.
     pub const WHITE: Self = Self { brdf: Vec3::splat(1.0 / std::f32::consts::PI), metres: 1.0 };
 
+    /// In place of the reflected light the light itself: irradiance [W/m^2], with `metres` per plane unit.
+    pub fn irradiance(metres: f32) -> Self {
+        Self { brdf: Vec3::ONE, metres }
+    }
+
     /// The material of a receiver.
     pub fn of(receiver: &Receiver) -> Self {
         let albedo = match receiver.material() {

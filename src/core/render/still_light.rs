@@ -57,9 +57,9 @@ pub fn still_pictures(
             let rng = Stream::new(seed, Purpose::Visible, 2, (y * width + x) as u64);
             let taken = camera.pixel([x, y], samples, rng, &mut |seen| {
                 for (light, [stays, in_glass]) in lights.iter().zip(&mut *pixel) {
-                    *stays += seen.weight * at(&light.stays, seen.point);
+                    *stays += seen.weight * watts_at(&light.stays, seen.point);
                     if seen.in_glass {
-                        *in_glass += seen.weight * at(&light.all, seen.point);
+                        *in_glass += seen.weight * watts_at(&light.all, seen.point);
                     }
                 }
             });
@@ -85,8 +85,8 @@ pub fn still_layout(scene: &Scene, resolution: usize) -> TextureLayout {
     TextureLayout::new(scene.receiver().extent(), resolution, scene.receiver().margin())
 }
 
-/// Watts per texel at a point of the plane.
-fn at(texture: &ReceiverTexture, point: glam::Vec2) -> Vec3 {
+/// Watts per texel at a point of the plane; none beside the texture.
+pub fn watts_at(texture: &ReceiverTexture, point: glam::Vec2) -> Vec3 {
     let taps = texture.layout().bilinear(point).into_iter().flatten();
     taps.map(|(texel, share)| texture.texels()[texel].xyz() * share).sum()
 }

@@ -47,6 +47,8 @@ impl Ray {
 pub enum SurfaceId {
     /// An index into [`super::Scene::meshes`].
     Mesh(u16),
+    /// A place where several meshes lie in one another; a number of the scene's own.
+    Contact(u16),
     /// The receiver's rectangle.
     Receiver,
     /// The floor around the receiver; of the same material.

@@ -35,6 +35,7 @@ impl Orbit {
             look_at: self.target.to_array(),
             up: [0.0, 1.0, 0.0],
             fov_deg: shot.fov_deg,
+            shift: [0.0; 2],
         }
     }
 

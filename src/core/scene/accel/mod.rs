@@ -102,6 +102,20 @@ impl Accel {
         });
     }
 
+    /// Calls `each` for every triangle, with its mesh.
+    pub(super) fn each_triangle(&self, each: &mut dyn FnMut(Primitive, u16, &[Vec3; 3])) {
+        for leaf in &self.leaves {
+            // Unused lanes have no edges.
+            for (lane, (corner, edge1, edge2)) in
+                (0..8).map(|lane| (lane, leaf.lane(lane))).filter(|(_, t)| t.1 != Vec3::ZERO)
+            {
+                let index = leaf.first + lane;
+                let corners = [corner, corner + edge1, corner + edge2];
+                each(Primitive(index), self.surfaces[index as usize].mesh, &corners);
+            }
+        }
+    }
+
     /// Visits the leaves hit before a limit, near ones first. A visit may lower the limit, and ends the search by
     /// returning false.
     #[inline(always)]

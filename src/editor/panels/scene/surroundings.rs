@@ -12,6 +12,7 @@ const POSITION: Control = Control::new("Position", CameraDesc::POSITION);
 const LOOK_AT: Control = Control::new("Looks at", CameraDesc::LOOK_AT);
 const UP: Control = Control::new("Up", CameraDesc::UP);
 const FOV: Control = Control::new("Field of view", CameraDesc::FOV).slider(5.0, 120.0);
+const SHIFT: Control = Control::new("Lens shift", CameraDesc::SHIFT);
 const CENTRE: Control = Control::new("Centre", ReceiverDesc::CENTRE);
 const SIZE: Control = Control::new("Size", ReceiverDesc::SIZE);
 const TURN: Control = Control::new("Turn", ReceiverDesc::ROTATE);
@@ -27,7 +28,7 @@ const WATTS: Control = Control::new("Power", PlaneSettings::WATTS).log_slider(0.
 /// The settings of this part.
 #[rustfmt::skip]
 pub(super) const CONTROLS: &[Control] = &[
-    POSITION, LOOK_AT, UP, FOV, CENTRE, SIZE, TURN, ALBEDO, SURROUND, BORDER, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
+    POSITION, LOOK_AT, UP, FOV, SHIFT, CENTRE, SIZE, TURN, ALBEDO, SURROUND, BORDER, ZENITH, HORIZON, GROUND, ASPECT, WATTS,
 ];
 
 /// The camera.
@@ -36,6 +37,7 @@ pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDes
     LOOK_AT.numbers(ui, &mut camera.look_at, XYZ);
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
+    SHIFT.numbers(ui, &mut camera.shift, ["right", "up"]);
     ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
         let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
         if take.on_disabled_hover_text("Open the orbit view first").clicked()
