@@ -5,7 +5,7 @@ use glam::Vec3;
 use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
-use super::build::Groups;
+use super::groups::Groups;
 use super::node::{Child, MAX_DEPTH, Node};
 use super::triangle::Triangle;
 use super::wide::{Boxes, Triangles};
