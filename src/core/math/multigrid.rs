@@ -1,4 +1,5 @@
-//! One multigrid V-cycle as a preconditioner (Galerkin grids, Chebyshev smoothing, a direct solve at the end).
+//! One multigrid V-cycle as a preconditioner: Galerkin grids, Chebyshev smoothing, a direct solve at the end, and on every
+//! grid direct solves of the stiff nodes around the smoothing, where they are asked for.
 //!
 //! Chebyshev smoothing by the diagonal: Adams, Brezina, Hu, Tuminaro, "Parallel multigrid smoothing: polynomial versus
 //! Gauss-Seidel", J. Comput. Phys. 188 (2003). It is symmetric, needs only products with the matrix, and gives the

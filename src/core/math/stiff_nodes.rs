@@ -11,7 +11,7 @@ use super::null_space::NullSpace;
 use super::vector::Layout;
 
 /// Stiffness from which a node is solved exactly.
-const STIFF: f64 = 100.0;
+const STIFF: f64 = 30.0;
 /// Most numbers of a factor (128 MiB), and most nodes for which they are counted; beyond, only the stiffer nodes are taken.
 const MOST_NUMBERS: usize = 1 << 24;
 const MOST_NODES: usize = 1 << 15;
