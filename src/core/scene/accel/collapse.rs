@@ -5,7 +5,7 @@ use glam::Vec3;
 use obvhs::bvh2::Bvh2;
 use rayon::prelude::*;
 
-use super::build::Groups;
+use super::groups::Groups;
 use super::node::{Child, MAX_DEPTH, Node};
 use super::triangle::Triangle;
 use super::wide::{Boxes, Triangles};
@@ -134,12 +134,11 @@ impl Collapser<'_> {
 
     /// The children of the node that stands for a node of the tree.
     fn children(&self, index: u32) -> Vec<Part> {
-        let mut parts = Vec::with_capacity(8);
         if self.is_leaf(index) {
-            parts.push(Part::Subtree(index));
-        } else {
-            self.divide(index, 8, &mut parts);
+            return vec![Part::Subtree(index)];
         }
+        let mut parts = Vec::with_capacity(8);
+        self.divide(index, 8, &mut parts);
         parts
     }
 

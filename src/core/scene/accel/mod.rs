@@ -4,6 +4,7 @@
 mod blocks;
 mod build;
 mod collapse;
+mod groups;
 mod node;
 mod triangle;
 mod wide;
