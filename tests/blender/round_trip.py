@@ -29,6 +29,9 @@ PIXELS, LIGHT = 0.1, 0.01
 # Light through glass: what is left of Cycles' noise at these samples, two standard deviations.
 CAUSTIC = 0.03
 
+# The picture without caustics; the few photons are not looked at.
+BACKGROUND = ["--layers", "background", "--photons", "10000", "--passes", "1"]
+
 failures = []
 
 
@@ -190,11 +193,14 @@ def markers(program, folder):
         camera.shift_x, camera.shift_y = shift
         # A wide view, so that the markers stay in every shifted picture.
         look_at(scene.camera, (0.4, -2.4, 1.5), (0, 0, 0.05))
+        # Something that casts a caustic, in the light of a lamp too faint to matter.
+        ball("glass", 0.01, (0.2, 0.1, 0.02), glass("glass"))
+        lamp(scene, "POINT", (0.2, 0.1, 1.0), energy=1e-4, shadow_soft_size=0.0)
         white = matt("marker", 0.9)
         for place in MARKERS:
             ball("marker", 0.02, place, white)
         path, _, _ = exported(folder)
-        ours = channels(rendered(program, path, folder, "--layers", "background"), "background.")
+        ours = channels(rendered(program, path, folder, *BACKGROUND), "background.")
         theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 96)
         worst, seen = 0.0, 0
         for place in MARKERS:
@@ -240,12 +246,12 @@ def lamps(program, folder):
         scene = empty_scene(320, 180)
         target = (place[0], place[1], 0) if "down" in name else (0, 0, 0)
         lamp(scene, kind, place, target, **values)
-        ball("glass", 0.01, (1.2, 0.7, 0.2), glass("glass"))
+        # Something that casts a caustic, beside the five places.
+        ball("glass", 0.01, (0.12, 0.12, 0.02), glass("glass"))
         path, _, _ = exported(folder)
-        more = ["--layers", "background"]
-        ours = channels(rendered(program, path, folder, *more), "background.")
-        theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 128)
-        verdict(f"light at five places, {name}", worst_light(scene, ours, theirs, PLACES), LIGHT)
+        ours = channels(rendered(program, path, folder, *BACKGROUND), "background.")
+        theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 512)
+        verdict(f"light at five places, {name}", worst_light(scene, ours, theirs, PLACES, quiet=False), LIGHT)
 
 
 def caustic(program, folder):
