@@ -17,5 +17,6 @@ pub(super) fn exit_code(error: &Error) -> u8 {
         Error::Limit { .. } => 6,
         Error::Numeric { .. } => 7,
         Error::Cancelled => 130,
+        Error::Noted { error, .. } => exit_code(error),
     }
 }

@@ -52,6 +52,14 @@ pub enum Error {
         /// The observation, such as a residual.
         what: String,
     },
+    /// An error, with what was noted before it: often its cause.
+    #[error("{error}{}", notes.iter().map(|note| format!("\n  note: {note}")).collect::<String>())]
+    Noted {
+        /// The error itself.
+        error: Box<Error>,
+        /// Notes for the artist.
+        notes: Vec<String>,
+    },
     /// The user asked to stop.
     #[error("cancelled")]
     Cancelled,
@@ -72,5 +80,18 @@ impl Error {
     /// An invalid value of a project.
     pub fn value(place: impl Into<String>, what: impl Into<String>) -> Self {
         Self::Value { place: place.into(), what: what.into() }
+    }
+
+    /// The same error with notes, unless there are none, or nothing is wrong.
+    pub fn with_notes(self, more: &[String]) -> Self {
+        match self {
+            Self::Cancelled => self,
+            _ if more.is_empty() => self,
+            Self::Noted { error, notes } => {
+                let all = more.iter().chain(notes.iter().filter(|note| !more.contains(note)));
+                Self::Noted { notes: all.cloned().collect(), error }
+            }
+            error => Self::Noted { error: Box::new(error), notes: more.to_vec() },
+        }
     }
 }

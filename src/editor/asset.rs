@@ -49,7 +49,7 @@ impl AssetUse {
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Mesh | Self::MeshFile(_) => ("Meshes", &["obj"]),
-            Self::Picture(_) => ("Pictures", &["png", "jpg", "jpeg", "exr", "hdr"]),
+            Self::Picture(_) => ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"]),
             Self::Points(_) => ("Points", &["csv", "npy"]),
         }
     }

@@ -1,4 +1,4 @@
-//! The command palette: fuzzy search over commands, tools, panels, presets and examples.
+//! The command palette: fuzzy search over commands, tools, panels, parameters, presets and examples.
 
 use egui::text::LayoutJob;
 use egui::{
@@ -8,7 +8,7 @@ use egui::{
 
 use super::action::Action;
 use super::command::COMMANDS;
-use super::panels::PANELS;
+use super::panels::{self, PANELS};
 use super::templates::TEMPLATES;
 use super::{menu, shortcuts};
 use crate::editor::context::EditorContext;
@@ -40,7 +40,7 @@ pub struct Palette {
     at: usize,
 }
 
-/// All entries: commands, tools, panels, examples, and `presets` by name.
+/// All entries: commands, tools, panels, parameters by label with their panel, examples, and `presets` by name.
 pub fn items(
     editor: &EditorContext,
     tools: &[(&'static str, Key)],
@@ -58,10 +58,13 @@ pub fn items(
     });
     let panels =
         PANELS.iter().map(|entry| item(entry.name.into(), "Panel", None, Action::Panel(entry.panel)));
+    let parameters = panels::controls_by_panel().map(|(entry, control)| {
+        item(format!("{}: {}", entry.name, control.label), "Parameter", None, Action::Panel(entry.panel))
+    });
     let presets = presets.iter().map(|(name, action)| item(name.clone(), "Preset", None, action.clone()));
     let examples = TEMPLATES.iter().enumerate();
     let examples = examples.map(|(index, t)| item(t.name.into(), "Example", None, Action::New(index)));
-    commands.chain(tools).chain(panels).chain(presets).chain(examples).collect()
+    commands.chain(tools).chain(panels).chain(presets).chain(examples).chain(parameters).collect()
 }
 
 impl Palette {
@@ -94,7 +97,7 @@ impl Palette {
             Frame::popup(ui.style()).inner_margin(8.0).show(ui, |ui| {
                 ui.set_width(520.0);
                 let field = TextEdit::singleline(&mut self.typed)
-                    .hint_text("Find a command, tool, panel or example")
+                    .hint_text("Find a command, tool, parameter or example")
                     .font(TextStyle::Heading)
                     .desired_width(f32::INFINITY);
                 ui.add(field).accessible_name("Find a command").request_focus();

@@ -23,6 +23,8 @@ pub struct Session {
     pub playing: bool,
     /// Whether it loops.
     pub looping: bool,
+    /// Playback speed over the project's frame rate.
+    pub speed: f64,
     /// First and last played frame; none for the ends of the animation.
     pub marks: [Option<i32>; 2],
     /// The visible views.
@@ -207,6 +209,7 @@ impl Default for Session {
             playhead: 1,
             playing: false,
             looping: true,
+            speed: 1.0,
             marks: [None; 2],
             layout: ViewLayout::default(),
             plane: PlaneViewport::default(),

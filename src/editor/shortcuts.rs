@@ -1,6 +1,6 @@
 //! Shortcuts in words, and the window that lists them.
 
-use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
+use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, Modifiers, RichText, ScrollArea, TextEdit};
 
 use super::command::{COMMANDS, CommandInfo, Menu};
 
@@ -88,7 +88,8 @@ pub fn group(menu: Menu) -> &'static str {
 impl ShortcutSheet {
     /// Shows the window if it is open.
     pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
-        if !self.open {
+        if !self.open || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            self.open = false;
             return;
         }
         let filter = self.filter.to_lowercase();

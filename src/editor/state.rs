@@ -29,13 +29,16 @@ pub struct EditorState {
     pub preview: LivePreview,
     /// The message in the status bar.
     pub status: String,
+    /// Makes a preview of nothing yet.
+    new_preview: Box<dyn Fn() -> LivePreview>,
 }
 
 impl EditorState {
     /// The editor at the first key frame of a document. `wake` is called from other threads when the preview has news.
     pub fn new(document: Document, engine: SharedEngine, wake: impl Fn() + Clone + Send + 'static) -> Self {
         let session = start_of(&document);
-        Self { document, session, preview: LivePreview::new(engine, wake), status: String::new() }
+        let new_preview = Box::new(move || LivePreview::new(engine.clone(), wake.clone()));
+        Self { document, session, preview: new_preview(), status: String::new(), new_preview }
     }
 
     /// What a part of the window reads; the actions it asks for are appended to `actions`.
@@ -49,12 +52,17 @@ impl EditorState {
         }
     }
 
-    /// Replaces the document. View layout, overlays, tool and panel stay as they are.
+    /// Replaces the document. View layout, overlays, tool and panel stay as they are. The preview starts anew, with workers of
+    /// its own: no late answer shows the light of another project.
     pub fn open(&mut self, document: Document) {
-        let Session { layout, overlays, snapping, looping, panel, tool, .. } = self.session.clone();
-        self.session = Session { layout, overlays, snapping, looping, panel, tool, ..start_of(&document) };
+        let Session { layout, overlays, snapping, looping, speed, panel, tool, .. } = self.session.clone();
+        self.session =
+            Session { layout, overlays, snapping, looping, speed, panel, tool, ..start_of(&document) };
         self.document = document;
         self.status.clear();
+        let old = std::mem::replace(&mut self.preview, (self.new_preview)());
+        // Its workers stop soon; the window does not wait for them.
+        let _ = std::thread::Builder::new().name("old preview".into()).spawn(move || drop(old));
     }
 
     /// Carries out an action. Returns it where it needs the window: files, dialogs, clipboard, preferences. A refused

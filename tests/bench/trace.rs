@@ -10,8 +10,10 @@ use glam::Vec3;
 use lightloom_core::Progress;
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::photon::{EmissionGuiding, Tracer};
+use lightloom_core::scene::LightDesc;
+use lightloom_core::scene::light::SpotLight;
 use lightloom_core::scene::{Ray, Scene};
-use scenes::{Stage, glass, icosphere, obj, point, wine_glass_obj};
+use scenes::{Stage, glass, icosphere, obj, point, square_lamp, wine_glass_obj};
 
 fn main() {
     // One thread: the numbers are per core.
@@ -19,7 +21,7 @@ fn main() {
     divan::main();
 }
 
-/// A thin wine glass of 50 k triangles, lit from the side and above; the receiver lies in its caustic.
+/// A thin wine glass of 50 k triangles, a point light beside and above it: the receiver lies in its caustic.
 fn wine_scene() -> Scene {
     let mut stage = Stage::new();
     stage.mesh("wine glass", wine_glass_obj(128, 196), glass(1.5));
@@ -68,9 +70,33 @@ fn aim(bencher: Bencher) {
     bencher.bench_local(|| Tracer::new(&scene, 1, &Progress::new()).unwrap().landing_rate());
 }
 
-#[divan::bench(sample_count = 5)]
-fn photons(bencher: Bencher) {
-    let scene = wine_scene();
+/// A glass of the examples, 50 k triangles, in the light of a lamp that stands as far as one in a room.
+fn lit_glass((glass, lamp): (&str, &str)) -> Scene {
+    let file = format!("{}/../../assets/meshes/{glass}.obj", env!("CARGO_MANIFEST_DIR"));
+    let mut stage = Stage::new();
+    stage.mesh(glass, std::fs::read(file).unwrap(), scenes::glass(1.5));
+    let position = [-3.9, 2.2, -1.0];
+    stage.desc.lights.push(match lamp {
+        "point" => point(10.0, position),
+        "spot" => LightDesc::Spot(SpotLight {
+            watts: 10.0,
+            position,
+            target: [0.0, 0.1, 0.0],
+            angle_deg: 8.0,
+            ..SpotLight::default()
+        }),
+        _ => square_lamp(),
+    });
+    stage.desc.receiver.centre = [0.1, 0.0, 0.06];
+    stage.desc.receiver.size = [0.5, 0.5];
+    stage.load()
+}
+
+/// `square` is a lamp of 10 cm: README's figure is for the goblet in its light.
+#[divan::bench(sample_count = 3, args = [("goblet", "point"), ("goblet", "spot"), ("goblet", "square"),
+    ("wine_glass", "point"), ("wine_glass", "spot"), ("wine_glass", "square")])]
+fn photons(bencher: Bencher, scene: (&str, &str)) {
+    let scene = lit_glass(scene);
     let tracer = Tracer::new(&scene, 1, &Progress::new()).unwrap();
     let mut pass = 0;
     bencher.counter(ItemsCount::new(1_000_000_usize)).bench_local(|| {

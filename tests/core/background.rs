@@ -74,7 +74,7 @@ fn scene(object: Option<(String, Material, Transform)>, lights: Vec<LightDesc>, 
 }
 
 fn at(height: f32, scale: f32) -> Transform {
-    Transform { translate: [0.0, height, 0.0], scale, ..Transform::default() }
+    Transform { translate: [0.0, height.into(), 0.0], scale, ..Transform::default() }
 }
 
 fn settings(samples: u32) -> RenderSettings {

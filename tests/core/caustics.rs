@@ -138,7 +138,7 @@ fn the_light_of_each_caustic_is_kept_over_time() {
         }
     }
     let watts: f64 = fit.summary.caustics.iter().map(|c| c.watts).sum();
-    let all: f64 = fit.flux[0].iter().map(|f| f.as_dvec3().element_sum()).sum();
+    let all: f64 = fit.flux[0].iter().map(|f| f.as_dvec3().element_sum() / 3.0).sum();
     assert!((watts / all - 1.0).abs() < 1e-6);
 }
 
@@ -213,6 +213,43 @@ fn colour_and_brightness_act_on_one_caustic_and_are_accounted_for() {
     assert_eq!(fit.light("left", STEPS), plain.light("left", STEPS));
     assert_eq!(fit.tracks, plain.tracks);
     assert!((fit.summary.flow.unwrap().flux_ratio - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn photons_keep_their_colours_where_a_key_gives_none() {
+    let mut stage = stage();
+    for (light, colour) in stage.desc.lights.iter_mut().zip([[1.0, 0.2, 0.0], [0.0, 0.1, 1.0]]) {
+        let LightDesc::Point(lamp) = light else { panic!() };
+        lamp.colour = colour;
+    }
+    let white = image::RgbImage::from_pixel(8, 8, image::Rgb([0, 255, 0]));
+    white.save(stage.folder.path().join("green.png")).unwrap();
+    // All light is one caustic: red and blue mix in the square, and stay what they are, also in a second one. Behind a
+    // picture that gives a colour they keep that.
+    let mut project = project(&stage, json!({ "frame": 9, "shows": square(UPPER) }));
+    project["caustics"] = json!([]);
+    let green = json!({ "image": { "file": "green.png", "colour": true, "placement": { "width": 0.3 } } });
+    for (frame, shows) in [(12, square(LOWER)), (15, green), (18, square(UPPER))] {
+        project["keys"].as_array_mut().unwrap().push(json!({ "frame": frame, "shows": shows }));
+    }
+    let fit = Fit::new(&stage, &project);
+    let colour = |flux: &Vec3| *flux / flux.element_sum();
+    let watts = |step: usize| fit.flux[step].iter().map(|f| f.as_dvec3().element_sum()).sum::<f64>();
+    let even = watts(0) / fit.flux[0].len() as f64;
+    assert!(fit.flux[0].iter().any(|f| colour(f).x > 0.8) && fit.flux[0].iter().any(|f| colour(f).z > 0.8));
+    for step in [STEPS, 2 * STEPS] {
+        for (now, first) in fit.flux[step].iter().zip(&fit.flux[0]) {
+            // Rounding of a ratio of f32.
+            assert!((colour(now) - colour(first)).abs().max_element() < 1e-5);
+            assert!((f64::from(now.element_sum()) / even - 1.0).abs() < 1e-5, "the picture's light is even");
+        }
+    }
+    for step in [3 * STEPS, 4 * STEPS] {
+        assert!(fit.flux[step].iter().all(|f| f.x == 0.0 && f.y > 0.0 && f.z == 0.0), "{step}");
+    }
+    for step in 0..=4 * STEPS {
+        assert!((watts(step) / watts(0) - 1.0).abs() < 1e-5, "{step}");
+    }
 }
 
 #[test]

@@ -219,7 +219,7 @@ fn all_arrive_and_stay_finite(run: &Run) {
     for summary in [&run.summary, &run.rendered] {
         let flow = &summary.flow.as_ref().unwrap().flow;
         assert_eq!(flow.endpoint_error, 0.0, "the end is exact");
-        assert!(flow.solver_residual.is_finite() && flow.fit_residual.is_finite());
+        assert!(flow.solver_error.is_finite() && flow.fit_residual.is_finite());
         assert_eq!(summary.bad_values.nonfinite_replaced, 0);
     }
     assert!(run.tracks.iter().flatten().all(|p| p.is_finite()));

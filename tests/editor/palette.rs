@@ -14,6 +14,7 @@ use lightloom::editor::menu::Recent;
 use lightloom::editor::palette::{Palette, items};
 use lightloom::editor::selection::Selection;
 use lightloom::editor::shortcuts::{self, ShortcutSheet};
+use lightloom::editor::templates::TEMPLATES;
 use lightloom::editor::tour::{Anchors, Tour};
 use lightloom::editor::welcome::Welcome;
 use lightloom::editor::{keyboard, menu, tools};
@@ -74,7 +75,8 @@ fn the_palette_finds_and_runs_every_command() {
     harness.run_ok();
     harness.key_press(Key::Enter);
     harness.run_ok();
-    assert_eq!(harness.state_mut().2.take(), Some(Action::New(2)));
+    let glass = TEMPLATES.iter().position(|template| template.name == "Dark glass").unwrap();
+    assert_eq!(harness.state_mut().2.take(), Some(Action::New(glass)));
     harness.state_mut().1.open();
     harness.run_ok();
     harness.key_press(Key::ArrowDown);

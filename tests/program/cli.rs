@@ -67,7 +67,7 @@ fn render_writes_every_frame_a_contact_sheet_and_a_summary() {
         "gap",
         "crossing_index",
         "fit_residual",
-        "solver_residual",
+        "solver_error",
         "solver_iterations",
         "unknowns",
         "divergence_rms",

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use glam::Vec3;
-use lightloom_core::scene::light::PointLight;
+use lightloom_core::scene::light::{PointLight, RectangleLight};
 use lightloom_core::scene::material::{Glass, Material, Mirror};
 use lightloom_core::scene::{LightDesc, MeshDesc, Scene, SceneDesc};
 use tempfile::TempDir;
@@ -64,6 +64,17 @@ pub fn mirror(reflectance: f32) -> Option<Material> {
 
 pub fn point(watts: f32, position: [f32; 3]) -> LightDesc {
     LightDesc::Point(PointLight { watts, position, ..PointLight::default() })
+}
+
+/// A square lamp of 10 cm, 4.6 m from the origin.
+pub fn square_lamp() -> LightDesc {
+    LightDesc::Rectangle(RectangleLight {
+        watts: 10.0,
+        position: [-3.9, 2.2, -1.0],
+        target: [0.0, 0.1, 0.0],
+        size: [0.1, 0.1],
+        ..RectangleLight::default()
+    })
 }
 
 /// OBJ text; normals where given, one per vertex.

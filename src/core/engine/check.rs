@@ -46,7 +46,7 @@ pub struct CastCaustic {
     pub name: Option<String>,
     /// Share of the flux of all caustics, 0..=1.
     pub share: f64,
-    /// Flux of all channels on the receiver, watts.
+    /// Flux on the receiver, watts: the mean of the channels, as a lamp's power is that of each channel.
     pub watts: f64,
 }
 
@@ -148,10 +148,10 @@ fn cast(
     let Some(scene) = &prepared.scene else { return Ok(Vec::new()) };
     let grouping = prepared.sources.grouping();
     let (photons, _) = tracer.trace(0, PILOT, progress)?;
-    let total = photons.total_flux().element_sum();
+    let total = photons.total_flux().element_sum() / 3.0;
     let mut watts = BTreeMap::<(u16, u16), f64>::new();
     for ((&light, &mesh), flux) in photons.light.iter().zip(&photons.mesh).zip(&photons.flux) {
-        *watts.entry((light, mesh)).or_default() += flux.as_dvec3().element_sum();
+        *watts.entry((light, mesh)).or_default() += flux.as_dvec3().element_sum() / 3.0;
     }
     let caustic = |((light, mesh), watts): ((u16, u16), f64)| CastCaustic {
         light: scene.lights()[usize::from(light)].name().to_owned(),
@@ -165,5 +165,7 @@ fn cast(
     let shares = grouping.split(photons);
     let lights = shares.iter().map(|share| (share.positions.len(), share.total));
     notes.extend(notes_on_dark(&grouping.lights(lights)));
+    let lit = |light: usize| caustics.iter().any(|caustic| caustic.light == scene.lights()[light].name());
+    notes.extend(tracer.idle_lights().into_iter().filter(|(light, _)| !lit(*light)).map(|(_, note)| note));
     Ok(caustics)
 }

@@ -28,6 +28,8 @@ pub(super) struct FittedFlow {
     pub(super) numbers: Option<FlowNumbers>,
     /// The light of each group; empty where no caustic is named.
     pub(super) caustics: Vec<CausticFlux>,
+    /// Notes on lights that cast no caustic.
+    pub(super) idle_lights: Vec<String>,
 }
 
 /// Everything that the fit of a segment depends on.

@@ -29,7 +29,9 @@ use crate::{Progress, Result};
 pub(super) fn fit(job: &Job) -> Result<FittedFlow> {
     let mut walk = Walk::start(job, 0)?;
     let caustics = job.sources.caustics(walk.light());
-    let mut flow = FittedFlow { segments: Vec::new(), numbers: None, caustics };
+    let idle = job.tracer().map_or(Vec::new(), |tracer| tracer.idle_lights());
+    let idle_lights = idle.into_iter().map(|(_, note)| note).collect();
+    let mut flow = FittedFlow { segments: Vec::new(), numbers: None, caustics, idle_lights };
     while let Some(photons) = walk.next(MapsFrom::Own { bounded: true })? {
         let fitted = fit_segment(job, &photons, None)?;
         let reports = fitted.reports.clone();

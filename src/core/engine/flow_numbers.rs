@@ -61,10 +61,10 @@ pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
 
 /// A note on a solver that stopped above the tolerance of the project.
 pub(super) fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
-    (flow.solver_residual > tolerance).then(|| {
+    (flow.solver_error > tolerance).then(|| {
         format!(
-            "the fit stopped after {} iterations at a residual of {:.1e} where {tolerance:.0e} is asked for: take a larger alpha, or a lower beta and weight of lines",
-            flow.solver_iterations, flow.solver_residual
+            "the fit stopped after {} iterations with velocities that are {:.1e} off where {tolerance:.0e} is asked for: take a larger alpha, or a lower beta and weight of lines",
+            flow.solver_iterations, flow.solver_error
         )
     })
 }
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_solver_that_gave_up_is_noted_and_one_that_arrived_is_not() {
-        let flow = |solver_residual| FlowReport { solver_residual, ..FlowReport::default() };
+        let flow = |solver_error| FlowReport { solver_error, ..FlowReport::default() };
         assert!(note_on_solver(&flow(1.5), 1e-4).is_some_and(|note| note.contains("1.5e0")));
         assert_eq!(note_on_solver(&flow(1e-4), 1e-4), None);
     }

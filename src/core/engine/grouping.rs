@@ -33,7 +33,7 @@ pub struct CausticFlux {
     pub name: Option<String>,
     /// Photons of the first pass.
     pub photons: usize,
-    /// Flux of all channels, watts.
+    /// Flux on the receiver, watts: the mean of the channels, as a lamp's power is that of each channel.
     pub watts: f64,
 }
 
@@ -116,7 +116,7 @@ impl Grouping {
         let light = |(group, (photons, flux)): (usize, (usize, DVec3))| CausticFlux {
             name: self.name(group).map(str::to_owned),
             photons,
-            watts: flux.element_sum(),
+            watts: flux.element_sum() / 3.0,
         };
         groups.enumerate().map(light).collect()
     }

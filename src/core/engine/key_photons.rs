@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::flow::flux;
+
 /// The light of one group in one pass.
 pub(super) struct GroupLight {
     /// The traced photons; absent where no key frame shows them.
@@ -24,6 +26,9 @@ pub(super) struct KeyPhotons {
     pub(super) positions: Vec<Vec2>,
     /// RGB flux, watts.
     pub(super) flux: Vec<Vec3>,
+    /// Colour of each photon's light before the factors of the key frame, of sum 1; empty where the key frame gives none, so
+    /// that photons keep theirs.
+    pub(super) colours: Vec<Vec3>,
     /// Index of the traced photon in each row, where photons stay in place until the next key frame; else empty.
     pub(super) origin: Vec<u32>,
     /// Distance of each photon's path from the straight line at the middle of the segment before, plane units; empty where
@@ -34,15 +39,14 @@ pub(super) struct KeyPhotons {
 impl KeyPhotons {
     /// The photons in another order: row k of the result is row `order[k]` of this, not yet paired.
     pub(super) fn permuted(&self, order: &[u32]) -> Self {
-        let origin = if self.origin.is_empty() {
-            Vec::new()
-        } else {
-            order.iter().map(|&i| self.origin[i as usize]).collect()
-        };
+        fn of<T: Copy>(column: &[T], order: &[u32]) -> Vec<T> {
+            if column.is_empty() { Vec::new() } else { order.iter().map(|&i| column[i as usize]).collect() }
+        }
         Self {
-            positions: order.iter().map(|&i| self.positions[i as usize]).collect(),
-            flux: order.iter().map(|&i| self.flux[i as usize]).collect(),
-            origin,
+            positions: of(&self.positions, order),
+            flux: of(&self.flux, order),
+            colours: of(&self.colours, order),
+            origin: of(&self.origin, order),
             midpoint_offsets: Vec::new(),
         }
     }
@@ -55,10 +59,19 @@ impl KeyPhotons {
         Self {
             positions: of(&self.positions, rows),
             flux: of(&self.flux, rows),
+            colours: of(&self.colours, rows),
             origin: of(&self.origin, rows),
             midpoint_offsets: of(&self.midpoint_offsets, rows),
         }
     }
+}
+
+/// The colours of light, of sum 1; of photons without light that of all together.
+pub(super) fn colours(flux: &[Vec3]) -> Vec<Vec3> {
+    let colour = |flux: Vec3| (flux.element_sum() > 0.0).then(|| flux / flux.element_sum());
+    let all = flux::total(flux).as_vec3();
+    let mean = colour(all).unwrap_or(Vec3::splat(1.0 / 3.0));
+    flux.iter().map(|flux| colour(*flux).unwrap_or(mean)).collect()
 }
 
 /// The number of photons in all groups.

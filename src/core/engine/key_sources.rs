@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::grouping::{CausticFlux, Grouping};
-use super::key_photons::{GroupLight, KeyPhotons, PassLight};
+use super::key_photons::{GroupLight, KeyPhotons, PassLight, colours};
 use super::memo::{FileStamp, Same};
 use crate::flow::flux;
 use crate::matching::MatchingMethod;
@@ -170,6 +170,7 @@ impl KeySources {
             count: share.positions.len(),
             physical: self.shows_physical(group).then_some(KeyPhotons {
                 positions: share.positions,
+                colours: colours(&share.flux),
                 flux: share.flux,
                 ..KeyPhotons::default()
             }),
@@ -196,13 +197,14 @@ impl KeySources {
     /// The photons of a group at key `key` in `pass`.
     ///
     /// Pictures and points share the flux of the group evenly (Sec. 3, "Flux Blending"), times rho except at the first
-    /// key, times the caustic's colour and brightness, times their own relative colours.
+    /// key, times the caustic's colour and brightness, times their own relative colours. Without colours of their own their
+    /// light is that of the whole group, until photons bring theirs ([`Self::keep_colours`]).
     pub(super) fn key(&self, key: usize, group: usize, light: &PassLight, pass: u64) -> KeyPhotons {
         let GroupLight { physical, total, count } = &light.groups[group];
         // Keys and caustics draw from seeds of their own, so that two with one picture are not the same points.
         let number = (group + 1) as u64 % self.grouping.count() as u64;
         let seed = self.seed ^ ((key as u64) << 40) ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let gain = self.gains[key][group] * if key == 0 { 1.0 } else { self.rho };
+        let gain = self.gain(key, group);
         let points = match &*self.shown[key][group] {
             KeySource::Physical => {
                 let mut photons = physical.clone().unwrap_or_default();
@@ -219,7 +221,31 @@ impl KeySources {
             },
         };
         let flux = flux::share_out(*total * gain.as_dvec3(), &points.colours, *count);
-        KeyPhotons { positions: points.positions, flux, ..KeyPhotons::default() }
+        let colours = if points.colours.is_empty() {
+            Vec::new()
+        } else {
+            colours(&flux::share_out(*total, &points.colours, *count))
+        };
+        KeyPhotons { positions: points.positions, flux, colours, ..KeyPhotons::default() }
+    }
+
+    /// Gives the photons of a group the colours that they have at the key frame before `key`, where `key` gives none: each
+    /// keeps its own, and as much light as before.
+    pub(super) fn keep_colours(
+        &self,
+        (key, group): (usize, usize),
+        before: &KeyPhotons,
+        at: &mut KeyPhotons,
+    ) {
+        if at.colours.is_empty() && before.colours.len() == at.flux.len() {
+            at.flux = flux::coloured(flux::total(&at.flux), &before.colours, self.gain(key, group));
+            at.colours.clone_from(&before.colours);
+        }
+    }
+
+    /// Factor on the light of a group at a key.
+    fn gain(&self, key: usize, group: usize) -> Vec3 {
+        self.gains[key][group] * if key == 0 { 1.0 } else { self.rho }
     }
 
     /// The flux that the photons of a pass should have at key `key`, watts; rho does not count.

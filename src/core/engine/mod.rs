@@ -46,6 +46,7 @@ mod preview;
 mod quality;
 mod ray_benchmark;
 mod render;
+mod scene_notes;
 mod segment_figures;
 mod segment_photons;
 mod stages;
@@ -115,6 +116,8 @@ impl Engine {
         meter: &'a Meter,
         progress: &'a Progress,
     ) -> Result<Job<'a>> {
-        Job::new(&self.stages, self.client, prepared, meter, progress)
+        let job = Job::new(&self.stages, self.client, prepared, meter, progress);
+        // Notes are often the reason: a material that was taken for another, a size in other units.
+        job.map_err(|error| error.with_notes(&prepared.notes))
     }
 }

@@ -8,6 +8,7 @@ use super::frame_times::FrameTimes;
 use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
 use super::plan::{self, Plan};
+use super::scene_notes::scene_notes;
 use super::stages::Stages;
 use super::{Quality, active_constraints, grouping};
 use crate::export::caustic_layer_names;
@@ -51,10 +52,12 @@ impl Stages {
             let slot = Slot { client, quality: Quality::Final, index };
             self.source(slot, (shows, place), extent, progress)
         };
-        let sources = KeySources::load(project, scene.as_deref(), &open)?;
         let mut notes: Vec<String> = of_scene.iter().flat_map(|notes| &**notes).cloned().collect();
+        let sources =
+            KeySources::load(project, scene.as_deref(), &open).map_err(|error| error.with_notes(&notes))?;
         notes.extend(sources.notes());
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
+        notes.extend(scene.iter().flat_map(|scene| scene_notes(scene, &project.render)));
         notes.extend(stretch_note(project.flow.grid, extent));
         notes.extend(active_constraints::notes(project, extent));
         notes.extend(swirl_note(&project.flow).filter(|_| project.fits()));

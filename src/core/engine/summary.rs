@@ -124,6 +124,7 @@ impl Summary {
         let stages = meter.costs();
         let mut notes = prepared.notes.clone();
         notes.extend(notes_on_dark(&done.flow.caustics));
+        notes.extend(done.flow.idle_lights.iter().cloned());
         notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         let tolerance = project.flow.tolerance.into();
         notes.extend(flow.iter().filter_map(|numbers| note_on_solver(&numbers.flow, tolerance)));

@@ -91,10 +91,13 @@ impl<'a> Walk<'a> {
             return Ok(None);
         }
         let layers = self.layers();
-        let (matched, to, tracks) = match self.pass {
+        let (matched, mut to, tracks) = match self.pass {
             0 if job.remembers => self.remembered(&maps)?,
             _ => self.pair(&maps, job.progress)?,
         };
+        for (group, (before, to)) in self.at.iter().zip(&mut to).enumerate() {
+            job.sources.keep_colours((number + 1, group), before, to);
+        }
         let to = Arc::new(to);
         let before = self.requested();
         let from = std::mem::replace(&mut self.at, to.clone());

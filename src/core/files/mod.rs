@@ -17,7 +17,7 @@ use crate::{Error, Result};
 /// more than `max_bytes`, before it is read.
 ///
 /// # Errors
-/// `Io` when the system refuses, `Format` when it is not a regular file, `Limit` when it is too large.
+/// `Io` when the system refuses, `Format` when it is not a regular file or a pointer of Git LFS, `Limit` when it is too large.
 pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     // Checked before opening: opening a pipe without a writer would block.
     require_regular(path, &std::fs::metadata(path).map_err(Error::io("read", path))?)?;
@@ -29,6 +29,10 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>> {
     // A file may grow while it is read, and some system files give no size.
     file.take(max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(Error::io("read", path))?;
     require_size(path, bytes.len() as u64, max_bytes)?;
+    if bytes.starts_with(b"version https://git-lfs.github.com/") {
+        let what = "is only a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`";
+        return Err(Error::format(path, "", what));
+    }
     Ok(bytes)
 }
 

@@ -3,7 +3,8 @@
 //! What the field cannot represent, r = v - u, grows: v' = (1-s)/(1-t) r. A late fade lets it grow by 1/(1-tau) (6.7
 //! times for the paper's tau) before anything is done about it: the photons snap into place. Two means against it:
 //! fade earlier and evenly, and fade each photon by how fast it would have to hurry. The second bounds the speed whatever
-//! the field leaves undone, for v' points along r and vanishes as |v| nears the limit.
+//! the field leaves undone, for v' points along r and vanishes as |v| nears the limit. A field that is itself faster than
+//! the limit, as one of hardly any smoothness is between its photons, is left likewise: by the larger of |v| and |u|.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -140,7 +141,7 @@ impl Fade {
     }
 }
 
-/// Share of the field left to a photon at this part of its speed limit.
+/// Share of the field left where the larger of the speeds of guidance and field is this part of a photon's limit.
 #[inline(always)]
 pub(super) fn ease(speed_over_limit: f32) -> f32 {
     let x = ((speed_over_limit - SPEED_RAMP_START) / (1.0 - SPEED_RAMP_START)).clamp(0.0, 1.0);

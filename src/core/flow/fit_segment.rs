@@ -118,7 +118,7 @@ fn fit(
         photons.advance(&step, progress)?;
         if fields.is_fitted_at(n) || Observer::awaits(step.start, step.length) {
             observer.stepped(&photons, step.start, step.length);
-            observer.steered(&photons.steering(step.start, &settings.fade));
+            observer.steered(&photons.steering(&step, &settings.fade));
         }
         if let Some(Snapshots { times, show }) = &mut snapshots {
             for (i, &time) in times.iter().enumerate().filter(|(_, time)| fields.step_of(**time) == n) {

@@ -27,6 +27,17 @@ pub fn share_out(total: DVec3, colours: &[Vec3], count: usize) -> Vec<Vec3> {
     colours.iter().map(|colour| (colour.as_dvec3() * mean * scale).as_vec3()).collect()
 }
 
+/// As many watts as `total`, over photons of these colours through a filter. Where it lets nothing through, all have the
+/// same light.
+pub fn coloured(total: DVec3, colours: &[Vec3], filter: Vec3) -> Vec<Vec3> {
+    let filtered: f64 = colours.iter().map(|colour| (*colour * filter).as_dvec3().element_sum()).sum();
+    let scale = total.element_sum() / filtered;
+    if !scale.is_finite() {
+        return vec![(total / colours.len().max(1) as f64).as_vec3(); colours.len()];
+    }
+    colours.iter().map(|colour| ((*colour * filter).as_dvec3() * scale).as_vec3()).collect()
+}
+
 /// Sum in f64; the same for any number of threads.
 pub fn total(flux: &[Vec3]) -> DVec3 {
     ordered_sum(flux, |f| f.as_dvec3())

@@ -49,7 +49,7 @@ impl FitStatistics {
         report.unknowns = fit.unknowns;
         report.solver_iterations = report.solver_iterations.max(fit.iterations);
         report.solver_iterations_mean += fit.iterations as f64;
-        report.solver_residual = report.solver_residual.max(fit.residual);
+        report.solver_error = report.solver_error.max(fit.error);
         report.solver_condition = report.solver_condition.max(fit.condition);
         report.fit_residual += metric::fit_residual(field, positions, guidance);
         let all: Vec<&Field> = [field].into_iter().chain(turbulence).collect();

@@ -149,16 +149,21 @@ impl<'a> GuidedPhotons<'a> {
         self.each(out, |_, _, v0, [k0, k1, k2]| v0 + x * (k0 + x * (k1 + x * k2)));
     }
 
-    /// Velocities, guidance and field weights at `t`, which lies in the current step.
-    pub(super) fn steering(&self, t: f64, fade: &Fade) -> Steering {
+    /// Velocities, guidance and field weights at the begin of the current step.
+    pub(super) fn steering(&self, step: &Step, fade: &Fade) -> Steering {
+        let t = step.start;
         let zero = || vec![Vec2::ZERO; self.targets.len()];
         let (mut velocities, mut guidance) = (zero(), zero());
         self.velocities(t, &mut velocities);
         self.guidance(t, &mut guidance);
         let share = fade.share(t) as f32;
-        let limits = guidance.par_iter().zip(&self.inverse_speed_limits);
+        let mut at = zero();
+        self.positions(t, &mut at);
+        let fitted =
+            |p: Vec2| step.velocities.as_ref().map_or(Vec2::ZERO, |[begin, ..]| begin.field.velocity(p));
+        let limits = guidance.par_iter().zip(&at).zip(&self.inverse_speed_limits);
         let field_shares =
-            limits.map(|(v, inverse_limit)| share * ease(v.length() * inverse_limit)).collect();
+            limits.map(|((v, &p), limit)| share * ease(v.length().max(fitted(p).length()) * limit)).collect();
         Steering { velocities, guidance, field_shares }
     }
 

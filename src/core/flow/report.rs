@@ -15,8 +15,8 @@ pub struct FlowReport {
     pub solver_iterations: usize,
     /// Mean solver iterations of a fit.
     pub solver_iterations_mean: f64,
-    /// Worst relative residual of the solver.
-    pub solver_residual: f64,
+    /// Largest error of the velocities that the solver leaves, over the root mean square of those wanted.
+    pub solver_error: f64,
     /// Largest condition number of the preconditioned matrix; a lower bound.
     pub solver_condition: f64,
     /// |u(c) - v| / |v| in root mean square, averaged over the fits.
@@ -63,7 +63,7 @@ impl FlowReport {
             unknowns: a.unknowns.max(b.unknowns),
             solver_iterations: a.solver_iterations.max(b.solver_iterations),
             solver_iterations_mean: a.solver_iterations_mean.max(b.solver_iterations_mean),
-            solver_residual: a.solver_residual.max(b.solver_residual),
+            solver_error: a.solver_error.max(b.solver_error),
             solver_condition: a.solver_condition.max(b.solver_condition),
             fit_residual: a.fit_residual.max(b.fit_residual),
             divergence_rms: a.divergence_rms.max(b.divergence_rms),

@@ -64,7 +64,7 @@ pub struct FlowSettings {
     pub rho: f32,
     /// Photons the field is fitted to ([`Self::GUIDES`]).
     pub guides: u32,
-    /// Residual of the solver ([`Self::TOLERANCE`]).
+    /// Error of the solver ([`Self::TOLERANCE`]).
     pub tolerance: f32,
 }
 
@@ -100,7 +100,7 @@ settings! { FlowSettings {
     STEPS = Setting::whole("flow.steps", [1.0, 10_000.0], &[40.0]);
     /// Photons the field is fitted to, taken evenly from all. More hold the field steadier where light is thin.
     GUIDES = Setting::whole("flow.guides", [1.0, 5e7], &[100_000.0]);
-    /// Relative residual at which the fit's solver stops. Lower it only if the flow trembles from frame to frame.
+    /// Error of the photons' velocities at which the fit's solver stops, over their mean. Lower it only if the flow trembles from frame to frame.
     TOLERANCE = Setting::real("flow.tolerance", [1e-12, 0.1], &[1e-4]);
     /// Swirls of random noise added to the field; they fade before the light arrives.
     TURBULENCE = Setting::choice("flow.turbulence", &[

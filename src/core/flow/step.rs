@@ -47,12 +47,19 @@ impl StageVelocity {
     /// As [`Self::velocity`] at N points.
     #[inline(always)]
     pub(super) fn velocities<const N: usize>(&self, p: [Vec2; N]) -> [Vec2; N] {
-        let mut velocities = self.field.velocities(p);
+        self.fitted_and_all(p).1
+    }
+
+    /// The velocities of the fitted field alone, and with the turbulence, at N points.
+    #[inline(always)]
+    pub(super) fn fitted_and_all<const N: usize>(&self, p: [Vec2; N]) -> ([Vec2; N], [Vec2; N]) {
+        let fitted = self.field.velocities(p);
+        let mut all = fitted;
         for noise in &self.noise {
             let swirls = noise.velocities(p);
-            (0..N).for_each(|i| velocities[i] += swirls[i]);
+            (0..N).for_each(|i| all[i] += swirls[i]);
         }
-        velocities
+        (fitted, all)
     }
 }
 
@@ -77,8 +84,10 @@ impl Step {
         };
         let (t, h) = (self.start as f32, self.length as f32);
         let slopes = |stage: &StageVelocity, rate: f32, v: [Vec2; N], t: f32| -> [Vec2; N] {
-            let u: [Vec2; N] = stage.velocities(from_fn(|i| position(targets[i], v[i], t)));
-            from_fn(|i| (v[i] - u[i]) * (h * rate * ease(v[i].length() * inverse_speed_limits[i])))
+            let at: [Vec2; N] = from_fn(|i| position(targets[i], v[i], t));
+            let (fitted, u) = stage.fitted_and_all(at);
+            let speed = |i: usize| v[i].length_squared().max(fitted[i].length_squared()).sqrt();
+            from_fn(|i| (v[i] - u[i]) * (h * rate * ease(speed(i) * inverse_speed_limits[i])))
         };
         let rates = self.rates;
         let k1 = slopes(begin, rates[0], v, t);

@@ -1,4 +1,4 @@
-//! Small dense systems, for the coarsest grid.
+//! Small dense systems, symmetric and positive definite.
 
 /// The factor L of a symmetric positive definite matrix, A = L L^T, by rows.
 #[derive(Clone, Debug)]

@@ -25,6 +25,11 @@ impl Kronecker {
         }
     }
 
+    /// Entry of node (x, y) and its neighbour at (x + dx, y + dy).
+    pub fn entry(&self, [x, y]: [usize; 2], [dx, dy]: [isize; 2]) -> f64 {
+        self.terms.iter().map(|(along_x, along_y)| along_x.entry(x, dx) * along_y.entry(y, dy)).sum()
+    }
+
     /// The same on a coarser grid; an axis whose number of `nodes` stays is left as it is.
     pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
         let coarsen = |band: &Band, nodes| {

@@ -1,4 +1,5 @@
-//! One multigrid V-cycle as a preconditioner (Galerkin grids, Chebyshev smoothing, a direct solve at the end).
+//! One multigrid V-cycle as a preconditioner: Galerkin grids, Chebyshev smoothing, a direct solve at the end, and on every
+//! grid direct solves of the stiff nodes around the smoothing, where they are asked for.
 //!
 //! Chebyshev smoothing by the diagonal: Adams, Brezina, Hu, Tuminaro, "Parallel multigrid smoothing: polynomial versus
 //! Gauss-Seidel", J. Comput. Phys. 188 (2003). It is symmetric, needs only products with the matrix, and gives the
@@ -6,11 +7,12 @@
 
 use rayon::prelude::*;
 
-use super::cholesky::Cholesky;
+use super::direct::Direct;
+use super::dissection::Dissection;
 use super::normal_blocks::{NormalBlocks, Weights};
 use super::null_space::NullSpace;
 use super::operator::Operator;
-use super::real::Real;
+use super::stiff_nodes::stiff_nodes;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
 
@@ -23,12 +25,17 @@ const SMOOTHED: f64 = 0.06;
 
 /// A hierarchy of grids for one matrix.
 pub struct Multigrid {
+    null: NullSpace,
     levels: Vec<Level>,
     coarsest: Coarsest,
+    single: [GridVector<f32>; 2],
 }
 
 struct Level {
+    cell: [f64; 2],
     operator: Operator<f32>,
+    /// The nodes that are solved exactly.
+    exact: Option<Direct>,
     transfer: Transfer<f32>,
     solution: GridVector<f32>,
     residual: GridVector<f32>,
@@ -37,49 +44,55 @@ struct Level {
     coarse_solution: GridVector<f32>,
 }
 
+/// The coarsest grid, solved exactly.
 struct Coarsest {
     layout: Layout,
     null: Vec<GridVector<f64>>,
-    /// One over the square root of the diagonal: a spline of which only a corner lies on the grid counts like any other.
-    scale: Vec<f64>,
-    /// Of the scaled matrix.
-    factor: Cholesky,
-    /// The null space of the scaled matrix, orthonormal.
-    scaled_null: Vec<Vec<f64>>,
-    numbers: Vec<f64>,
+    solver: Option<Direct>,
 }
 
 impl Multigrid {
     /// The hierarchy below a grid of `layout` with such cells, for a matrix that is zero on `null` and nowhere else.
     pub fn new(mut layout: Layout, mut cell: [f64; 2], null: &NullSpace) -> Self {
         let mut levels = Vec::new();
+        let single = [(); 2].map(|()| GridVector::zero(layout, null.components()));
         // Each grid has fewer nodes than the one before.
         loop {
             let nodes = next_nodes(layout.nodes, cell);
             if nodes == layout.nodes {
-                return Self { levels, coarsest: Coarsest::new(layout, null.vectors(layout, cell)) };
+                let coarsest = Coarsest { layout, null: null.vectors(layout, cell), solver: None };
+                return Self { null: null.clone(), levels, coarsest, single };
             }
-            levels.push(Level::new(layout, Layout::new(nodes), null.components()));
+            levels.push(Level::new((layout, cell), Layout::new(nodes), null.components()));
             cell = [0, 1]
                 .map(|axis| if nodes[axis] == layout.nodes[axis] { cell[axis] } else { 2.0 * cell[axis] });
             layout = Layout::new(nodes);
         }
     }
 
-    /// Sets the matrix on all grids.
-    pub fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
+    /// Sets the matrix on all grids; its stiff nodes are solved exactly if `exact`.
+    pub fn set(&mut self, blocks: &NormalBlocks, weights: Weights, exact: bool) {
         let mut coarse: Option<NormalBlocks> = None;
         for level in &mut self.levels {
             let fine = coarse.as_ref().unwrap_or(blocks);
             level.operator.set(fine, weights);
+            let grid = (level.operator.layout, level.cell);
+            level.exact = if exact { stiff_nodes(grid, fine, weights, &self.null) } else { None };
             coarse = Some(fine.coarsened(level.coarse_right.layout.nodes));
         }
         self.coarsest.set(coarse.as_ref().unwrap_or(blocks), weights);
     }
 
-    /// `solution` = V-cycle for `right`, from zero.
-    pub fn apply(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
-        cycle(&mut self.levels, &mut self.coarsest, right, solution);
+    /// `solution` = V-cycle for `right`, of length `norm`, from zero.
+    pub fn apply(&mut self, right: &GridVector<f64>, norm: f64, solution: &mut GridVector<f64>) {
+        let [single, solved] = &mut self.single;
+        single.convert(1.0 / norm, right);
+        cycle(&mut self.levels, &mut self.coarsest, single, solved);
+        solution.convert(norm, solved);
+        // Single precision would pull at the stiff rows again.
+        if let Some(exact) = self.levels.first().and_then(|finest| finest.exact.as_ref()) {
+            exact.write(norm, solution);
+        }
     }
 }
 
@@ -90,10 +103,12 @@ fn cycle(
     solution: &mut GridVector<f32>,
 ) {
     let Some((level, coarser)) = levels.split_first_mut() else {
-        return coarsest.solve(right, solution);
+        if let Some(solver) = &mut coarsest.solver {
+            solver.solve(right, solution);
+        }
+        return;
     };
-    level.residual.convert(1.0, right);
-    level.solution.clear();
+    level.begin(right);
     level.smooth();
     level.operator.subtract_product(&level.steps[0], &mut level.residual);
     level.transfer.restrict(&level.residual, &mut level.coarse_right);
@@ -103,30 +118,65 @@ fn cycle(
     level.solution.combine(1.0, 1.0, &level.steps[0]);
     level.operator.subtract_product(&level.steps[0], &mut level.residual);
     level.smooth();
+    level.end(right);
     solution.convert(1.0, &level.solution);
 }
 
-/// Nodes of the next grid: the axes with the narrower cells are coarsened, so that cells become square.
+/// Nodes of the next grid: the axes with the narrower cells are coarsened, so that cells become square. Where these are few
+/// already, a grid along the other axis would see the weak couplings only: it is the coarsest.
 fn next_nodes(nodes: [usize; 2], cell: [f64; 2]) -> [usize; 2] {
-    let width = [0, 1].map(|axis| if nodes[axis] > COARSEST { cell[axis] } else { f64::INFINITY });
-    let narrowest = width[0].min(width[1]);
+    let narrowest = cell[0].min(cell[1]);
     [0, 1].map(|axis| {
-        let narrow = width[axis].is_finite() && width[axis] < 1.5 * narrowest;
+        let narrow = nodes[axis] > COARSEST && cell[axis] < 1.5 * narrowest;
         if narrow { coarse_nodes(nodes[axis]) } else { nodes[axis] }
     })
 }
 
+impl Coarsest {
+    fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
+        let [nx, ny] = self.layout.nodes;
+        let nodes = (0..ny).flat_map(|y| (0..nx).map(move |x| [x, y])).collect();
+        let dissection = Dissection::new(nodes, self.layout.nodes);
+        self.solver = Some(Direct::new(dissection, self.null[0].components, (blocks, weights), &self.null));
+    }
+}
+
 impl Level {
-    fn new(fine: Layout, coarse: Layout, components: usize) -> Self {
+    fn new((fine, cell): (Layout, [f64; 2]), coarse: Layout, components: usize) -> Self {
         let zero = |layout| GridVector::zero(layout, components);
         Self {
+            cell,
             operator: Operator::zero(fine, components),
+            exact: None,
             transfer: Transfer::new(fine, coarse, components),
             solution: zero(fine),
             residual: zero(fine),
             steps: [zero(fine), zero(fine)],
             coarse_right: zero(coarse),
             coarse_solution: zero(coarse),
+        }
+    }
+
+    /// Begins with the exact solution of the stiff nodes, or at zero.
+    fn begin(&mut self, right: &GridVector<f32>) {
+        self.residual.convert(1.0, right);
+        self.solution.clear();
+        if let Some(exact) = &mut self.exact {
+            exact.solve(right, &mut self.solution);
+            self.operator.subtract_product(&self.solution, &mut self.residual);
+            // Rounding of large products.
+            exact.clear(&mut self.residual);
+        }
+    }
+
+    /// Solves the stiff nodes anew, whatever their values, with the others as they are. So no product with a stiff entry
+    /// has to be exact.
+    fn end(&mut self, right: &GridVector<f32>) {
+        if let Some(exact) = &mut self.exact {
+            exact.clear(&mut self.solution);
+            self.residual.convert(1.0, right);
+            self.operator.subtract_product(&self.solution, &mut self.residual);
+            exact.solve(&self.residual, &mut self.solution);
         }
     }
 
@@ -171,84 +221,4 @@ impl Level {
         });
         self.steps.swap(0, 1);
     }
-}
-
-impl Coarsest {
-    fn new(layout: Layout, null: Vec<GridVector<f64>>) -> Self {
-        let size = null[0].components * layout.nodes[0] * layout.nodes[1];
-        let (factor, zeros) = (Cholesky::new(0, Vec::new()), vec![0.0; size]);
-        Self { layout, null, scale: zeros.clone(), factor, scaled_null: Vec::new(), numbers: zeros }
-    }
-
-    fn set(&mut self, blocks: &NormalBlocks, weights: Weights) {
-        let ([nx, ny], components, size) = (self.layout.nodes, self.null[0].components, self.numbers.len());
-        let mut operator = Operator::<f64>::zero(self.layout, components);
-        operator.set(blocks, weights);
-        let mut matrix = vec![0.0; size * size];
-        let index = |component: usize, x: usize, y: usize| (component * ny + y) * nx + x;
-        for (i, k) in (0..components).flat_map(|i| (0..components).map(move |k| (i, k))) {
-            for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
-                for (dy, dx) in (-3..4).flat_map(|dy| (-3..4).map(move |dx| (dy, dx))) {
-                    let (to_x, to_y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
-                    if to_x < nx && to_y < ny {
-                        matrix[index(i, x, y) * size + index(k, to_x, to_y)] =
-                            operator.entry([i, k], x, y, dx, dy);
-                    }
-                }
-            }
-        }
-        for (i, scale) in self.scale.iter_mut().enumerate() {
-            let diagonal = matrix[i * size + i];
-            *scale = if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 };
-        }
-        self.scaled_null = scaled(&self.null, &self.scale);
-        for (row, (i, scale)) in matrix.chunks_exact_mut(size).zip(self.scale.iter().enumerate()) {
-            for (k, value) in row.iter_mut().enumerate() {
-                // The null space gets eigenvalues of 1; nothing else changes.
-                let null: f64 = self.scaled_null.iter().map(|vector| vector[i] * vector[k]).sum();
-                *value = *value * scale * self.scale[k] + null;
-            }
-        }
-        self.factor = Cholesky::new(size, matrix);
-    }
-
-    /// The part of `right` in the null space, which is rounding error, is removed: it would be amplified.
-    fn solve(&mut self, right: &GridVector<f32>, solution: &mut GridVector<f32>) {
-        for (i, value) in self.numbers.iter_mut().enumerate() {
-            *value = self.scale[i] * f64::from(number(right, i));
-        }
-        for vector in &self.scaled_null {
-            remove(&mut self.numbers, vector);
-        }
-        self.factor.solve(&mut self.numbers);
-        let [nx, ny] = self.layout.nodes;
-        for (i, &value) in self.numbers.iter().enumerate() {
-            solution.set(i / (nx * ny), i % nx, i / nx % ny, (self.scale[i] * value) as f32);
-        }
-    }
-}
-
-/// The vectors over `scale`, orthonormal.
-fn scaled(vectors: &[GridVector<f64>], scale: &[f64]) -> Vec<Vec<f64>> {
-    let mut out: Vec<Vec<f64>> = Vec::new();
-    for vector in vectors {
-        let mut scaled: Vec<f64> = scale.iter().enumerate().map(|(i, s)| number(vector, i) / s).collect();
-        out.iter().for_each(|other| remove(&mut scaled, other));
-        let norm = scaled.iter().map(|a| a * a).sum::<f64>().sqrt();
-        scaled.iter_mut().for_each(|a| *a /= norm);
-        out.push(scaled);
-    }
-    out
-}
-
-/// Takes the share in `unit`, of length 1, out of `vector`.
-fn remove(vector: &mut [f64], unit: &[f64]) {
-    let share: f64 = vector.iter().zip(unit).map(|(a, b)| a * b).sum();
-    vector.iter_mut().zip(unit).for_each(|(a, b)| *a -= share * b);
-}
-
-/// The `i`-th unknown: components one after the other, each row by row.
-fn number<T: Real>(vector: &GridVector<T>, i: usize) -> T {
-    let [nx, ny] = vector.layout.nodes;
-    vector.at(i / (nx * ny), i % nx, i / nx % ny)
 }

@@ -48,6 +48,29 @@ pub struct Weights {
 }
 
 impl NormalBlocks {
+    /// The weighted sum's entry between potential `i` of node (x, y) and potential `k` of the node at offset (dx, dy).
+    pub fn entry(&self, weights: Weights, [i, k]: [usize; 2], at: [usize; 2], offset: [isize; 2]) -> f64 {
+        let ([x, y], [dx, dy]) = (at, offset);
+        let walls = self.no_penetration.as_ref();
+        if i == k {
+            let (weight, sign) = if i == 0 { (weights.psi, 1.0) } else { (weights.phi, -1.0) };
+            let walls = walls.map_or(0.0, |walls| walls.diagonal.entry(x, y, dx, dy, 1.0));
+            let data = self.ata.entry(x, y, dx, dy, 1.0) + sign * weights.no_penetration * walls;
+            return weight * data + weights.alpha * self.btb.entry(at, offset);
+        }
+        let sign = if i == 0 { 1.0 } else { -1.0 };
+        let antisymmetric = self.ata_cross.as_ref().map_or(0.0, |cross| cross.entry(x, y, dx, dy, -1.0));
+        let symmetric = walls.and_then(|walls| walls.cross.as_ref());
+        weights.cross * (sign * antisymmetric + symmetric.map_or(0.0, |cross| cross.entry(x, y, dx, dy, 1.0)))
+    }
+
+    /// The largest share of photons, lines and walls in a diagonal entry of node (x, y) over the bending in it.
+    pub fn stiffness(&self, weights: Weights, components: usize, at: [usize; 2]) -> f64 {
+        let bending = weights.alpha * self.btb.entry(at, [0, 0]);
+        let over = |k: usize| self.entry(weights, [k, k], at, [0, 0]) / bending - 1.0;
+        if bending > 0.0 { (0..components).map(over).fold(0.0, f64::max) } else { 0.0 }
+    }
+
     /// The Galerkin blocks on a coarser grid; an axis whose number of `nodes` stays is left as it is.
     pub fn coarsened(&self, nodes: [usize; 2]) -> Self {
         Self {

@@ -104,21 +104,6 @@ impl<T: Real> Operator<T> {
         self.inverse_diagonal = sums;
     }
 
-    /// Entry between component `i` of node (x, y) and component `k` of the node at offset (dx, dy).
-    pub fn entry(&self, [i, k]: [usize; 2], x: usize, y: usize, dx: isize, dy: isize) -> f64 {
-        let one = T::from_f64(1.0);
-        let symmetric = |coupled: &Coupled<T>| {
-            coupled.symmetric.as_ref().map_or(T::default(), |block| block.entry(x, y, dx, dy, one))
-        };
-        let entry = match (&self.coupled, i, k) {
-            (Some(coupled), 1, 1) => coupled.phi.entry(x, y, dx, dy, one),
-            (Some(coupled), 0, 1) => coupled.antisymmetric.entry(x, y, dx, dy, -one) + symmetric(coupled),
-            (Some(coupled), 1, 0) => symmetric(coupled) - coupled.antisymmetric.entry(x, y, dx, dy, -one),
-            _ => self.psi.entry(x, y, dx, dy, one),
-        };
-        entry.to_f64()
-    }
-
     /// `out` -= M `vector`, where M is this matrix.
     pub fn subtract_product(&self, vector: &GridVector<T>, out: &mut GridVector<T>) {
         let (len, rows) = (out.row_len(), self.layout.rows_per_task());

@@ -14,7 +14,9 @@ pub enum EmissionGuiding {
     Unguided,
     /// Towards the bounding spheres of glass and mirrors.
     Bounds,
-    /// By the cells from which trial photons reached the receiver; the default.
+    /// By the cells from which trial photons reached the receiver; all paths are followed to their end.
+    Cells,
+    /// By these cells, and paths that hardly ever land are ended early, where that pays; the default.
     Learned,
 }
 
@@ -68,7 +70,7 @@ pub(super) fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
         };
         match guiding {
             EmissionGuiding::Unguided => domains.push(domain(None, &[])),
-            EmissionGuiding::Bounds | EmissionGuiding::Learned => {
+            EmissionGuiding::Bounds | EmissionGuiding::Cells | EmissionGuiding::Learned => {
                 domains.extend((0..casters.len()).map(|i| domain(Some(casters[i]), &casters[..i])));
             }
         }

@@ -10,6 +10,7 @@
 use super::domain::{Domain, EmissionGuiding, domains};
 use super::guide_learner::{GuideLearner, Leaf};
 use super::path::{FluxBalance, LightPart};
+use super::window::Lesson;
 use crate::scene::Scene;
 use crate::{Progress, Result};
 
@@ -26,6 +27,8 @@ pub(super) struct Cell {
     pub size: f32,
     /// RGB flux of a photon (W) times the number of candidates.
     pub flux: glam::Vec3,
+    /// Flux of a photon over that of one from an active cell.
+    pub factor: f32,
 }
 
 /// The cells of all lights with their shares of the candidates.
@@ -40,11 +43,12 @@ pub(super) struct EmissionPlan {
 }
 
 impl EmissionPlan {
-    /// Learns the active cells. Deterministic in the seed.
+    /// Learns the active cells, and the fate of the trial paths. Deterministic in the seed.
     pub(super) fn new(
         (scene, part): (&Scene, LightPart),
         guiding: EmissionGuiding,
         seed: u64,
+        lesson: &mut Lesson,
         progress: &Progress,
     ) -> Result<Self> {
         let domains = domains(scene, guiding);
@@ -56,14 +60,14 @@ impl EmissionPlan {
                 continue;
             }
             let balance = &mut balances[domain.light as usize];
-            let mut learner =
-                GuideLearner { scene, part, domain, index: index as u32, seed, progress, balance };
+            let index = index as u32;
+            let mut learner = GuideLearner { scene, part, domain, index, seed, progress, balance, lesson };
             match guiding {
                 EmissionGuiding::Unguided | EmissionGuiding::Bounds => {
                     learner.probe_once()?;
-                    leaves.push(Leaf { domain: index as u32, level: 0, at: [0, 0], active: true });
+                    leaves.push(Leaf { domain: index, level: 0, at: [0, 0], active: true });
                 }
-                EmissionGuiding::Learned => {
+                EmissionGuiding::Cells | EmissionGuiding::Learned => {
                     leaves.extend(learner.learn(MAX_OPEN / domains.len().clamp(1, 8))?);
                 }
             }
@@ -102,6 +106,7 @@ impl EmissionPlan {
                 // flux x area / share of the candidates
                 flux: domains[leaf.domain as usize].emission.flux
                     * (total / (power(leaf) * rate(leaf))) as f32,
+                factor: (1.0 / rate(leaf)) as f32,
             }
         };
         self.cells = leaves.iter().map(cell).collect();

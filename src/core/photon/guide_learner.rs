@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::domain::Domain;
-use super::path::{FluxBalance, LightPart, follow};
+use super::path::{FluxBalance, LightPart, Watch as _, follow};
+use super::window::{Lesson, Recorder, Trails};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
 use crate::{Progress, Result};
@@ -41,6 +42,8 @@ pub(super) struct GuideLearner<'a> {
     pub progress: &'a Progress,
     /// The flux balance of the trial paths.
     pub balance: &'a mut FluxBalance,
+    /// What is learnt of their fate.
+    pub lesson: &'a mut Lesson,
 }
 
 impl GuideLearner<'_> {
@@ -81,35 +84,48 @@ impl GuideLearner<'_> {
 
     /// Traces `probes` paths from each cell; whether any lands.
     fn probe(&mut self, level: u32, cells: &[[u32; 2]], probes: u64) -> Result<Vec<bool>> {
-        let results: Vec<(Vec<bool>, FluxBalance)> = cells
+        let results: Vec<(Vec<bool>, FluxBalance, Trails)> = cells
             .par_chunks(128)
             .map(|chunk| {
                 let mut balance = FluxBalance::default();
+                let mut recorder = Recorder::new(self.lesson.cells);
                 let landed = chunk.iter().map(|at| {
                     self.progress.check()?;
-                    Ok(self.any_lands(level, *at, probes, &mut balance))
+                    Ok(self.any_lands((level, *at), probes, &mut recorder, &mut balance))
                 });
-                Ok((landed.collect::<Result<_>>()?, balance))
+                Ok((landed.collect::<Result<_>>()?, balance, recorder.trails))
             })
             .collect::<Result<_>>()?;
-        results.iter().for_each(|(_, balance)| self.balance.add(*balance));
-        Ok(results.into_iter().flat_map(|(landed, _)| landed).collect())
+        for (_, balance, trails) in &results {
+            self.balance.add(*balance);
+            self.lesson.add(trails);
+        }
+        Ok(results.into_iter().flat_map(|(landed, ..)| landed).collect())
     }
 
-    fn any_lands(&self, level: u32, at: [u32; 2], probes: u64, balance: &mut FluxBalance) -> bool {
+    fn any_lands(
+        &self,
+        (level, at): (u32, [u32; 2]),
+        probes: u64,
+        recorder: &mut Recorder,
+        balance: &mut FluxBalance,
+    ) -> bool {
         let size = 0.5_f32.powi(level as i32);
         let [x, y] = at.map(u64::from);
         let cell = (u64::from(self.index) << 44) | (u64::from(level) << 40) | (y << 20) | x;
         let mut rng = Stream::new(self.seed, Purpose::Trace, LEARNING, cell);
-        let flux = self.domain.emission.flux;
-        let mut landed = false;
+        let light = self.domain.emission.flux;
+        let mut any = false;
         for _ in 0..probes {
             let u = at.map(|index| (index as f32 + rng.f32()) * size);
             if let Some((ray, media)) = self.domain.sample(self.scene, u, &mut rng) {
-                landed |= follow((self.scene, self.part), ray, flux, media, &mut rng, balance).is_some();
+                let scene = (self.scene, self.part);
+                let landed = follow(scene, ray, (light, media), recorder, &mut rng, balance).is_some();
+                recorder.ends(landed);
+                any |= landed;
             }
         }
-        landed
+        any
     }
 }
 

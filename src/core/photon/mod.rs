@@ -5,7 +5,9 @@ mod domain;
 mod emission_plan;
 mod guide_learner;
 mod path;
+mod thinning;
 mod trace;
+mod window;
 
 use glam::{Vec2, Vec3};
 
@@ -18,7 +20,7 @@ pub use trace::{EmissionGuide, TraceReport, Tracer};
 pub struct Photons {
     /// Positions on the receiver, plane units.
     pub positions: Vec<Vec2>,
-    /// RGB flux (W), linear Rec.709. The mean of the channels is nearly equal among the photons of a scene.
+    /// RGB flux (W), linear Rec.709. The mean of the channels is equal among the photons of a pass.
     pub flux: Vec<Vec3>,
     /// Index into `Scene::lights`.
     pub light: Vec<u16>,

@@ -1,6 +1,6 @@
 //! One light path: from a light over glass and mirrors until it lands or is lost. The mean of a photon's channels stays
 //! constant: losses at surfaces and in glass end whole photons by Russian roulette (Arvo & Kirk 1990), so that all that
-//! land have equal flux.
+//! land have equal flux, but for what a [`Watch`] changes.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -57,6 +57,9 @@ pub struct FluxBalance {
     pub absorbed: DVec3,
     /// Cut off after 256 surfaces.
     pub capped: DVec3,
+    /// On paths that were ended early, as they hardly ever land, less what the others of their kind carry for them: zero but
+    /// for noise.
+    pub ended: DVec3,
     /// Met no specular surface.
     pub direct: DVec3,
     /// Number of rays of all candidates.
@@ -64,9 +67,9 @@ pub struct FluxBalance {
 }
 
 impl FluxBalance {
-    fn fluxes(&mut self) -> [&mut DVec3; 8] {
-        let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, direct, .. } = self;
-        [emitted, landed, surround, escaped, blocked, absorbed, capped, direct]
+    fn fluxes(&mut self) -> [&mut DVec3; 9] {
+        let Self { emitted, landed, surround, escaped, blocked, absorbed, capped, ended, direct, .. } = self;
+        [emitted, landed, surround, escaped, blocked, absorbed, capped, ended, direct]
     }
 
     /// Whether any light met a specular surface.
@@ -89,12 +92,39 @@ impl FluxBalance {
     }
 }
 
+/// The light of a path: what is left of it, and the flux to which roulette restores its mean.
+pub(super) struct Carried<'a> {
+    pub weight: &'a mut Vec3,
+    pub flux: &'a mut Vec3,
+}
+
+/// Watches paths at every surface that sends them on.
+pub(super) trait Watch {
+    /// A path starts, with this flux over that of one from an active cell.
+    fn starts(&mut self, _factor: f32) {}
+
+    /// Whether the path goes on along a ray; it may then carry other light.
+    fn goes_on(&mut self, ray: &Ray, light: Carried, rng: &mut Stream, balance: &mut FluxBalance) -> bool;
+
+    /// The path ends.
+    fn ends(&mut self, _landed: bool) {}
+}
+
+/// Nobody watches.
+pub(super) struct Unwatched;
+
+impl Watch for Unwatched {
+    fn goes_on(&mut self, _: &Ray, _: Carried, _: &mut Stream, _: &mut FluxBalance) -> bool {
+        true
+    }
+}
+
 /// Follows a photon of `flux` along `ray`, from a light in `media`, and records its end in the balance.
 pub(super) fn follow(
     (scene, part): (&Scene, LightPart),
     mut ray: Ray,
-    flux: Vec3,
-    media: Media,
+    (mut flux, media): (Vec3, Media),
+    watch: &mut impl Watch,
     rng: &mut Stream,
     balance: &mut FluxBalance,
 ) -> Option<Landing> {
@@ -113,14 +143,14 @@ pub(super) fn follow(
         }
         let arriving = beam.weight;
         beam.travel(scene.meshes(), hit.t);
-        let next = match hit.surface {
-            SurfaceId::Mesh(mesh) => {
-                let material = scene.material(hit.surface);
-                let next = material.scatter(scene.meshes(), &hit, ray.direction, &mut beam, rng);
+        let next = match scene.mesh_of(hit.surface) {
+            Some(mesh) => {
+                let material = &scene.meshes()[usize::from(mesh)].material;
+                let next = material.scatter(scene.geometry(), &hit, ray.direction, &mut beam, rng);
                 last_specular = next.map(|_| mesh).or(last_specular);
                 next
             }
-            SurfaceId::Receiver | SurfaceId::Floor => None,
+            None => None,
         };
         let survived = roulette(&mut beam.weight, flux, rng);
         balance.absorbed += (arriving - beam.weight).as_dvec3();
@@ -128,7 +158,13 @@ pub(super) fn follow(
             return None;
         }
         match (next, last_specular) {
-            (Some(direction), _) => ray = Ray::leaving(&hit, direction),
+            (Some(direction), _) => {
+                ray = Ray::leaving(&hit, direction);
+                let light = Carried { weight: &mut beam.weight, flux: &mut flux };
+                if !watch.goes_on(&ray, light, rng, balance) {
+                    return None;
+                }
+            }
             (None, None) => {
                 balance.direct += beam.weight.as_dvec3();
                 return None;
@@ -175,7 +211,9 @@ fn land(
             return Some(Landing { position, flux, mesh });
         }
         SurfaceId::Receiver | SurfaceId::Floor if lit => &mut balance.surround,
-        SurfaceId::Mesh(_) | SurfaceId::Receiver | SurfaceId::Floor => &mut balance.blocked,
+        SurfaceId::Mesh(_) | SurfaceId::Contact(_) | SurfaceId::Receiver | SurfaceId::Floor => {
+            &mut balance.blocked
+        }
     };
     *column += flux.as_dvec3();
     None

@@ -2,9 +2,9 @@
 //!
 //! The number of candidates of a pass is fixed beforehand from the landing rate measured in [`Tracer::new`], with a margin,
 //! and all are traced, stratified over the cells of the [`EmissionPlan`]; so a photon's flux / candidates is known before
-//! any is traced and the estimate is unbiased. The few surplus photons are thinned out evenly, at random offset, and the
-//! others take over their flux in proportion. Candidates are added only beyond five standard deviations; the bias of
-//! that is far below the noise of a single photon.
+//! any is traced and the estimate is unbiased. Of all that land, as many of equal flux are drawn as were asked for (see
+//! [`thinning`](super::thinning)). Candidates are added only beyond five standard deviations; the bias of that is far below
+//! the noise of a single photon.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -13,7 +13,9 @@ use rayon::prelude::*;
 
 use super::domain::EmissionGuiding;
 use super::emission_plan::EmissionPlan;
-use super::path::{FluxBalance, LightPart, follow};
+use super::path::{FluxBalance, LightPart, Unwatched, Watch, follow};
+use super::thinning::equal_flux;
+use super::window::{Cells, Gate, Lesson, Recorder, Window};
 use super::{Photons, diagnosis};
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::Scene;
@@ -29,8 +31,8 @@ const PILOTS: u64 = 4;
 const PILOT_PASS: u64 = u64::MAX - 1;
 /// Random-stream index of the thinning offset; no candidate reaches it.
 const THINNING: u64 = u64::MAX;
-/// Strided rounds of the output order, a power of 2.
-const ROUNDS: u64 = 256;
+/// Least gain for which a window is used, in rays for a photon of equal flux; the look-up costs a few per cent.
+const LEAST_GAIN: f64 = 1.1;
 
 /// The cost and flux balance of one pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,16 +64,22 @@ struct GuidedEmission {
     seed: u64,
     /// Landing rate: photons per candidate.
     rate: f64,
+    /// Ends paths that hardly ever land.
+    window: Option<Window>,
 }
 
 /// The photons of one batch.
-#[derive(Default)]
-struct Batch {
+struct Batch<W> {
     photons: Photons,
     /// The cell each photon came from.
     cells: Vec<u32>,
     balance: FluxBalance,
+    /// What watched the paths.
+    watch: W,
 }
+
+/// The photons of a batch, and where all its light went.
+type Landed = (Photons, FluxBalance);
 
 impl<'a> Tracer<'a> {
     /// A tracer of the light that flows, with a newly learned emission guide. Fails with a diagnosis if no caustic falls on
@@ -97,21 +105,20 @@ impl<'a> Tracer<'a> {
         seed: u64,
         progress: &Progress,
     ) -> Result<Self> {
-        let plan = EmissionPlan::new((scene, part), guiding, seed, progress)?;
-        let mut emission = GuidedEmission { plan, part, seed, rate: 0.0 };
+        let triangles = scene.meshes().iter().map(|mesh| mesh.triangles).sum();
+        let mut lesson = Lesson::new(Cells::new(triangles));
+        let plan = EmissionPlan::new((scene, part), guiding, seed, &mut lesson, progress)?;
+        let mut emission = GuidedEmission { plan, part, seed, rate: 0.0, window: None };
         if emission.plan.cells.is_empty() {
             return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
         }
-        for pilot in 0..PILOTS {
-            let batches = emission.trace_candidates(scene, (PILOT_PASS, pilot * PILOT, PILOT), progress)?;
-            let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
-            emission.rate = cells.len() as f64 / PILOT as f64;
-            if !emission.plan.activate(&cells) {
-                break;
-            }
-        }
+        let measured = emission.pilot(scene, &mut lesson, progress)?;
         if emission.rate == 0.0 {
             return Err(diagnosis::no_caustic(scene, &emission.plan.balances));
+        }
+        if guiding == EmissionGuiding::Learned {
+            let window = lesson.window([measured.rate as f32, measured.rays as f32]);
+            emission.try_window(scene, window, measured, progress)?;
         }
         Ok(Self { scene, guide: EmissionGuide(Arc::new(emission)) })
     }
@@ -126,6 +133,11 @@ impl<'a> Tracer<'a> {
         &self.guide
     }
 
+    /// The lights, by index, of which no trial path reached the receiver, each with a note on the reason.
+    pub fn idle_lights(&self) -> Vec<(usize, String)> {
+        diagnosis::idle_lights(self.scene, &self.guide.0.plan.balances)
+    }
+
     /// Landing rate: photons per candidate.
     pub fn landing_rate(&self) -> f64 {
         self.guide.0.rate
@@ -138,7 +150,7 @@ impl<'a> Tracer<'a> {
         if count == 0 {
             return Err(Error::value("photons", "is 0: at least one photon is needed"));
         }
-        let mut batches: Vec<Batch> = Vec::new();
+        let (mut landings, mut balance) = (Vec::new(), FluxBalance::default());
         let (mut landed, mut candidates) = (0, 0);
         let emission = &*self.guide.0;
         let expected = emission.candidates_for(count as u64);
@@ -149,16 +161,17 @@ impl<'a> Tracer<'a> {
                 return Err(Error::Numeric { stage: "trace", what });
             }
             let wanted = emission.candidates_for(count as u64 - landed);
-            batches.extend(emission.trace_candidates(self.scene, (pass, candidates, wanted), progress)?);
+            for (photons, of_batch) in
+                emission.trace_part(self.scene, (pass, candidates, wanted), progress)?
+            {
+                landed += photons.len() as u64;
+                balance.add(of_batch);
+                landings.push(photons);
+            }
             candidates += wanted;
-            landed = batches.iter().map(|batch| batch.photons.len() as u64).sum();
         }
-        let mut balance = FluxBalance::default();
-        batches.iter().for_each(|batch| balance.add(batch.balance));
-        let offset =
-            (Stream::new(emission.seed, Purpose::Trace, pass, THINNING).f64() * landed as f64) as u64;
-        let factor = landed as f64 / count as f64 / candidates as f64;
-        let photons = thin(batches, count as u64, landed, offset, factor as f32);
+        let offset = Stream::new(emission.seed, Purpose::Trace, pass, THINNING).f64();
+        let photons = equal_flux(&landings, count, offset, 1.0 / candidates as f64);
         let report = TraceReport {
             candidates,
             landed,
@@ -170,6 +183,40 @@ impl<'a> Tracer<'a> {
 }
 
 impl GuidedEmission {
+    /// Measures the landing rate and learns the fate of the paths; cells that were missed become active.
+    fn pilot(&mut self, scene: &Scene, lesson: &mut Lesson, progress: &Progress) -> Result<Measured> {
+        let mut measured = Measured::default();
+        for pilot in 0..PILOTS {
+            let run = (PILOT_PASS, pilot * PILOT, PILOT);
+            let recorder = || Recorder::new(lesson.cells);
+            let batches = self.trace_candidates(scene, run, recorder, progress)?;
+            batches.iter().for_each(|batch| lesson.add(&batch.watch.trails));
+            measured = Measured::of(&batches);
+            self.rate = measured.rate;
+            let cells: Vec<u32> = batches.into_iter().flat_map(|batch| batch.cells).collect();
+            if !self.plan.activate(&cells) {
+                break;
+            }
+        }
+        Ok(measured)
+    }
+
+    /// Uses a window if it pays, against the cost `without`.
+    fn try_window(
+        &mut self,
+        scene: &Scene,
+        window: Window,
+        without: Measured,
+        progress: &Progress,
+    ) -> Result<()> {
+        let run = (PILOT_PASS, PILOTS * PILOT, PILOT);
+        let with = Measured::of(&self.trace_candidates(scene, run, || Gate::new(&window), progress)?);
+        if with.rate > 0.0 && without.cost > LEAST_GAIN * with.cost {
+            (self.rate, self.window) = (with.rate, Some(window));
+        }
+        Ok(())
+    }
+
     /// The candidates, in whole batches, that yield `count` photons within five standard deviations.
     fn candidates_for(&self, count: u64) -> u64 {
         let count = count as f64;
@@ -180,19 +227,31 @@ impl GuidedEmission {
         ((photons / rate / BATCH as f64).ceil() as u64).max(1) * BATCH
     }
 
+    /// Traces candidates of a pass as every pass does: within the window, if there is one.
+    fn trace_part(&self, scene: &Scene, part: (u64, u64, u64), progress: &Progress) -> Result<Vec<Landed>> {
+        fn landed<W>(batches: Vec<Batch<W>>) -> Vec<Landed> {
+            batches.into_iter().map(|batch| (batch.photons, batch.balance)).collect()
+        }
+        match &self.window {
+            Some(window) => self.trace_candidates(scene, part, || Gate::new(window), progress).map(landed),
+            None => self.trace_candidates(scene, part, || Unwatched, progress).map(landed),
+        }
+    }
+
     /// Traces `count` candidates of a pass, a multiple of `BATCH`, spread over all cells; `first` is the index of the
-    /// first in its pass.
-    fn trace_candidates(
+    /// first in its pass. Each batch is watched by a `watch` of its own.
+    fn trace_candidates<W: Watch + Send>(
         &self,
         scene: &Scene,
         (pass, first, count): (u64, u64, u64),
+        watch: impl Fn() -> W + Sync,
         progress: &Progress,
-    ) -> Result<Vec<Batch>> {
+    ) -> Result<Vec<Batch<W>>> {
         (0..count / BATCH)
             .into_par_iter()
             .map(|batch| {
                 progress.check()?;
-                let batch = self.trace_batch(scene, (pass, first, count), batch * BATCH);
+                let batch = self.trace_batch(scene, (pass, first, count), batch * BATCH, watch());
                 progress.advance(batch.photons.len() as u64);
                 Ok(batch)
             })
@@ -201,8 +260,15 @@ impl GuidedEmission {
 
     /// Candidate i takes the i-th of `count` strata of the cells: neighbours in a batch meet the same triangles, which are
     /// then in the cache.
-    fn trace_batch(&self, scene: &Scene, (pass, first, count): (u64, u64, u64), start: u64) -> Batch {
-        let mut result = Batch::default();
+    fn trace_batch<W: Watch>(
+        &self,
+        scene: &Scene,
+        (pass, first, count): (u64, u64, u64),
+        start: u64,
+        mut watch: W,
+    ) -> Batch<W> {
+        let (mut photons, mut cells) = (Photons::default(), Vec::new());
+        let mut balance = FluxBalance::default();
         let share = |candidate: u64, within: f64| (candidate as f64 + within) / count as f64;
         let last = self.plan.cells.len() - 1;
         let mut at = self.plan.cumulative.partition_point(|below| *below <= share(start, 0.0)).min(last);
@@ -216,38 +282,38 @@ impl GuidedEmission {
             let domain = &self.plan.domains[cell.domain as usize];
             let u = cell.corner.map(|corner| corner + rng.f32() * cell.size);
             let Some((ray, media)) = domain.sample(scene, u, &mut rng) else { continue };
-            let landing = follow((scene, self.part), ray, cell.flux, media, &mut rng, &mut result.balance);
+            watch.starts(cell.factor);
+            let light = (cell.flux, media);
+            let landing = follow((scene, self.part), ray, light, &mut watch, &mut rng, &mut balance);
+            watch.ends(landing.is_some());
             if let Some(landing) = landing {
-                result.photons.push(landing.position, landing.flux, domain.light, landing.mesh);
-                result.cells.push(at as u32);
+                photons.push(landing.position, landing.flux, domain.light, landing.mesh);
+                cells.push(at as u32);
             }
         }
-        result
+        Batch { photons, cells, balance, watch }
     }
 }
 
-/// Keeps `count` of all `landed` photons, evenly spaced from `offset` on, with their flux times `factor`. Their order is by
-/// strided rounds, so that the first n are an even sample too.
-fn thin(batches: Vec<Batch>, count: u64, landed: u64, offset: u64, factor: f32) -> Photons {
-    let mut kept = Photons::with_capacity(count as usize);
-    let mut sum = offset;
-    for Batch { photons, .. } in batches {
-        for i in 0..photons.len() {
-            sum += count;
-            if sum >= landed {
-                sum -= landed;
-                kept.push(photons.positions[i], photons.flux[i] * factor, photons.light[i], photons.mesh[i]);
-            }
-        }
-    }
-    let order = || {
-        let rounds = (0..ROUNDS).map(|round| round.reverse_bits() >> (u64::BITS - ROUNDS.trailing_zeros()));
-        rounds.flat_map(|start| (start as usize..kept.len()).step_by(ROUNDS as usize))
-    };
-    Photons {
-        positions: order().map(|i| kept.positions[i]).collect(),
-        flux: order().map(|i| kept.flux[i]).collect(),
-        light: order().map(|i| kept.light[i]).collect(),
-        mesh: order().map(|i| kept.mesh[i]).collect(),
+/// What a pilot run measures.
+#[derive(Clone, Copy, Default)]
+struct Measured {
+    /// Photons per candidate.
+    rate: f64,
+    /// Rays per candidate.
+    rays: f64,
+    /// Rays for a photon of equal flux: unequal ones count by (sum w)^2 / sum w^2.
+    cost: f64,
+}
+
+impl Measured {
+    fn of<W>(batches: &[Batch<W>]) -> Self {
+        let flux =
+            || batches.iter().flat_map(|batch| &batch.photons.flux).map(|f| f64::from(f.element_sum()));
+        let rays = batches.iter().map(|batch| batch.balance.rays).sum::<u64>() as f64;
+        let (sum, squares) = flux().fold((0.0, 0.0), |(sum, squares), f| (sum + f, squares + f * f));
+        let candidates = PILOT as f64;
+        let rate = flux().count() as f64 / candidates;
+        Self { rate, rays: rays / candidates, cost: rays * squares / (sum * sum) }
     }
 }

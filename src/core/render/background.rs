@@ -265,7 +265,7 @@ impl PathTracer<'_> {
             } else {
                 let least = if bounces == 0 { FAINT_WAY } else { f32::INFINITY };
                 let [way, other] =
-                    material.split(scene.meshes(), &hit, ray.direction, beam.clone(), least, rng);
+                    material.split(scene.geometry(), &hit, ray.direction, beam.clone(), least, rng);
                 rest.extend(other.map(|(direction, beam)| Open {
                     ray: Ray::leaving(&hit, direction),
                     beam,

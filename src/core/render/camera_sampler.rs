@@ -107,14 +107,14 @@ impl<'a> CameraSampler<'a> {
             let material = scene.material(hit.surface);
             if let Material::Diffuse(diffuse) = material {
                 let is_lit_side = ray.direction.dot(hit.geometric_normal) < 0.0;
-                if !matches!(hit.surface, SurfaceId::Mesh(_)) && is_lit_side {
+                if matches!(hit.surface, SurfaceId::Receiver | SurfaceId::Floor) && is_lit_side {
                     let weight = beam.weight * Vec3::from(diffuse.albedo) / std::f32::consts::PI;
                     see(Seen { point: scene.receiver().plane_from_world(hit.point), weight, in_glass });
                 }
                 return;
             }
             let [way, other]: [Option<Way>; 2] =
-                material.split(scene.meshes(), &hit, ray.direction, beam, FAINT, rng);
+                material.split(scene.geometry(), &hit, ray.direction, beam, FAINT, rng);
             rest.extend(other.map(|(direction, beam)| Open {
                 ray: Ray::leaving(&hit, direction),
                 beam,

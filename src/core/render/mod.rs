@@ -24,6 +24,7 @@ pub mod view;
 mod adaptive;
 mod camera_sampler;
 mod fireflies;
+mod in_view;
 mod sampler;
 
 pub use background::{Background, background, rough_background};
@@ -31,6 +32,7 @@ pub use fireflies::ClampedLight;
 pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};
 pub use image::Image;
+pub use in_view::{ReceiverView, receiver_view};
 pub use orbit_view::{MarkerKind, OrbitLight, SceneMarker, orbit_image, scene_markers};
 pub use plane_image::{PlaneMaterial, plane_image};
 pub use plane_view::PlaneView;

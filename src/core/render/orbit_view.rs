@@ -107,7 +107,7 @@ impl OrbitShader<'_> {
         let albedo = Vec3::from(diffuse.albedo);
         let lit = albedo * (self.light.lamp * between(FACING, facing));
         match hit.surface {
-            SurfaceId::Mesh(_) => lit,
+            SurfaceId::Mesh(_) | SurfaceId::Contact(_) => lit,
             SurfaceId::Floor => lit * GROUND[1] + self.caustic(hit) * albedo,
             SurfaceId::Receiver => {
                 let receiver = self.scene.receiver();

@@ -1,7 +1,7 @@
 //! The glass solids that contain a point, and the one that fills it.
 
-use super::geometry::Mesh;
 use super::material::{Glass, Material};
+use super::object::Mesh;
 
 /// Most overlapping solids; further ones are ignored.
 const DEPTH: usize = 7;

@@ -12,8 +12,10 @@ pub mod receiver;
 
 mod accel;
 mod check;
+mod contact;
 mod geometry;
 mod media;
+mod object;
 mod resolve;
 mod surface;
 
@@ -25,11 +27,12 @@ use serde::{Deserialize, Serialize};
 
 pub use camera::CameraDesc;
 pub use environment::EnvironmentDesc;
-pub use geometry::{Geometry, Mesh};
+pub use geometry::Geometry;
 pub use light::{LightDesc, Sphere};
 pub use material::Material;
 pub use media::Media;
 pub use mesh::MeshDesc;
+pub use object::Mesh;
 pub use receiver::{Receiver, ReceiverDesc};
 pub use surface::{Hit, Primitive, Ray, SurfaceId};
 
@@ -68,6 +71,10 @@ pub struct Scene {
     camera: camera::Camera,
     receiver: Receiver,
     environment: EnvironmentDesc,
+    /// The triangles that lie in the plane of the receiver; none in most scenes.
+    on_receiver: Option<contact::OnReceiver>,
+    /// Whether anything touches, so that hits need a second look.
+    has_contacts: bool,
 }
 
 impl Scene {
@@ -78,14 +85,49 @@ impl Scene {
 
     /// The nearest surface along the ray: a mesh, the receiver or the floor around it.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        if self.has_contacts {
+            return self.intersect_in_contact(ray);
+        }
+        self.nearest(ray)
+    }
+
+    #[inline]
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let floor = self.receiver.intersect(ray);
-        let limit = floor.as_ref().map_or(f32::INFINITY, |hit| hit.t);
-        self.geometry.accel.intersect(ray, limit).or(floor)
+        let limit = floor.map_or(f32::INFINITY, |(t, _)| t);
+        let hit = self.geometry.intersect(ray, limit);
+        hit.or_else(|| floor.map(|floor| self.receiver.hit(floor)))
+    }
+
+    /// As [`Self::intersect`] in a scene in which something touches: triangles that lie on the receiver or its floor are the
+    /// receiver or its floor.
+    #[cold]
+    fn intersect_in_contact(&self, ray: &Ray) -> Option<Hit> {
+        let mut found = self.nearest(ray).map(|hit| self.geometry.known(hit));
+        let Some(on) = &self.on_receiver else { return found };
+        let mut passed = 0.0;
+        // More than one only by rounding, at an edge.
+        for _ in 0..8 {
+            let hit = found.filter(|hit| on.contains(hit));
+            let Some((hit, floor)) = hit.and_then(|hit| Some((hit, self.receiver.hit_at(&hit)?))) else {
+                break;
+            };
+            if ray.from != Primitive::FLOOR {
+                return Some(floor);
+            }
+            passed += hit.t;
+            let next = self.geometry.intersect(&Ray::leaving(&hit, ray.direction), f32::INFINITY);
+            found = next.map(|hit| self.geometry.known(hit));
+        }
+        found.map(|hit| Hit { t: passed + hit.t, ..hit })
     }
 
     /// Whether any mesh, glass included, blocks the ray before `distance` (m). The floor never does.
     pub fn occluded(&self, ray: &Ray, distance: f32) -> bool {
-        self.geometry.accel.occluded(ray, distance)
+        if self.on_receiver.is_some() && ray.from == Primitive::FLOOR {
+            return self.intersect(ray).is_some_and(|hit| hit.t <= distance);
+        }
+        self.geometry.occluded(ray, distance)
     }
 
     /// The glass solids that contain `point`.
@@ -94,10 +136,9 @@ impl Scene {
         let ray = Ray::new(point, Vec3::new(0.37139, 0.80178, 0.46812).normalize());
         let mut depth = vec![0_i32; self.meshes().len()];
         self.geometry
-            .accel
             .each_crossing(&ray, |mesh, leaving| depth[mesh as usize] += if leaving { 1 } else { -1 });
         for (mesh, crossings) in depth.iter().enumerate() {
-            if *crossings > 0 && matches!(self.geometry.meshes[mesh].material, Material::Glass(_)) {
+            if *crossings > 0 && matches!(self.meshes()[mesh].material, Material::Glass(_)) {
                 media.enter(mesh as u16);
             }
         }
@@ -106,15 +147,22 @@ impl Scene {
 
     /// The material of a surface.
     pub fn material(&self, surface: SurfaceId) -> &Material {
-        match surface {
-            SurfaceId::Mesh(mesh) => &self.geometry.meshes[mesh as usize].material,
-            SurfaceId::Receiver | SurfaceId::Floor => self.receiver.material(),
+        match self.mesh_of(surface) {
+            Some(mesh) => &self.meshes()[mesh as usize].material,
+            None => self.receiver.material(),
         }
+    }
+
+    /// The mesh that a surface belongs to, where several lie in one another the one that stands for them; none for the
+    /// receiver and the floor.
+    #[inline]
+    pub fn mesh_of(&self, surface: SurfaceId) -> Option<u16> {
+        self.geometry.mesh_of(surface)
     }
 
     /// All meshes; a [`SurfaceId::Mesh`] and the mesh column of the photons index this.
     pub fn meshes(&self) -> &[Mesh] {
-        &self.geometry.meshes
+        self.geometry.meshes()
     }
 
     /// All lights, checked, in the order of the project.

@@ -3,7 +3,7 @@
 //! Plane coordinates: the longer side is 1, the origin is a corner, x runs along the width and y along the height of
 //! the rectangle. Unrotated, the receiver is horizontal: plane x is world +x, plane y is world -z, its normal +y.
 
-use glam::{EulerRot, Quat, Vec2, Vec3, vec2};
+use glam::{DQuat, DVec3, EulerRot, Quat, Vec2, Vec3, vec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -82,6 +82,8 @@ impl ReceiverDesc {
         let [x, y, z] = self.rotate.map(f32::to_radians);
         // Intrinsic Z, Y, X is extrinsic X, then Y, then Z.
         let turn = Quat::from_euler(EulerRot::ZYX, z, y, x);
+        let [x, y, z] = self.rotate.map(|degrees| f64::from(degrees).to_radians());
+        let exact_turn = DQuat::from_euler(EulerRot::ZYX, z, y, x);
         let (x_axis, y_axis) = (turn * Vec3::X, turn * Vec3::NEG_Z);
         let [width, height] = self.size;
         let corner = Vec3::from(self.centre) - x_axis * (width / 2.0) - y_axis * (height / 2.0);
@@ -91,6 +93,8 @@ impl ReceiverDesc {
             x_axis,
             y_axis,
             normal: turn * Vec3::Y,
+            centre: DVec3::from(self.centre.map(f64::from)),
+            exact_normal: exact_turn * DVec3::Y,
             unit,
             extent: self.extent(),
             surround: self.surround / unit,
@@ -116,6 +120,8 @@ pub struct Receiver {
     x_axis: Vec3,
     y_axis: Vec3,
     normal: Vec3,
+    centre: DVec3,
+    exact_normal: DVec3,
     unit: f32,
     extent: Vec2,
     surround: f32,
@@ -204,7 +210,8 @@ impl Receiver {
         )
     }
 
-    pub(super) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+    /// The distance at which a ray meets the rectangle or the floor, and where.
+    pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec2)> {
         if ray.from == Primitive::FLOOR {
             return None;
         }
@@ -213,21 +220,46 @@ impl Receiver {
             return None;
         }
         let plane = self.plane_from_world(ray.origin + ray.direction * t);
-        let reach = Vec2::splat(self.surround);
-        let surface = if self.contains(plane) {
-            SurfaceId::Receiver
-        } else if plane.cmpge(-reach).all() && plane.cmple(self.extent + reach).all() {
-            SurfaceId::Floor
-        } else {
-            return None;
-        };
-        Some(Hit {
+        self.reaches(plane).then_some((t, plane))
+    }
+
+    /// The hit of a surface that lies in the plane, as one of the receiver or the floor; none beyond.
+    pub(super) fn hit_at(&self, hit: &Hit) -> Option<Hit> {
+        let plane = self.plane_from_world(hit.point);
+        self.reaches(plane).then(|| self.hit((hit.t, plane)))
+    }
+
+    /// Whether the floor reaches there.
+    fn reaches(&self, plane: Vec2) -> bool {
+        let (lower, upper) = self.reach();
+        plane.cmpge(lower).all() && plane.cmple(upper).all()
+    }
+
+    /// The hit of a ray that meets the plane there.
+    pub(super) fn hit(&self, (t, plane): (f32, Vec2)) -> Hit {
+        Hit {
             t,
             point: self.world_from_plane(plane),
             geometric_normal: self.normal,
             shading_normal: self.normal,
-            surface,
+            surface: if self.contains(plane) { SurfaceId::Receiver } else { SurfaceId::Floor },
             primitive: Primitive::FLOOR,
-        })
+        }
+    }
+
+    /// Lower and upper corner of the floor, plane units.
+    pub(super) fn reach(&self) -> (Vec2, Vec2) {
+        let reach = Vec2::splat(self.surround);
+        (-reach, self.extent + reach)
+    }
+
+    /// Height of a point above the plane (m), in f64 from the saved turn: the f32 axes are rounded by as much as contact may be.
+    pub(super) fn height(&self, point: Vec3) -> f64 {
+        (point.as_dvec3() - self.centre).dot(self.exact_normal)
+    }
+
+    /// Largest coordinate of the centre (m).
+    pub(super) fn largest_coordinate(&self) -> f32 {
+        self.centre.abs().max_element() as f32
     }
 }

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::check;
-use super::geometry::{Geometry, Mesh};
+use super::contact::OnReceiver;
+use super::geometry::Geometry;
+use super::object::Mesh;
 use super::{Scene, SceneDesc};
 use crate::{Progress, Result};
 
@@ -34,8 +36,13 @@ impl Scene {
         desc.check("scene")?;
         let receiver = desc.receiver.resolve("scene.receiver")?;
         let size = receiver.metres_per_plane_unit();
-        let notes = geometry.meshes.iter().filter_map(|mesh| size_hint(mesh, size)).collect();
+        let mut notes: Vec<String> =
+            geometry.meshes().iter().filter_map(|mesh| size_hint(mesh, size)).collect();
+        let (on_receiver, of_contact) = OnReceiver::new(&geometry, &receiver);
+        notes.extend(of_contact);
         let scene = Self {
+            has_contacts: on_receiver.is_some() || geometry.has_contacts(),
+            on_receiver,
             geometry,
             lights: desc.lights.clone(),
             camera: desc.camera.resolve("scene.camera")?,
@@ -63,14 +70,20 @@ impl SceneDesc {
     }
 }
 
+/// Sizes, in those of the receiver, beyond which glass and mirrors are most likely in other units; matt things, such as a
+/// room or a pebble, may be larger and smaller.
+const USUAL: std::ops::Range<f32> = 5e-3..20.0;
+const USUAL_MATT: std::ops::Range<f32> = 1e-3..1e3;
+
 /// The note on a mesh far smaller or larger than the receiver: most likely in other units.
 fn size_hint(mesh: &Mesh, receiver: f32) -> Option<String> {
     let size = (mesh.upper - mesh.lower).max_element();
     let factor = size / receiver;
-    (!(1e-3..=1e3).contains(&factor)).then(|| {
+    let usual = if mesh.material.is_specular() { USUAL } else { USUAL_MATT };
+    (!usual.contains(&factor)).then(|| {
         format!(
             "{}: is {size:.3e} m wide, {factor:.1e} times the receiver; is the file in other units? \
-             Set transform.scale (0.001 for millimetres)",
+             Set transform.scale (0.001 for millimetres, 0.01 for centimetres, 0.0254 for inches)",
             mesh.name
         )
     })

@@ -12,6 +12,11 @@ impl Primitive {
     pub const NONE: Self = Self(u32::MAX);
     /// The plane of the receiver and the floor.
     pub(super) const FLOOR: Self = Self(u32::MAX - 1);
+
+    /// The number of a triangle of a mesh: neighbours in space have near numbers.
+    pub(crate) fn index(self) -> u32 {
+        self.0
+    }
 }
 
 /// A half-line, world space (m).
@@ -42,6 +47,8 @@ impl Ray {
 pub enum SurfaceId {
     /// An index into [`super::Scene::meshes`].
     Mesh(u16),
+    /// A place where several meshes lie in one another; a number of the scene's own.
+    Contact(u16),
     /// The receiver's rectangle.
     Receiver,
     /// The floor around the receiver; of the same material.

@@ -46,7 +46,7 @@ macro_rules! number {
         }
     )+};
 }
-number!(f32, u8, u32, u64, i32);
+number!(f32, f64, u8, u32, u64, i32);
 
 impl<N: Number, const COUNT: usize> Value for [N; COUNT] {
     type Number = N;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec2;
 
-use super::decode::Picture;
+use super::decode;
 use super::picture::Cells;
 use super::settings::{Channel, ImageTarget};
 use crate::Result;
@@ -12,7 +12,7 @@ use crate::Result;
 /// The sampling density of a picture, downscaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brightness {
-    /// Size of the picture in pixels.
+    /// Size of the picture as shown, in heights of a pixel.
     pub size: Vec2,
     /// Cells per row.
     pub width: usize,
@@ -26,7 +26,7 @@ impl Brightness {
     /// # Errors
     /// `Io`, `Format` or `Limit` when the file cannot be used.
     pub fn load(path: &Path, target: &ImageTarget, side: usize) -> Result<Self> {
-        let picture = Picture::read(path)?;
+        let picture = decode::read(path)?;
         let mut cells = Cells::of(&picture, target, target.channel);
         if target.channel == Channel::Brightness && cells.black_with_shape {
             cells = Cells::of(&picture, target, Channel::Alpha);
@@ -42,6 +42,6 @@ impl Brightness {
         }
         let most = values.iter().copied().fold(f32::MIN_POSITIVE, f32::max);
         values.iter_mut().for_each(|value| *value /= most);
-        Ok(Self { size: Vec2::new(picture.width as f32, picture.height as f32), width, values })
+        Ok(Self { size: picture.shown_size(), width, values })
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::decode::{Picture, linear_from_srgb};
+use super::decode::{self, Picture, linear_from_srgb};
 use super::points::Points;
 use super::settings::{Channel, ImageTarget};
 use crate::math::colour::luminance;
@@ -40,8 +40,8 @@ impl PictureSampler {
     /// `Value` when a setting is out of range; `Io`, `Format` or `Limit` when the file cannot be used, or has no light.
     pub fn load(path: &Path, target: &ImageTarget, extent: Vec2, place: &str) -> Result<Self> {
         target.check(place)?;
-        let picture = Picture::read(path)?;
-        let mut notes = Vec::new();
+        let picture = decode::read(path)?;
+        let mut notes = picture.notes.clone();
         let mut cells = Cells::of(&picture, target, target.channel);
         if cells.bad_pixels > 0 {
             notes.push(format!(
@@ -58,7 +58,8 @@ impl PictureSampler {
             return Err(Error::format(path, "", no_light(target)));
         };
         let size = Vec2::new(picture.width as f32, picture.height as f32);
-        let frame = target.placement.frame(size, extent);
+        let (centre, right, up) = target.placement.frame(picture.shown_size(), extent);
+        let frame = (centre, right * picture.aspect, up);
         let block = cells.block;
         let colours = if target.colour { cells.relative_colours() } else { Vec::new() };
         Ok(Self { brightness, colours, block, size, frame, notes })

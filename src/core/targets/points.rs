@@ -117,7 +117,9 @@ impl PointReader<'_> {
                 Error::format(self.path, "", "this is neither NPY nor UTF-8 text; save it as one of them")
             })?;
         let mut first = true;
-        for (number, line) in text.lines().enumerate() {
+        // Lines that end with CR alone are those of old Macs.
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        for (number, line) in text.split(end).enumerate() {
             if line.trim().is_empty() || line.trim_start().starts_with('#') {
                 continue;
             }
@@ -138,18 +140,28 @@ impl PointReader<'_> {
         let bad = |error: NpyError| Error::format(self.path, "", error.to_string());
         let header = Header::parse(bytes).map_err(bad)?;
         let shape = &header.shape;
-        if shape.len() != 2 || !matches!(shape[1], 2 | 5) || header.fortran_order {
-            let what = format!(
-                "an array of shape {shape:?} cannot be points; save n x 2 (x, y) or n x 5 (x, y, r, g, b) in C order"
-            );
-            return Err(Error::format(self.path, "", what));
-        }
-        if shape[0] > MAX_POINTS as u64 {
+        // As many rows as points; a row for each of their numbers is read, too.
+        let (count, columns, by_column) = match shape[..] {
+            [count, columns @ (2 | 5)] => (count, columns, header.fortran_order),
+            [columns @ (2 | 5), count] => (count, columns, !header.fortran_order),
+            _ => {
+                let what = format!(
+                    "an array of shape {shape:?} cannot be points; save n x 2 (x, y) or n x 5 (x, y, r, g, b)"
+                );
+                return Err(Error::format(self.path, "", what));
+            }
+        };
+        if count > MAX_POINTS as u64 {
             return Err(self.too_many());
         }
         let numbers = header.values(bytes).map_err(bad)?;
-        for (row, numbers) in numbers.chunks_exact(shape[1] as usize).enumerate() {
-            self.add(numbers, || format!("row {row}"))?;
+        let (count, columns) = (count as usize, columns as usize);
+        let mut point = vec![0.0; columns];
+        for row in 0..count {
+            for (column, number) in point.iter_mut().enumerate() {
+                *number = numbers[if by_column { column * count + row } else { row * columns + column }];
+            }
+            self.add(&point, || format!("row {row}"))?;
         }
         Ok(())
     }
@@ -187,16 +199,32 @@ impl PointReader<'_> {
 }
 
 /// The first six numbers of a line, its number of fields, and how many of them are numbers.
+///
+/// Fields stand between commas, semicolons, tabs or spaces; commas are decimal points where others stand between the fields.
 fn numbers_of(line: &str) -> ([f32; 6], usize, usize) {
     let mut numbers = [0.0; 6];
     let (mut count, mut readable) = (0, 0);
-    let separator = |c: char| matches!(c, ',' | ';' | '\t' | ' ' | '\r');
+    let decimal_comma = has_decimal_commas(line);
+    let separator = |c: char| matches!(c, ';' | '\t' | ' ' | '\r') || (c == ',' && !decimal_comma);
     for field in line.split(separator).filter(|field| !field.is_empty()) {
-        if let Ok(number) = field.parse::<f32>() {
+        let number = if decimal_comma { field.replace(',', ".").parse() } else { field.parse::<f32>() };
+        if let Ok(number) = number {
             numbers[count.min(5)] = number;
             readable += 1;
         }
         count += 1;
     }
     (numbers, count, readable)
+}
+
+/// Whether a line has fields such as `0,5`, of which several stand in a row, and no decimal point.
+fn has_decimal_commas(line: &str) -> bool {
+    let fields = || line.split([';', '\t', ' ', '\r']).filter(|field| !field.is_empty());
+    let decimal = |field: &str| {
+        field.split_once(',').is_some_and(|(whole, part)| {
+            whole.ends_with(|c: char| c.is_ascii_digit()) && part.starts_with(|c: char| c.is_ascii_digit())
+        })
+    };
+    let single = |field: &str| field.matches(',').count() <= 1 && !field.ends_with(',');
+    fields().count() > 1 && !line.contains('.') && fields().all(single) && fields().any(decimal)
 }

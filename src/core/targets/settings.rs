@@ -16,7 +16,7 @@ const FILL: f32 = 0.9;
 #[serde(deny_unknown_fields)]
 #[schemars(transform = Describe(Self::SETTINGS))]
 pub struct ImageTarget {
-    /// PNG, JPEG, OpenEXR or Radiance HDR file, relative to the project.
+    /// PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR file, relative to the project.
     pub file: String,
     /// The channel that attracts the photons ([`Self::CHANNEL`]).
     #[serde(default)]
@@ -36,14 +36,14 @@ pub struct ImageTarget {
 }
 
 settings! { ImageTarget {
-    /// PNG, JPEG, OpenEXR or Radiance HDR file, relative to the project.
+    /// PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR file, relative to the project.
     FILE = Setting::part("keys[].shows.image.file");
     /// The channel of the picture that attracts the light.
     CHANNEL = Setting::choice("keys[].shows.image.channel", &[
         Choice { value: "brightness", help: "linear luminance times opacity; opacity alone where all is black" },
         Choice { value: "alpha", help: "opacity alone" },
     ]);
-    /// Whether the light takes the picture's colours; else it keeps its own.
+    /// Whether the light takes the picture's colours; else each photon keeps its own.
     COLOUR = Setting::switch("keys[].shows.image.colour", false);
     /// Whether the dark parts attract instead of the bright ones. Transparent parts never do.
     INVERT = Setting::switch("keys[].shows.image.invert", false);
@@ -95,8 +95,8 @@ pub struct PointsTarget {
 }
 
 settings! { PointsTarget {
-    /// CSV (columns x, y and optionally r, g, b) or NPY (n x 2 or n x 5 numbers) file in plane coordinates, relative to
-    /// the project.
+    /// CSV (columns x, y and optionally r, g, b; with decimal commas, too, where semicolons or tabs part them) or NPY (n x 2 or
+    /// n x 5 numbers) file in plane coordinates, relative to the project.
     FILE = Setting::part("keys[].shows.points.file");
 } }
 

@@ -59,13 +59,10 @@ impl App {
                 self.show_message(format!("'{}' cannot be opened", name(&path)), error.to_string());
             }
             StoreReply::Saved(save, Ok(saved)) => {
-                let from = templates::file_of(&self.editor.document);
-                if from.parent() != save.path.parent() {
-                    self.editor
-                        .document
-                        .relocate(|project| relative_path::relocated(project, &from, &save.path));
-                }
+                self.place(&save.path);
                 self.editor.document.mark_saved(save.project, save.path.clone(), saved.seen);
+                let subject = self.subject();
+                self.editor.preview.relocated(&subject);
                 self.preferences.add_recent(&save.path);
                 self.editor.status = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
                 if let Some(leave) = self.files.after_save.take() {
@@ -155,14 +152,21 @@ impl App {
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
-                    let what =
-                        "their folder 'projects' is neither beside the program nor in the current folder";
+                    let what = "They are not beside the program, and cannot be written into your folder.";
                     return self.show_message("The examples are missing".into(), what.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
                 self.files.template = Some(path.clone());
                 self.request(StoreRequest::Open(path));
             }
+        }
+    }
+
+    /// Names the project's files from the folder of `path`, where it is saved now.
+    fn place(&mut self, path: &Path) {
+        let from = templates::file_of(&self.editor.document);
+        if from.parent() != path.parent() {
+            self.editor.document.relocate(|project| relative_path::relocated(project, &from, path));
         }
     }
 

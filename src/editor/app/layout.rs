@@ -24,11 +24,6 @@ impl App {
         let mut editor = self.editor.context(actions);
         let editor = &mut editor;
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found()));
-        if let Some(problem) = editor.preview.problem().map(str::to_owned) {
-            Panel::top("problem").frame(banner(ui)).show(ui, |ui| {
-                problem_banner(ui, &problem, &mut self.external);
-            });
-        }
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
             if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
                 editor.ask(Command::Export);
@@ -48,7 +43,20 @@ impl App {
             .show(ui, |ui| panels::show(ui, editor));
         let surround = Frame::NONE.fill(theme::SURROUND);
         let plane = CentralPanel::default().frame(surround).show(ui, |ui| {
+            let views = ui.max_rect();
             self.views.show(ui, editor, &mut self.toolbox);
+            if let Some(problem) = editor.preview.problem().map(str::to_owned) {
+                // Over the views: nothing moves away under the pointer.
+                let place = egui::Area::new(egui::Id::unique("problem"))
+                    .fixed_pos(views.min)
+                    .order(egui::Order::Middle);
+                place.show(ui.ctx(), |ui| {
+                    banner(ui).show(ui, |ui| {
+                        ui.set_width(views.width() - 24.0);
+                        problem_banner(ui, &problem, &mut self.external);
+                    });
+                });
+            }
             self.views.plane_rect()
         });
         self.windows.anchors = Some(Anchors { line, wall, play, plane: plane.inner });
@@ -57,7 +65,7 @@ impl App {
 
 fn banner(ui: &Ui) -> Frame {
     Frame::side_top_panel(ui.style())
-        .fill(theme::BAD.gamma_multiply(0.25))
+        .fill(ui.visuals().panel_fill.lerp_to_gamma(theme::BAD, 0.25))
         .inner_margin(Margin::symmetric(12, 6))
 }
 
@@ -83,7 +91,12 @@ fn status(
     let mut clicked = false;
     ui.horizontal_centered(|ui| {
         let activity = editor.preview.activity();
-        let (doing, share) = activity.map_or(("ready", 1.0), |now| (doing(now.stage), now.fraction));
+        let idle = match (editor.preview.problem(), editor.preview.is_shown()) {
+            (Some(_), _) => "not computed",
+            (None, true) => "ready",
+            (None, false) => "painting",
+        };
+        let (doing, share) = activity.map_or((idle, 1.0), |now| (doing(now.stage), now.fraction));
         let bar = egui::ProgressBar::new(share).desired_width(70.0).desired_height(6.0);
         ui.add_enabled(activity.is_some(), bar).accessible_name("Preview");
         // As wide as the longest word, so that nothing jumps.

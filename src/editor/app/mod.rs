@@ -162,7 +162,7 @@ impl App {
     /// Moves the playhead by the time that passed.
     fn play(&mut self, ctx: &egui::Context) {
         let frames = playback::played(self.editor.document.project(), &self.editor.session);
-        let fps = playback::fps(self.editor.document.project());
+        let fps = playback::fps(self.editor.document.project()) * self.editor.session.speed;
         let seconds = ctx.input(|input| input.stable_dt).into();
         if let Some(next) = self.playback.advance(&mut self.editor.session, &frames, fps, seconds) {
             ctx.request_repaint_after(Duration::from_secs_f64(next));
@@ -172,18 +172,24 @@ impl App {
     /// Updates the preview's subject and views.
     fn follow(&mut self) {
         self.editor.preview.draw_by_card(self.draws_on_gpu());
-        let subject = Subject {
+        let subject = self.subject();
+        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
+    }
+
+    /// The open project, and the place of its files.
+    fn subject(&self) -> Subject {
+        Subject {
             project: self.editor.document.project().clone(),
             base: templates::file_of(&self.editor.document),
             external: self.external,
-        };
-        self.editor.preview.follow(&subject, &self.editor.session, self.views.wanted());
+        }
     }
 
     /// Replaces the document.
     fn replace(&mut self, document: Document) {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
+        self.views.forget_pictures();
         self.external = false;
     }
 }

@@ -70,7 +70,9 @@ fn tools(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Constraint]) {
             }
         });
         let lines = constraints.iter().filter(|c| matches!(c, Constraint::DirectedLine(_))).count();
-        ui.weak(format!("{lines} lines, {} walls", constraints.len() - lines));
+        let counted =
+            |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        ui.weak(format!("{}, {}", counted(lines, "line"), counted(constraints.len() - lines, "wall")));
     });
 }
 

@@ -57,6 +57,13 @@ pub fn controls() -> impl Iterator<Item = &'static Control> {
     PANELS.iter().flat_map(|entry| entry.controls).copied().flatten()
 }
 
+/// The controls of all panels with their panel.
+pub fn controls_by_panel() -> impl Iterator<Item = (&'static PanelInfo, &'static Control)> {
+    PANELS
+        .iter()
+        .flat_map(|entry| entry.controls.iter().copied().flatten().map(move |control| (entry, control)))
+}
+
 /// The tabs, and the selected panel.
 pub fn show(ui: &mut Ui, editor: &mut EditorContext) {
     ui.horizontal_wrapped(|ui| {

@@ -112,10 +112,10 @@ fn of_flow(flow: &FlowReport, tolerance: f32) -> Vec<Readout> {
             "Most iterations of the solver in a fit.",
         ),
         Readout {
-            name: "Solver residual",
-            value: number(digits(flow.solver_residual), false),
-            help: "Largest relative residual of the solver. Above the tolerance the fit did not converge.",
-            is_bad: flow.solver_residual > f64::from(tolerance),
+            name: "Solver error",
+            value: number(digits(flow.solver_error), false),
+            help: "Largest error of the velocities that the solver leaves, relative. Above the tolerance the fit did not converge.",
+            is_bad: flow.solver_error > f64::from(tolerance),
         },
     ]
 }
@@ -263,9 +263,9 @@ mod tests {
     fn walls_and_a_solver_that_did_not_end_are_marked() {
         let good = FlowReport::default();
         assert!(of_flow(&good, 1e-4).iter().all(|readout| !readout.is_bad));
-        let bad = FlowReport { wall_crossings: 1, unreachable: 2, solver_residual: 1e-3, ..good };
+        let bad = FlowReport { wall_crossings: 1, unreachable: 2, solver_error: 1e-3, ..good };
         let marked: Vec<_> =
             of_flow(&bad, 1e-4).into_iter().filter(|readout| readout.is_bad).map(|r| r.name).collect();
-        assert_eq!(marked, ["Wall crossings", "Unreachable", "Solver residual"]);
+        assert_eq!(marked, ["Wall crossings", "Unreachable", "Solver error"]);
     }
 }

@@ -131,6 +131,15 @@ impl LivePreview {
         self.request(subject, session, wanted);
     }
 
+    /// Takes a subject for the one that is shown: a project saved elsewhere, whose files are the same.
+    pub fn relocated(&mut self, subject: &Subject) {
+        let Some(old) = self.subject.replace(subject.clone()) else { return };
+        if let Some((compared, with)) = self.compared.take() {
+            self.compared = compared.is(&old).then(|| (subject.clone(), with));
+        }
+        self.requests.relocated(subject);
+    }
+
     /// Works out the other side of the wipe.
     fn compare(&mut self, subject: &Subject, session: &Session) {
         let Some(wipe) = session.compare else {
@@ -238,6 +247,20 @@ impl LivePreview {
     /// Whether what is shown is of the newest version.
     pub fn is_current(&self) -> bool {
         self.found.previews.iter().any(Option::is_some)
+    }
+
+    /// Whether the pictures that are shown are those of the project as it is: light and paintings are of its newest version.
+    pub fn is_shown(&self) -> bool {
+        let is_newest = |light: &Arc<Preview>| {
+            self.found.previews.iter().flatten().any(|newest| Arc::ptr_eq(newest, light))
+        };
+        let shown = [self.pictures.painted().light, self.orbit.seen().light];
+        self.problem.is_none() && shown.iter().flatten().any(is_newest)
+    }
+
+    /// Whether a veil belongs over the pictures: the project is wrong, and they show what it was.
+    pub fn veil(&self) -> bool {
+        self.problem.is_some() && !self.is_current()
     }
 
     /// What is seen of the flow at the playhead; empty where nothing is shown of it.

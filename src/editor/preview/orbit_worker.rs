@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::ColorImage;
 use lightloom_core::Result;
-use lightloom_core::engine::{OrbitView, PreviewExposure};
+use lightloom_core::engine::{OrbitView, Preview, PreviewExposure};
 use lightloom_core::render::{PlaneView, SceneMarker, ViewSettings};
 use lightloom_core::scene::CameraDesc;
 
@@ -35,6 +35,8 @@ pub struct Seen {
     pub number: u64,
     /// As the screen shows it.
     pub picture: Option<Arc<ColorImage>>,
+    /// The light on its receiver.
+    pub light: Option<Arc<Preview>>,
     /// Lights and camera in it.
     pub marks: Vec<SceneMarker>,
     /// Where plane points are in it.
@@ -63,7 +65,8 @@ impl OrbitWorker {
                 let mut seen = seen.lock().unwrap_or_else(PoisonError::into_inner);
                 let number = seen.number + 1;
                 let picture = Some(Arc::new(shown(&look.image, &request.view.view())));
-                *seen = Seen { number, picture, marks: look.marks, plane: Some(look.plane) };
+                let light = request.moment.map(|moment| moment.preview);
+                *seen = Seen { number, picture, light, marks: look.marks, plane: Some(look.plane) };
                 drop(seen);
                 tell();
             }

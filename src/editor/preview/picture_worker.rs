@@ -52,6 +52,8 @@ pub struct Painted {
     pub number: u64,
     /// The frame they show.
     pub frame: i32,
+    /// The light they show.
+    pub light: Option<Arc<Preview>>,
     /// The plane: this flow, and what it is compared with.
     pub plane: [Option<Arc<ColorImage>>; 2],
     /// Its photons, where the graphics card draws them.
@@ -116,7 +118,8 @@ impl PictureBuffers {
     /// Paints the plane, shows it, then the shot.
     fn paint(&mut self, request: &PictureRequest, show: &mut dyn FnMut(&Painted)) {
         let view = request.view.view();
-        let mut painted = Painted { frame: request.moment.frame, ..Painted::default() };
+        let light = Some(request.moment.preview.clone());
+        let mut painted = Painted { frame: request.moment.frame, light, ..Painted::default() };
         let moments = || [Some(&request.moment), request.other.as_ref()].into_iter().enumerate();
         for (side, moment) in moments().filter_map(|(side, moment)| Some((side, moment?))) {
             match request.plane {

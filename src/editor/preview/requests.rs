@@ -8,7 +8,7 @@ use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
 use super::picture_worker::{Moment, PictureRequest};
-use super::requested::{BackgroundKey, PictureKey, Same, Wanted};
+use super::requested::{BackgroundKey, PictureKey, Requests, Same, Wanted};
 use super::{LivePreview, Subject};
 use crate::editor::session::Session;
 
@@ -64,22 +64,37 @@ impl LivePreview {
 
     fn request_shot(&mut self, subject: &Subject, wanted: &Wanted) {
         let Some(size) = wanted.shot else { return };
-        let Project { scene, plane, seed, caustics, render, .. } = &*subject.project;
-        let files = (subject.base.clone(), subject.external);
-        let asked = BackgroundKey {
-            scene: scene.clone(),
-            aspect: plane.aspect,
-            size,
-            seed: *seed,
-            caustics: caustics.clone(),
-            physical: physical(&subject.project),
-            kept_in_glass: render.kept_in_glass,
-            files,
-        };
+        let asked = background_key(subject, size);
         if self.requests.staged.as_ref() != Some(&asked) {
             self.background.ask(subject.clone(), size);
             self.requests.staged = Some(asked);
         }
+    }
+}
+
+impl Requests {
+    /// What was asked for of a project that is saved elsewhere now.
+    pub(super) fn relocated(&mut self, subject: &Subject) {
+        if let Some(staged) = &mut self.staged {
+            *staged = background_key(subject, staged.size);
+        }
+        if let Some((_, project, ..)) = &mut self.looked {
+            *project = Same(Some(subject.project.clone()));
+        }
+    }
+}
+
+fn background_key(subject: &Subject, size: [u32; 2]) -> BackgroundKey {
+    let Project { scene, plane, seed, caustics, render, .. } = &*subject.project;
+    BackgroundKey {
+        scene: scene.clone(),
+        aspect: plane.aspect,
+        size,
+        seed: *seed,
+        caustics: caustics.clone(),
+        physical: physical(&subject.project),
+        kept_in_glass: render.kept_in_glass,
+        files: (subject.base.clone(), subject.external),
     }
 }
 

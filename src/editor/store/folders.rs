@@ -33,6 +33,11 @@ impl Folders {
         })
     }
 
+    /// Folder of the examples of this version, unpacked.
+    pub fn examples(&self) -> PathBuf {
+        self.state.join("examples").join(env!("CARGO_PKG_VERSION"))
+    }
+
     /// Folder of the journals of open documents.
     pub fn recovery(&self) -> PathBuf {
         self.state.join("recovery")

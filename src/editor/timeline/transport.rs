@@ -53,6 +53,8 @@ impl Timeline {
                 }
                 ui.add_space(8.0);
                 rate(ui, editor);
+                ui.add_space(4.0);
+                speed(ui, editor);
             });
         });
         play
@@ -83,6 +85,22 @@ fn number(ui: &mut Ui, editor: &mut EditorContext) {
     ui.label(RichText::new(format!("of {}", whole.end())).weak());
     ui.add_space(6.0);
     ui.label(RichText::new(format!("{seconds:.2} s")).weak());
+}
+
+/// Playback speeds over the project's frame rate.
+const SPEEDS: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+
+fn speed(ui: &mut Ui, editor: &mut EditorContext) {
+    let name = |speed: f64| format!("{speed} x");
+    let speed = &mut editor.session.speed;
+    let combo = ComboBox::from_id_salt("speed").width(66.0).selected_text(name(*speed));
+    let shown = combo.show_ui(ui, |ui| {
+        for choice in SPEEDS {
+            ui.selectable_value(speed, choice, name(choice));
+        }
+    });
+    let response = shown.response.accessible_name("Playback speed");
+    response.on_hover_text("How fast it plays here. The project and its frames stay as they are.");
 }
 
 fn rate(ui: &mut Ui, editor: &mut EditorContext) {

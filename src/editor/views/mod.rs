@@ -20,6 +20,8 @@ use pictures::Pictures;
 
 /// Gap between two views, points.
 const GAP: f32 = 6.0;
+/// Opacity of the veil over pictures that are not those of the project.
+const VEIL: f32 = 0.7;
 /// Minimum share of a view beside another.
 const LEAST: f32 = 0.15;
 
@@ -50,6 +52,11 @@ impl Views {
         &self.wanted
     }
 
+    /// Forgets all pictures: those of another project are not shown.
+    pub(super) fn forget_pictures(&mut self) {
+        self.pictures = Pictures::default();
+    }
+
     /// Rectangle of the plane view.
     pub(super) fn plane_rect(&self) -> Rect {
         self.places[0]
@@ -70,6 +77,7 @@ impl Views {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
         let all = ui.available_rect_before_wrap();
+        let veil = editor.preview.veil();
         match editor.session.layout {
             ViewLayout::Plane => self.plane(ui, all, editor, toolbox),
             ViewLayout::Shot => self.shot(ui, all, editor, toolbox),
@@ -79,6 +87,9 @@ impl Views {
                 self.plane(ui, left, editor, toolbox);
                 self.shot(ui, right, editor, toolbox);
             }
+        }
+        if veil {
+            ui.painter().rect_filled(all, 0.0, super::theme::SURROUND.gamma_multiply(VEIL));
         }
     }
 

@@ -64,8 +64,8 @@ pub enum Bound {
 pub struct Limits {
     /// Largest distance of a photon from its target at the end, plane units.
     pub endpoint_error: Option<f64>,
-    /// Largest relative residual of the solver.
-    pub solver_residual: Option<f64>,
+    /// Largest error of the velocities that the solver leaves, relative.
+    pub solver_error: Option<f64>,
     /// Most iterations of a solve.
     pub iterations: Option<usize>,
     /// Largest [`Measured::energy`].
@@ -86,7 +86,7 @@ impl Limits {
     /// No limit; all numbers must be finite.
     pub(super) const FINITE: Self = Self {
         endpoint_error: None,
-        solver_residual: None,
+        solver_error: None,
         iterations: None,
         energy: None,
         crossings: None,
@@ -104,8 +104,8 @@ pub struct Measured {
     pub finite: bool,
     /// max |c(1) - b|, plane units.
     pub endpoint_error: Option<f64>,
-    /// Relative residual of the solver, the worst.
-    pub solver_residual: Option<f64>,
+    /// Error of the velocities that the solver leaves, relative; the worst.
+    pub solver_error: Option<f64>,
     /// Iterations of the solver, the most in a fit.
     pub iterations: Option<usize>,
     /// Condition number of the preconditioned matrix as the solver saw it.
@@ -154,14 +154,8 @@ impl EnergyOf {
 impl Measured {
     /// Whether all numbers that are present are finite.
     fn is_finite(&self) -> bool {
-        let numbers = [
-            self.endpoint_error,
-            self.solver_residual,
-            self.condition,
-            self.energy,
-            self.misplaced,
-            self.gap,
-        ];
+        let numbers =
+            [self.endpoint_error, self.solver_error, self.condition, self.energy, self.misplaced, self.gap];
         self.finite && numbers.into_iter().flatten().all(f64::is_finite)
     }
 }
@@ -197,7 +191,7 @@ impl Limits {
         let count = |count: Option<usize>| count.map(|n| n as f64);
         [
             ("endpoint error", self.endpoint_error, measured.endpoint_error),
-            ("residual", self.solver_residual, measured.solver_residual),
+            ("solver error", self.solver_error, measured.solver_error),
             ("iterations", count(self.iterations), count(measured.iterations)),
             ("energy", self.energy, measured.energy),
             ("crossings", count(self.crossings), count(measured.crossings)),

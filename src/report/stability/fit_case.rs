@@ -10,7 +10,7 @@ use lightloom_core::flow::fit::{Blend, FitSettings, Fitter};
 use lightloom_core::flow::metric::fit_residual;
 use lightloom_core::{Progress, Result};
 
-/// Relative residual at which the solver stops; a thousand times less than a project asks for.
+/// Error of the velocities at which the solver stops; ten thousand times less than a project asks for.
 const TOLERANCE: f64 = 1e-8;
 
 /// The plain flow in a few steps, and one fit of its straight velocities at a gamma and an alpha in double precision.
@@ -32,7 +32,7 @@ impl FitCase {
 
 impl Input for FitCase {
     fn limits(&self) -> Limits {
-        Limits { solver_residual: Some(TOLERANCE), energy: Some(1.0 + TOLERANCE), ..self.flow.limits() }
+        Limits { solver_error: Some(TOLERANCE), energy: Some(1.0 + TOLERANCE), ..self.flow.limits() }
     }
 
     /// The numbers of the solver are those of the fit; where the photons end, those of the flow.
@@ -50,7 +50,7 @@ impl Input for FitCase {
         let straight: Vec<Vec2> = source.iter().zip(target).map(|(a, b)| *b - *a).collect();
         let (field, fit) = Fitter::new(settings)?.fit(source, &straight, progress)?;
         Ok(Measured {
-            solver_residual: Some(fit.residual),
+            solver_error: Some(fit.error),
             iterations: Some(fit.iterations),
             condition: Some(fit.condition),
             energy: Some(fit_residual(&field, source, &straight)),

@@ -49,7 +49,7 @@ impl Input for FlowCase {
         Limits {
             // The fade hands each photon to b - (1 - t) v, which is b at t = 1.
             endpoint_error: Some(0.0),
-            solver_residual: Some(tolerance),
+            solver_error: Some(tolerance),
             iterations: Some(ITERATIONS),
             // E(u) <= E(0) for the minimiser of E, and so |u - v| <= |v|; the solver stops short of it by its tolerance.
             energy: Some(1.0 + tolerance),
@@ -104,7 +104,7 @@ fn of_report(report: &FlowReport) -> Measured {
     Measured {
         finite: numbers.into_iter().all(f64::is_finite),
         endpoint_error: Some(report.endpoint_error),
-        solver_residual: Some(report.solver_residual),
+        solver_error: Some(report.solver_error),
         iterations: Some(report.solver_iterations),
         condition: Some(report.solver_condition).filter(|condition| *condition > 0.0),
         energy: Some(report.fit_residual),

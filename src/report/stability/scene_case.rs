@@ -39,7 +39,7 @@ pub(super) const FLUX: f64 = 1e-5;
 pub(super) fn limits() -> Limits {
     Limits {
         endpoint_error: Some(0.0),
-        solver_residual: Some(1e-4),
+        solver_error: Some(1e-4),
         iterations: Some(ITERATIONS),
         energy: Some(FLUX),
         ..Limits::FINITE
@@ -164,7 +164,7 @@ fn measure(summary: &Summary) -> Measured {
     if let Some(numbers) = &summary.flow {
         let flow = &numbers.flow;
         measured.endpoint_error = Some(flow.endpoint_error);
-        measured.solver_residual = Some(flow.solver_residual);
+        measured.solver_error = Some(flow.solver_error);
         measured.iterations = Some(flow.solver_iterations);
         measured.condition = Some(flow.solver_condition).filter(|condition| *condition > 0.0);
     }
@@ -181,6 +181,7 @@ fn imbalance(report: &TraceReport) -> f64 {
         balance.blocked,
         balance.absorbed,
         balance.capped,
+        balance.ended,
         balance.direct,
     ]
     .into_iter()

@@ -8,7 +8,6 @@ use glam::Vec2;
 use lightloom_core::flow::field::Grid;
 use lightloom_core::flow::fit::{Assembly, Rows};
 use lightloom_core::math::normal_blocks::Weights;
-use lightloom_core::math::operator::Operator;
 use lightloom_core::math::rng::{Purpose, Stream};
 
 fn main() {
@@ -40,9 +39,7 @@ fn sparse_cholesky(bencher: Bencher, n: usize) {
     let (positions, velocities) = photons();
     let mut assembly = Assembly::new(grid, true);
     assembly.add(Rows { positions: &positions, velocities: &velocities, weight: 1e-5 });
-    let mut operator = Operator::<f64>::zero(assembly.right.layout, 2);
-    operator
-        .set(&assembly.blocks, Weights { psi: 0.5, phi: 0.5, cross: 0.5, alpha: 1e-3, no_penetration: -1.0 });
+    let weights = Weights { psi: 0.5, phi: 0.5, cross: 0.5, alpha: 1e-3, no_penetration: -1.0 };
     let [nx, ny] = grid.nodes();
     let mut triplets = Vec::new();
     for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
@@ -52,7 +49,8 @@ fn sparse_cholesky(bencher: Bencher, n: usize) {
                 let (row, column) = (2 * (y * nx + x) + i, 2 * (to_y.min(ny) * nx + to_x) + k);
                 if to_x < nx && to_y < ny && row >= column {
                     let ridge = if row == column { 1e-9 } else { 0.0 };
-                    triplets.push(Triplet::new(row, column, operator.entry([i, k], x, y, dx, dy) + ridge));
+                    let entry = assembly.blocks.entry(weights, [i, k], [x, y], [dx, dy]);
+                    triplets.push(Triplet::new(row, column, entry + ridge));
                 }
             }
         }

@@ -2,11 +2,11 @@
 //!
 //! Points are sorted by cell; those of a cell are summed into one element matrix, which is then added to the stencils.
 
-use glam::Vec2;
+use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 
 use super::bending::bending;
-use super::cells::SortedPoints;
+use super::cells::{SortedPoints, place};
 use super::element::{Entry, Target, table};
 use super::rows::{NoPenetrationRows, Rows};
 use crate::flow::field::Grid;
@@ -79,15 +79,13 @@ impl Assembly {
     fn add_no_penetration(&self, sum: &mut NoPenetration, position: Vec2, normal: Vec2, weight: f64) {
         let (grid, layout) = (self.grid, sum.diagonal.layout);
         let size = grid.cell_size();
-        let [(column, x), (row, y)] = [0, 1].map(|axis| {
-            let at = (f64::from(position[axis]) / size[axis]).clamp(0.0, grid.cells[axis] as f64);
-            let cell = (at as usize).min(grid.cells[axis] - 1);
-            (cell, at - cell as f64)
-        });
+        // Placed as the isotropic half is: N^T N is their difference along the wall, of which nothing must be left.
+        let ([column, row], [x, y]) = place(grid, position);
+        let (x, y) = (f64::from(x), f64::from(y));
         let (bx, by) = (values(x), values(y));
         let (dx, dy) = (slopes(x).map(|d| d / size[0]), slopes(y).map(|d| d / size[1]));
         let gradient = |row: usize, column: usize| [dx[column] * by[row], bx[column] * dy[row]];
-        let (nx, ny) = (f64::from(normal.x), f64::from(normal.y));
+        let DVec2 { x: nx, y: ny } = normal.as_dvec2().normalize_or_zero();
         let (cos, sin) = (nx * nx - ny * ny, 2.0 * nx * ny);
         for entry in &self.table {
             let [gx, gy] = gradient(entry.row, entry.column);

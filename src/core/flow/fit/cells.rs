@@ -7,6 +7,19 @@ use super::element::{Element, Entry, Point, Target};
 use super::rows::Rows;
 use crate::flow::field::Grid;
 
+/// The cell of a point, and its place there, 0..=1 along x and y. One beyond the border is moved onto it.
+#[inline(always)]
+pub(super) fn place(grid: Grid, p: Vec2) -> ([usize; 2], [f32; 2]) {
+    let locate = |axis: usize| {
+        let cells = grid.cells[axis];
+        let x = (p[axis] * (1.0 / grid.cell_size()[axis]) as f32).clamp(0.0, cells as f32);
+        let cell = (x as usize).min(cells - 1);
+        (cell, x - cell as f32)
+    };
+    let [(column, x), (row, y)] = [0, 1].map(locate);
+    ([column, row], [x, y])
+}
+
 /// The points of some rows, those of a cell side by side.
 #[derive(Default)]
 pub(super) struct SortedPoints {
@@ -20,16 +33,9 @@ impl SortedPoints {
     /// Counting sort by cell.
     pub(super) fn sort(&mut self, grid: Grid, rows: Rows) {
         let [width, height] = grid.cells;
-        let per_plane = grid.cell_size().map(|size| (1.0 / size) as f32);
-        let locate = |x: f32, cells: usize| {
-            let x = x.clamp(0.0, cells as f32);
-            let cell = (x as usize).min(cells - 1);
-            (cell, x - cell as f32)
-        };
-        let place = |p: Vec2| (locate(p.x * per_plane[0], width), locate(p.y * per_plane[1], height));
         self.cells.clear();
         self.cells.par_extend(rows.positions.par_iter().map(|&p| {
-            let ((column, _), (row, _)) = place(p);
+            let ([column, row], _) = place(grid, p);
             (row * width + column) as u32
         }));
         self.starts.clear();
@@ -43,7 +49,7 @@ impl SortedPoints {
         self.points.resize(self.cells.len(), [0.0; 4]);
         // The start of each cell moves to its end, which is the start of the next.
         for ((&cell, &position), &velocity) in self.cells.iter().zip(rows.positions).zip(rows.velocities) {
-            let ((_, x), (_, y)) = place(position);
+            let (_, [x, y]) = place(grid, position);
             let slot = &mut self.starts[cell as usize];
             self.points[*slot as usize] = [x, y, velocity.x, velocity.y];
             *slot += 1;

@@ -50,6 +50,13 @@
 //!
 //! The null space (u does not see constants, nor a linear psi whose velocity a linear phi cancels) is left to conjugate
 //! gradients, which never enter it, and taken out of the result.
+//!
+//! # The solver
+//!
+//! Conjugate gradients stop where the photons' velocities are right, not where the residual is small: beside lines of great
+//! weight that says nothing. Multigrid preconditions them. Where lines, walls or photons outweigh the bending by far, it
+//! solves their nodes exactly on every grid ([`multigrid`](crate::math::multigrid)); that costs, and so begins once a
+//! solve has taken long without. An error above the tolerance is reported, never hidden ([`FitReport::error`]).
 
 mod assembly;
 mod bending;

@@ -19,22 +19,31 @@ pub struct FitSettings {
     pub grid: Grid,
     /// Share of the irrotational part, 0..=1.
     pub gamma: f64,
-    /// Weight of the bending energy, > 0. Features shorter than sqrt(alpha / density) of the plane are smoothed.
+    /// Weight of the bending energy, > 0. Features shorter than sqrt(alpha / density) of the plane are smoothed. Below
+    /// `tolerance` (h / pi)^2, with the narrower side h of a cell, it moves no wave that the grid can hold by more than the
+    /// tolerance: that much is taken at least.
     pub alpha: f64,
     /// Joint or separate.
     pub blend: Blend,
-    /// Relative residual to stop at.
+    /// Error of the velocities to stop at, over the root mean square of those wanted of the photons.
     pub tolerance: f64,
     /// Limit of iterations.
     pub max_iterations: usize,
 }
 
 impl FitSettings {
-    /// Refuses values out of range.
+    /// The settings with the least alpha that tells, unless a value is out of range.
     ///
     /// # Errors
     /// `Value` names the setting.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(super) fn checked(self) -> Result<Self> {
+        self.check()?;
+        let [width, height] = self.grid.cell_size();
+        let least = self.tolerance * (width.min(height) / std::f64::consts::PI).powi(2);
+        Ok(Self { alpha: self.alpha.max(least), ..self })
+    }
+
+    fn check(&self) -> Result<()> {
         let FitSettings { grid, gamma, alpha, tolerance, .. } = *self;
         if !grid.cells.iter().all(|cells| (4..=2048).contains(cells)) {
             return Err(Error::value(

@@ -126,9 +126,8 @@ impl MeetingFields {
     /// A bound on the speed of a photon in step `done` of a half; none where no wall stands.
     pub(super) fn speed_bound(&self, half: usize, done: usize) -> Option<f32> {
         let (_, bound) = self.planned[half].get(done)?;
-        let [begin, middle, end] = self.step_times(half, done).map(|t| {
-            self.noise(t).iter().map(Field::speed_bound).sum::<f32>()
-        });
+        let [begin, middle, end] =
+            self.step_times(half, done).map(|t| self.noise(t).iter().map(Field::speed_bound).sum::<f32>());
         Some(bound + begin.max(middle).max(end))
     }
 

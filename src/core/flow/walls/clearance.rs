@@ -12,6 +12,7 @@ const CELLS: usize = 192;
 /// The distance to the nearest wall all over the plane, between the centres of cells: exact to a fraction of a cell.
 pub(crate) struct Clearance {
     cells: Cells,
+    extent: Vec2,
     distances: Vec<f64>,
 }
 
@@ -20,11 +21,12 @@ impl Clearance {
         let cells = Cells::new(extent, CELLS);
         let distance = |cell: usize| f64::from(barriers.distance(cells.centre(cell)));
         let distances = (0..cells.count()).into_par_iter().map(distance).collect();
-        Self { cells, distances }
+        Self { cells, extent, distances }
     }
 
-    /// The distance from `p` to the nearest wall, plane units.
+    /// The distance from `p` to the nearest wall, plane units; beyond the plane a lower bound.
     pub(crate) fn at(&self, p: Vec2) -> f32 {
-        self.cells.value(&self.distances, p) as f32
+        let within = p.clamp(Vec2::ZERO, self.extent);
+        self.cells.value(&self.distances, within) as f32 - p.distance(within)
     }
 }

@@ -14,7 +14,7 @@ use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{VisibilityGraph, WallPath};
 use crate::flow::fade::ease;
 use crate::flow::guidance::position;
-use crate::flow::step::Step;
+use crate::flow::step::{StageVelocity, Step};
 
 /// Distance from a wall at which the field leaves a photon, plane units: far above rounding, far below a cell.
 const MARGIN: f32 = 1e-5;
@@ -214,8 +214,9 @@ impl Walker<'_> {
         let b = photon.target;
         let length = self.graph.length(path, c, b);
         let (start, step) = (self.step.start, self.step.length);
-        let guided =
-            1.0 - 0.5 * (self.field_share(photon, length, from) + self.field_share(photon, length, to));
+        let fitted = self.step.velocities.as_ref().map(|[begin, ..]| begin.field.velocity(photon.at));
+        let share = |x: f64| self.field_share(photon, (length, fitted.unwrap_or_default()), x);
+        let guided = 1.0 - 0.5 * (share(from) + share(to));
         let left = ((1.0 - start - to * step).max(0.0) / (1.0 - start - from * step)).powf(f64::from(guided));
         let mut distance = length * (1.0 - left as f32);
         while distance > 0.0 {
@@ -236,8 +237,8 @@ impl Walker<'_> {
     }
 
     /// Weight of the field, 1 - s, at the fraction `x` of the step (0, 1/2 or 1) for a photon with `length` of its path
-    /// ahead.
-    fn field_share(&self, photon: &Photon, length: f32, x: f64) -> f32 {
+    /// ahead in a field of velocity `fitted`.
+    fn field_share(&self, photon: &Photon, (length, fitted): (f32, Vec2), x: f64) -> f32 {
         if self.step.velocities.is_none() {
             return 0.0;
         }
@@ -246,15 +247,18 @@ impl Walker<'_> {
         if time_left <= 0.0 {
             return 0.0;
         }
-        self.step.rates[(2.0 * x) as usize] * time_left * ease(length / time_left * photon.inverse_limit)
+        let speed = (length / time_left).max(fitted.length());
+        self.step.rates[(2.0 * x) as usize] * time_left * ease(speed * photon.inverse_limit)
     }
 
     /// The displacement by the field over the step from `c`, by the midpoint method.
     fn drift(&self, photon: &Photon, c: Vec2, length: f32) -> Vec2 {
         let Some([begin, middle, _]) = &self.step.velocities else { return Vec2::ZERO };
-        let h = self.step.length as f32 * self.field_share(photon, length, 0.5);
-        let half = c + 0.5 * h * begin.velocity(c);
-        let drift = h * middle.velocity(half);
+        let moved = |stage: &StageVelocity, p: Vec2| {
+            let ([fitted], [u]) = stage.fitted_and_all([p]);
+            self.step.length as f32 * self.field_share(photon, (length, fitted), 0.5) * u
+        };
+        let drift = moved(middle, c + 0.5 * moved(begin, c));
         if drift.is_finite() { drift } else { Vec2::ZERO }
     }
 }

@@ -1,13 +1,16 @@
 //! The acceleration structure: a bounding volume hierarchy with eight boxes per node and eight triangles per leaf, tested
 //! eight at once (Wald, Benthin, Boulos 2008).
 
+mod blocks;
 mod build;
+mod collapse;
 mod node;
 mod triangle;
 mod wide;
 
 use glam::Vec3;
 
+use collapse::Hierarchy;
 use node::{Child, Node, Stack};
 pub(super) use triangle::Triangle;
 use wide::{Nearest, Triangles, WideRay};
@@ -38,7 +41,7 @@ impl Accel {
         if triangles.is_empty() {
             return Ok(Self { nodes: Vec::new(), leaves: Vec::new(), surfaces: Vec::new() });
         }
-        let (nodes, leaves, order) = build::build(triangles, progress)?;
+        let Hierarchy { nodes, leaves, order } = build::build(triangles, progress)?;
         let surface = |i: &u32| {
             let Triangle { normals, mesh, .. } = triangles[*i as usize];
             ShadingData { normals, mesh }
@@ -80,7 +83,7 @@ impl Accel {
     pub(super) fn occluded(&self, ray: &Ray, distance: f32) -> bool {
         let mut occluded = false;
         self.search(ray, distance, |wide, leaf, limit| {
-            occluded = leaf.intersect(wide, *limit, ray.from.0).0 != 0;
+            occluded = leaf.intersect(wide, *limit, ray.from.0).mask != 0;
             !occluded
         });
         occluded
@@ -89,7 +92,7 @@ impl Accel {
     /// Calls `crossed` for every triangle hit, with its mesh and whether the ray leaves the solid there.
     pub(super) fn each_crossing(&self, ray: &Ray, mut crossed: impl FnMut(u16, bool)) {
         self.search(ray, f32::INFINITY, |wide, leaf, limit| {
-            let (mask, ..) = leaf.intersect(wide, *limit, ray.from.0);
+            let mask = leaf.intersect(wide, *limit, ray.from.0).mask;
             for lane in (0..8).filter(|lane| mask >> lane & 1 != 0) {
                 let (_, edge1, edge2) = leaf.lane(lane);
                 let mesh = self.surfaces[(leaf.first + lane) as usize].mesh;
@@ -97,6 +100,20 @@ impl Accel {
             }
             true
         });
+    }
+
+    /// Calls `each` for every triangle, with its mesh.
+    pub(super) fn each_triangle(&self, each: &mut dyn FnMut(Primitive, u16, &[Vec3; 3])) {
+        for leaf in &self.leaves {
+            // Unused lanes have no edges.
+            for (lane, (corner, edge1, edge2)) in
+                (0..8).map(|lane| (lane, leaf.lane(lane))).filter(|(_, t)| t.1 != Vec3::ZERO)
+            {
+                let index = leaf.first + lane;
+                let corners = [corner, corner + edge1, corner + edge2];
+                each(Primitive(index), self.surfaces[index as usize].mesh, &corners);
+            }
+        }
     }
 
     /// Visits the leaves hit before a limit, near ones first. A visit may lower the limit, and ends the search by

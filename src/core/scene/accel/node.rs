@@ -37,13 +37,6 @@ impl Child {
     pub(super) fn as_leaf(self) -> usize {
         (self.0 & !Self::LEAF) as usize
     }
-
-    /// Offsets the index by the nodes and leaves now before its own.
-    pub(super) fn shift(&mut self, nodes: u32, leaves: u32) {
-        if self.0 != Self::EMPTY.0 {
-            self.0 += if self.as_node().is_some() { nodes } else { leaves };
-        }
-    }
 }
 
 /// The traversal stack: each level leaves at most seven children.
@@ -63,6 +56,12 @@ impl Node {
             return Some(self.children[first]);
         }
         let enter = enter.to_array();
+        let second = mask.trailing_zeros() as usize;
+        if mask & (mask - 1) == 0 {
+            let (near, far) = if enter[first] <= enter[second] { (first, second) } else { (second, first) };
+            stack.push((enter[far], self.children[far]));
+            return Some(self.children[near]);
+        }
         let bottom = stack.len();
         stack.push((enter[first], self.children[first]));
         while mask != 0 {

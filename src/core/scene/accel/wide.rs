@@ -10,6 +10,9 @@ pub(super) struct WideRay {
     origin: [f32x8; 3],
     direction: [f32x8; 3],
     inverse: [f32x8; 3],
+    /// Origin times inverse direction, rounded so that boxes are entered no later and left no earlier.
+    near: [f32x8; 3],
+    far: [f32x8; 3],
     /// Axes along which the direction is negative.
     negative: [bool; 3],
 }
@@ -21,10 +24,16 @@ impl WideRay {
         let inverse = |d: f32| if d.abs() < 1e-18 { 1e18_f32.copysign(d) } else { 1.0 / d };
         let splat = |v: Vec3| [f32x8::splat(v.x), f32x8::splat(v.y), f32x8::splat(v.z)];
         let Vec3 { x, y, z } = ray.direction;
+        let inverses = Vec3::new(inverse(x), inverse(y), inverse(z));
+        let offset = ray.origin * inverses;
+        // The product is off by half a unit in the last place, and so is this sum.
+        let slack = offset.abs() * (2.0 * f32::EPSILON);
         Self {
             origin: splat(ray.origin),
             direction: splat(ray.direction),
-            inverse: splat(Vec3::new(inverse(x), inverse(y), inverse(z))),
+            inverse: splat(inverses),
+            near: splat(offset + slack),
+            far: splat(offset - slack),
             negative: [x.is_sign_negative(), y.is_sign_negative(), z.is_sign_negative()],
         }
     }
@@ -52,12 +61,12 @@ impl Boxes {
         let mut leave = f32x8::splat(limit);
         for axis in 0..3 {
             let down = usize::from(ray.negative[axis]);
-            let at = |side: usize| (self.sides[side][axis] - ray.origin[axis]) * ray.inverse[axis];
-            enter = enter.fast_max(at(down));
-            leave = leave.fast_min(at(1 - down));
+            let at = |side: usize, offset: f32x8| self.sides[side][axis].mul_sub(ray.inverse[axis], offset);
+            enter = enter.fast_max(at(down, ray.near[axis]));
+            leave = leave.fast_min(at(1 - down, ray.far[axis]));
         }
-        // Two roundings in each bound may swap a flat box's sides: three units in the last place make up for them
-        // (Ize 2013).
+        // The roundings of the inverse and of the bounds may swap a flat box's sides: three units in the last place make up
+        // for them (Ize 2013).
         let leave = leave * f32x8::splat(1.0 + 4.0 * f32::EPSILON);
         (enter.simd_le(leave).to_bitmask(), enter)
     }
@@ -81,6 +90,15 @@ pub(super) struct Nearest {
     pub weights: [f32; 2],
 }
 
+/// The triangles that a ray hits.
+pub(super) struct Crossed {
+    /// Bit mask of their lanes.
+    pub mask: u32,
+    /// Distance and weights of the second and third corner, all times the determinant.
+    scaled: [f32x8; 3],
+    determinant: f32x8,
+}
+
 impl Triangles {
     pub(super) fn new(triangles: &[[Vec3; 3]], first: u32) -> Self {
         let column = |pick: &dyn Fn(&[Vec3; 3]) -> Vec3, axis: usize| {
@@ -96,35 +114,37 @@ impl Triangles {
         }
     }
 
-    /// Bit mask of the triangles hit between 0 and `limit`, the distances, and the weights of the second and third corner
-    /// (Moeller & Trumbore 1997). Triangle `skip` is never hit.
+    /// The triangles hit between 0 and `limit` (Moeller & Trumbore 1997). Triangle `skip` is never hit. Most leaves are
+    /// missed: nothing is divided before a hit is sure.
     #[inline(always)]
-    pub(super) fn intersect(&self, ray: &WideRay, limit: f32, skip: u32) -> (u32, f32x8, [f32x8; 2]) {
+    pub(super) fn intersect(&self, ray: &WideRay, limit: f32, skip: u32) -> Crossed {
         let offset =
             [ray.origin[0] - self.corner[0], ray.origin[1] - self.corner[1], ray.origin[2] - self.corner[2]];
         let p = cross(&ray.direction, &self.edge2);
         let q = cross(&offset, &self.edge1);
-        let inverse = f32x8::splat(1.0) / dot(&self.edge1, &p);
-        let u = dot(&offset, &p) * inverse;
-        let v = dot(&ray.direction, &q) * inverse;
-        let t = dot(&self.edge2, &q) * inverse;
+        let signed = dot(&self.edge1, &p);
+        let determinant = signed.abs();
+        let sign = signed ^ determinant;
+        let [t, u, v] = [dot(&self.edge2, &q), dot(&offset, &p), dot(&ray.direction, &q)].map(|x| x ^ sign);
         let zero = f32x8::splat(0.0);
-        // A lane without area has no finite values and compares false.
-        let inside = u.simd_ge(zero) & v.simd_ge(zero) & (u + v).simd_le(f32x8::splat(1.0));
-        let before = t.simd_gt(zero) & t.simd_le(f32x8::splat(limit));
+        let inside = u.simd_ge(zero) & v.simd_ge(zero) & (u + v).simd_le(determinant);
+        // Without area the determinant is 0, and no distance lies above 0 and below.
+        let before = t.simd_gt(zero) & t.simd_le(f32x8::splat(limit) * determinant);
         let mask = (inside & before).to_bitmask();
         let lane = skip.wrapping_sub(self.first);
-        (if lane < 8 { mask & !(1 << lane) } else { mask }, t, [u, v])
+        let mask = if lane < 8 { mask & !(1 << lane) } else { mask };
+        Crossed { mask, scaled: [t, u, v], determinant }
     }
 
     /// The nearest hit.
     #[inline(always)]
     pub(super) fn nearest(&self, ray: &WideRay, limit: f32, skip: u32) -> Option<Nearest> {
-        let (mut mask, t, [u, v]) = self.intersect(ray, limit, skip);
+        let Crossed { mut mask, scaled, determinant } = self.intersect(ray, limit, skip);
         if mask == 0 {
             return None;
         }
-        let t = t.to_array();
+        let inverse = f32x8::splat(1.0) / determinant;
+        let [t, u, v] = scaled.map(|x| (x * inverse).to_array());
         let mut best = mask.trailing_zeros() as usize;
         mask &= mask - 1;
         while mask != 0 {
@@ -132,8 +152,7 @@ impl Triangles {
             mask &= mask - 1;
             best = if t[lane] < t[best] { lane } else { best };
         }
-        let weights = [u.to_array()[best], v.to_array()[best]];
-        Some(Nearest { t: t[best], lane: best as u32, weights })
+        Some(Nearest { t: t[best], lane: best as u32, weights: [u[best], v[best]] })
     }
 
     /// First corner and the two edges from it of one triangle.

@@ -124,6 +124,13 @@ impl LightDesc {
         sphere.centre.distance_squared(sphere.centre.clamp(lower, upper)) <= sphere.radius * sphere.radius
     }
 
+    /// Whether the light is a ball around the box between two corners.
+    pub(crate) fn encloses_box(&self, lower: Vec3, upper: Vec3) -> bool {
+        let Self::Sphere(light) = self else { return false };
+        let Sphere { centre, radius } = light.sphere();
+        (centre - lower).abs().max((centre - upper).abs()).length() <= radius
+    }
+
     /// The illumination of `point` (world), for shadow rays; `u`, uniform in [0, 1)^2, selects the point on area lights.
     /// None where it emits nothing.
     pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {

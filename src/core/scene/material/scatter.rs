@@ -1,8 +1,8 @@
 //! Scattering: the light of a path and where it goes from a surface.
 //!
 //! Solids may overlap, such as wine that reaches a little into its glass: the mesh of higher priority fills the overlap, and
-//! the other's surface within it has no effect (Schmidt & Budge 2002). Meshes should be closed; behind an open sheet the
-//! solid never ends.
+//! the other's surface within it has no effect (Schmidt & Budge 2002). Surfaces that lie in one another are one boundary
+//! (`scene::contact`). Meshes should be closed; behind an open sheet the solid never ends.
 
 use glam::Vec3;
 
@@ -10,7 +10,7 @@ use super::dispersion::sample_wavelength;
 use super::fresnel::{facing_normals, fresnel, reflect, refract};
 use super::{Glass, Material, Mirror};
 use crate::math::rng::Stream;
-use crate::scene::{Hit, Media, Mesh, SurfaceId};
+use crate::scene::{Geometry, Hit, Media, Mesh, SurfaceId};
 
 /// The light carried along a path: flux for a photon, throughput for a camera path.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl Material {
     /// and wavelength of the beam. None for a matt surface, where specular paths end.
     pub fn scatter(
         &self,
-        meshes: &[Mesh],
+        geometry: &Geometry,
         hit: &Hit,
         direction: Vec3,
         beam: &mut Beam,
@@ -51,7 +51,7 @@ impl Material {
         match self {
             Self::Diffuse(_) => None,
             Self::Mirror(mirror) => Some(mirror.scatter(hit, direction, beam)),
-            Self::Glass(glass) => Some(glass.scatter(meshes, hit, direction, beam, rng)),
+            Self::Glass(glass) => Some(glass.scatter(geometry, hit, direction, beam, rng)),
         }
     }
 }
@@ -64,7 +64,7 @@ impl Material {
     /// the fainter would have less than `least` of any colour, one is chosen all the same.
     pub fn split(
         &self,
-        meshes: &[Mesh],
+        geometry: &Geometry,
         hit: &Hit,
         direction: Vec3,
         mut beam: Beam,
@@ -77,7 +77,7 @@ impl Material {
                 let next = mirror.scatter(hit, direction, &mut beam);
                 [Some((next, beam)), None]
             }
-            Self::Glass(glass) => glass.split(meshes, hit, direction, beam, least, rng),
+            Self::Glass(glass) => glass.split(geometry, hit, direction, beam, least, rng),
         }
     }
 }
@@ -94,26 +94,28 @@ impl Mirror {
 impl Glass {
     fn scatter(
         &self,
-        meshes: &[Mesh],
+        geometry: &Geometry,
         hit: &Hit,
         direction: Vec3,
         beam: &mut Beam,
         rng: &mut Stream,
     ) -> Vec3 {
-        let Some(boundary) = self.boundary(meshes, hit, direction, beam, rng) else { return direction };
+        let Some(boundary) = Boundary::met(self, geometry, hit, direction, beam, rng) else {
+            return direction;
+        };
         boundary.cross(hit, direction, rng.f32(), beam)
     }
 
     fn split(
         &self,
-        meshes: &[Mesh],
+        geometry: &Geometry,
         hit: &Hit,
         direction: Vec3,
         mut beam: Beam,
         least: f32,
         rng: &mut Stream,
     ) -> [Option<Way>; 2] {
-        let Some(boundary) = self.boundary(meshes, hit, direction, &mut beam, rng) else {
+        let Some(boundary) = Boundary::met(self, geometry, hit, direction, &mut beam, rng) else {
             return [Some((direction, beam)), None];
         };
         let reflected = boundary.reflectance(hit, direction);
@@ -130,37 +132,6 @@ impl Glass {
         };
         [way(reflected, 1.0 - reflected), way(0.0, reflected)]
     }
-
-    /// The boundary that a ray meets at a hit; none where the glass changes nothing. A beam that meets dispersive glass gets its
-    /// wavelength, one that passes straight on its media.
-    fn boundary(
-        &self,
-        meshes: &[Mesh],
-        hit: &Hit,
-        direction: Vec3,
-        beam: &mut Beam,
-        rng: &mut Stream,
-    ) -> Option<Boundary> {
-        let SurfaceId::Mesh(mesh) = hit.surface else { return None };
-        let entering = direction.dot(hit.geometric_normal) < 0.0;
-        let (mut before, mut after) = (beam.media, beam.media);
-        if entering {
-            after.enter(mesh);
-        } else if !after.leave(mesh) {
-            before.enter(mesh);
-        }
-        if before.filling(meshes) == after.filling(meshes) {
-            beam.media = after;
-            return None;
-        }
-        if self.dispersion.is_some() && beam.wavelength.is_none() {
-            let (nm, colour) = sample_wavelength(beam.weight, rng);
-            beam.weight = colour;
-            beam.wavelength = Some(nm);
-        }
-        let index = |media: &Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
-        Some(Boundary { eta: index(&after) / index(&before), before, after })
-    }
 }
 
 /// A boundary between two media that a ray meets.
@@ -172,6 +143,47 @@ struct Boundary {
 }
 
 impl Boundary {
+    /// The boundary that a ray meets at a hit of `glass`; none where the glass changes nothing. A beam that meets dispersive glass gets its
+    /// wavelength, one that passes straight on its media.
+    fn met(
+        glass: &Glass,
+        geometry: &Geometry,
+        hit: &Hit,
+        direction: Vec3,
+        beam: &mut Beam,
+        rng: &mut Stream,
+    ) -> Option<Self> {
+        let inward = direction.dot(hit.geometric_normal) < 0.0;
+        let (mut before, mut after) = (beam.media, beam.media);
+        match hit.surface {
+            SurfaceId::Mesh(mesh) if inward => after.enter(mesh),
+            SurfaceId::Mesh(mesh) => {
+                if !after.leave(mesh) {
+                    before.enter(mesh);
+                }
+            }
+            other => geometry.cross_contact(other, inward, (&mut before, &mut after)),
+        }
+        let meshes = geometry.meshes();
+        if before.filling(meshes) == after.filling(meshes) {
+            beam.media = after;
+            return None;
+        }
+        let disperses = match hit.surface {
+            SurfaceId::Contact(_) => [&before, &after]
+                .iter()
+                .any(|media| media.glass(meshes).is_some_and(|glass| glass.dispersion.is_some())),
+            _ => glass.dispersion.is_some(),
+        };
+        if disperses && beam.wavelength.is_none() {
+            let (nm, colour) = sample_wavelength(beam.weight, rng);
+            beam.weight = colour;
+            beam.wavelength = Some(nm);
+        }
+        let index = |media: &Media| media.glass(meshes).map_or(1.0, |glass| glass.index(beam.wavelength));
+        Some(Self { eta: index(&after) / index(&before), before, after })
+    }
+
     /// The reflectance by the shading normal: the share of choices for which a ray is reflected, silhouettes apart.
     fn reflectance(&self, hit: &Hit, direction: Vec3) -> f32 {
         let (_, shading) = facing_normals(hit, direction);

@@ -1,55 +1,137 @@
-//! Clean-up of faces: equal vertices welded, degenerate faces dropped, glass wound outward; notes count what remains.
+//! Clean-up of faces: equal vertices welded, degenerate and doubled faces dropped, glass wound outward; notes count what
+//! remains.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::normals::{self, cross};
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
+use super::shells::{Sides, inward};
 use crate::scene::accel::Triangle;
 use crate::scene::material::Material;
 
-/// The triangles of one material.
+/// The triangles of one material, and for each its shell, numbered from 0.
 pub(super) fn triangles(
-    file: &ObjFile,
-    faces: &[&Face],
+    group: &Group,
     smooth: bool,
-    material: &Material,
-    name: &str,
+    (material, name): (&Material, &str),
     notes: &mut Vec<String>,
-) -> Vec<Triangle> {
-    let welded = weld(&file.positions);
-    let mut kept: Vec<Face> = faces.iter().map(|face| **face).filter(|face| has_area(file, face)).collect();
+) -> (Vec<Triangle>, Vec<u32>) {
+    let welded = weld(&group.positions);
+    let mut kept: Vec<Face> = group.faces.iter().copied().filter(|face| has_area(group, face)).collect();
     let mut note = |count: usize, what: &str| {
         if count > 0 {
             notes.push(format!("{name}: {count} {what}"));
         }
     };
-    note(faces.len() - kept.len(), "triangles without area were dropped");
-    note(file.polygons, "polygons of more than 4 corners were split into fans; concave ones may fold");
-    let vertices: Vec<[u32; 3]> = kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect();
-    if matches!(material, Material::Glass(_)) {
-        let edges = Edges::count(&vertices);
+    note(group.faces.len() - kept.len(), "triangles without area were dropped");
+    note(group.crossed, "polygons cross themselves or have thousands of corners; split them into triangles");
+    let is_glass = matches!(material, Material::Glass(_));
+    let vertices = |kept: &[Face]| -> Vec<[u32; 3]> {
+        kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect()
+    };
+    let doubled = Doubled::of(&vertices(&kept));
+    note(kept.len() - doubled.once.len(), "faces stand twice; one of each was kept");
+    if kept.len() > doubled.once.len() {
+        kept = doubled.once.iter().map(|face| kept[*face as usize]).collect();
+    }
+    if is_glass && doubled.both_sides.contains(&true) {
+        let walls = inner_walls(&vertices(&kept), &doubled.both_sides);
+        note(walls.iter().filter(|is| **is).count(), "faces between parts of the same glass were dropped");
+        let mut is_wall = walls.into_iter();
+        kept.retain(|_| !is_wall.next().unwrap_or(false));
+    }
+    let sides = Sides::new(&vertices(&kept));
+    let shells = sides.shells(kept.len(), false);
+    if is_glass {
+        let corners: Vec<[DVec3; 3]> = kept
+            .par_iter()
+            .map(|face| face.vertices.map(|v| group.positions[v as usize].as_dvec3()))
+            .collect();
+        let inward = inward(&sides, &shells, &corners);
+        let turned = inward.iter().filter(|is| **is).count();
+        kept.iter_mut().zip(inward).filter(|(_, is)| *is).for_each(|(face, _)| flip(face));
+        if turned == kept.len() {
+            note(turned, "triangles faced inward; the mesh was turned inside out");
+        } else {
+            let what =
+                format!("of {} triangles faced inward, as after mirroring, and were turned", kept.len());
+            note(turned, &what);
+        }
+        let (open, inconsistent) = Sides::new(&vertices(&kept)).faulty();
         note(
-            edges.open,
+            open,
             "open edges: this glass has no inside, so refraction through it is a guess; close the mesh",
         );
         note(
-            edges.inconsistent,
+            inconsistent,
             "edges whose two faces are wound against each other; recalculate the normals outside",
         );
-        if edges.open + edges.inconsistent == 0 && volume(file, &kept) < 0.0 {
-            kept.iter_mut().for_each(flip);
-            note(kept.len(), "triangles faced inward; the mesh was turned inside out");
-        }
     }
-    let (triangles, turned) = normals::shade(file, &kept, &welded, smooth);
+    let (triangles, turned) = normals::shade(group, &kept, &compact(vertices(&kept)), smooth);
     note(turned, "corner normals pointed against their face and were turned");
-    triangles
+    (triangles, shells)
+}
+
+/// Faces of the same three vertices.
+struct Doubled {
+    /// The first face of each three vertices, ascending.
+    once: Vec<u32>,
+    /// For each of them, whether there are faces of both windings.
+    both_sides: Vec<bool>,
+}
+
+impl Doubled {
+    fn of(faces: &[[u32; 3]]) -> Self {
+        // From the lowest vertex on, then whether the winding is that of ascending vertices.
+        let key = |face: u32| {
+            let [a, b, c] = faces[face as usize];
+            let [a, b, c] = if a < b && a < c {
+                [a, b, c]
+            } else if b < c {
+                [b, c, a]
+            } else {
+                [c, a, b]
+            };
+            ([a, b.min(c), b.max(c)], b < c)
+        };
+        let mut order: Vec<u32> = (0..faces.len() as u32).collect();
+        order.par_sort_unstable_by_key(|face| (key(*face).0, *face));
+        let groups = order.chunk_by(|a, b| key(*a).0 == key(*b).0);
+        let mut once: Vec<(u32, bool)> = groups
+            .map(|group| (group[0], group.iter().any(|face| key(*face).1 != key(group[0]).1)))
+            .collect();
+        once.sort_unstable();
+        let (once, both_sides) = once.into_iter().unzip();
+        Self { once, both_sides }
+    }
+}
+
+/// Of faces that stood there with both windings, those between two parts that are closed without them; the others are the two
+/// sides of one skin.
+fn inner_walls(faces: &[[u32; 3]], both_sides: &[bool]) -> Vec<bool> {
+    let sides = Sides::new(faces);
+    let shells = sides.shells(faces.len(), true);
+    let mut are_walls = sides.closed(&shells, |face| !both_sides[face as usize]);
+    let mut has_skin = vec![false; are_walls.len()];
+    shells.iter().zip(both_sides).for_each(|(shell, both)| has_skin[*shell as usize] |= !both);
+    are_walls.iter_mut().zip(has_skin).for_each(|(are, skin)| *are &= skin);
+    shells.iter().zip(both_sides).map(|(shell, both)| *both && are_walls[*shell as usize]).collect()
+}
+
+/// The same vertices, numbered without gaps.
+fn compact(mut faces: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    let mut used: Vec<u32> = faces.iter().flatten().copied().collect();
+    used.par_sort_unstable();
+    used.dedup();
+    let number = |v: u32| used.binary_search(&v).map_or(0, |at| at as u32);
+    faces.par_iter_mut().for_each(|face| *face = face.map(number));
+    faces
 }
 
 /// Whether a face has an area that f32 can tell from 0.
-fn has_area(file: &ObjFile, face: &Face) -> bool {
-    let [a, b, c] = face.vertices.map(|v| file.positions[v as usize]);
+fn has_area(group: &Group, face: &Face) -> bool {
+    let [a, b, c] = face.vertices.map(|v| group.positions[v as usize]);
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     let area = cross([a, b, c]).length();
     // A squared length below the smallest normal number has lost its digits.
@@ -76,46 +158,4 @@ fn weld(positions: &[Vec3]) -> Vec<u32> {
         welded[*index as usize] = first;
     }
     welded
-}
-
-/// Counts of faulty edges.
-struct Edges {
-    /// Edges with an odd number of faces.
-    open: usize,
-    /// Edges that both faces traverse in the same direction.
-    inconsistent: usize,
-}
-
-impl Edges {
-    fn count(faces: &[[u32; 3]]) -> Self {
-        let mut edges: Vec<(u32, u32, i8)> = faces
-            .par_iter()
-            .flat_map_iter(|[a, b, c]| [(*a, *b), (*b, *c), (*c, *a)])
-            .map(|(from, to)| if from < to { (from, to, 1) } else { (to, from, -1) })
-            .collect();
-        edges.par_sort_unstable();
-        let mut count = Self { open: 0, inconsistent: 0 };
-        for sides in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let turns: i32 = sides.iter().map(|side| i32::from(side.2)).sum();
-            match (turns, sides.len() % 2) {
-                (0, _) => (),
-                (_, 1) => count.open += 1,
-                _ => count.inconsistent += 1,
-            }
-        }
-        count
-    }
-}
-
-/// Six times the enclosed volume; negative if the faces are wound inward.
-fn volume(file: &ObjFile, faces: &[Face]) -> f64 {
-    let origin =
-        faces.first().map_or(DVec3::ZERO, |face| file.positions[face.vertices[0] as usize].as_dvec3());
-    faces
-        .iter()
-        .map(|face| {
-            let [a, b, c] = face.vertices.map(|v| file.positions[v as usize].as_dvec3() - origin);
-            a.dot(b.cross(c))
-        })
-        .sum()
 }

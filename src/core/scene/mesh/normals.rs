@@ -4,7 +4,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::obj::{Face, NONE, ObjFile};
+use super::obj::{Face, Group, NONE};
 use crate::scene::accel::Triangle;
 
 /// Crease angle: cosine of the angle between faces above which an edge is sharp, 50 degrees.
@@ -13,27 +13,36 @@ const CREASE: f32 = 0.642_787_6;
 const MANY: usize = 64;
 
 /// Triangles with their corner normals, and how many of the file's normals were turned to the side of their face.
-pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool) -> (Vec<Triangle>, usize) {
+/// `vertices` are the welded vertices of the faces, numbered without gaps.
+pub(super) fn shade(
+    group: &Group,
+    faces: &[Face],
+    vertices: &[[u32; 3]],
+    smooth: bool,
+) -> (Vec<Triangle>, usize) {
     let corners: Vec<[Vec3; 3]> =
-        faces.par_iter().map(|face| face.vertices.map(|v| file.positions[v as usize])).collect();
-    let own = |face: &Face| {
-        let normals = face.normals.map(|n| if n == NONE { Vec3::ZERO } else { file.normals[n as usize] });
-        let normals = normals.map(Vec3::normalize_or_zero);
-        (smooth && !normals.contains(&Vec3::ZERO)).then_some(normals)
+        faces.par_iter().map(|face| face.vertices.map(|v| group.positions[v as usize])).collect();
+    // That of the file, where it has a length.
+    let own = |normal: u32| {
+        let given = if smooth && normal != NONE { group.normals[normal as usize] } else { Vec3::ZERO };
+        given.try_normalize()
     };
-    let averages = (smooth && faces.par_iter().any(|face| own(face).is_none()))
-        .then(|| Averages::new(faces, welded, &corners));
+    let averages = (smooth && faces.par_iter().any(|face| face.normals.iter().any(|n| own(*n).is_none())))
+        .then(|| Averages::new(vertices, &corners));
     let (triangles, turned): (Vec<Triangle>, Vec<usize>) = (0..faces.len())
         .into_par_iter()
         .map(|i| {
             let flat = cross(corners[i]).normalize();
-            let given = own(&faces[i]);
-            let turned = given.map_or(0, |normals| normals.iter().filter(|n| n.dot(flat) < 0.0).count());
-            let normals = match (given, &averages) {
-                (Some(normals), _) => normals.map(|n| if n.dot(flat) < 0.0 { -n } else { n }),
-                (None, Some(averages)) => [0, 1, 2].map(|corner| averages.at(i, corner, flat)),
-                (None, None) => [flat; 3],
-            };
+            let mut turned = 0;
+            let normals = [0, 1, 2].map(|corner| match (own(faces[i].normals[corner]), &averages) {
+                (Some(normal), _) if normal.dot(flat) < 0.0 => {
+                    turned += 1;
+                    -normal
+                }
+                (Some(normal), _) => normal,
+                (None, Some(averages)) => averages.at(i, corner, flat),
+                (None, None) => flat,
+            });
             (Triangle { corners: corners[i], normals, mesh: 0 }, turned)
         })
         .unzip();
@@ -42,8 +51,8 @@ pub(super) fn shade(file: &ObjFile, faces: &[Face], welded: &[u32], smooth: bool
 
 /// The corners around each vertex.
 struct Averages<'a> {
-    faces: &'a [Face],
-    welded: &'a [u32],
+    /// Vertices of each face.
+    vertices: &'a [[u32; 3]],
     /// Unit normal of each face.
     flat: Vec<Vec3>,
     /// Angle of each corner of each face.
@@ -56,29 +65,29 @@ struct Averages<'a> {
 }
 
 impl<'a> Averages<'a> {
-    fn new(faces: &'a [Face], welded: &'a [u32], corners: &[[Vec3; 3]]) -> Self {
-        let mut start = vec![0_u32; welded.len() + 1];
-        let vertices = || faces.iter().flat_map(|face| face.vertices.map(|v| welded[v as usize] as usize));
-        vertices().for_each(|v| start[v + 1] += 1);
-        for v in 0..welded.len() {
+    fn new(vertices: &'a [[u32; 3]], corners: &[[Vec3; 3]]) -> Self {
+        let all = || vertices.iter().flatten().map(|v| *v as usize);
+        let count = all().max().map_or(0, |last| last + 1);
+        let mut start = vec![0_u32; count + 1];
+        all().for_each(|v| start[v + 1] += 1);
+        for v in 0..count {
             start[v + 1] += start[v];
         }
         let mut next = start.clone();
-        let mut sorted = vec![0_u32; faces.len() * 3];
-        for (corner, v) in vertices().enumerate() {
+        let mut sorted = vec![0_u32; vertices.len() * 3];
+        for (corner, v) in all().enumerate() {
             sorted[next[v] as usize] = corner as u32;
             next[v] += 1;
         }
         let mut averages = Self {
-            faces,
-            welded,
+            vertices,
             flat: corners.par_iter().map(|c| cross(*c).normalize()).collect(),
             angles: corners.par_iter().map(angles).collect(),
             corners: sorted,
             start,
             shared: Vec::new(),
         };
-        averages.shared = (0..welded.len())
+        averages.shared = (0..count)
             .filter(|v| averages.around(*v).len() > MANY)
             .map(|v| (v as u32, averages.sum(averages.around(v), |_| true)))
             .collect();
@@ -101,7 +110,7 @@ impl<'a> Averages<'a> {
     }
 
     fn at(&self, face: usize, corner: usize, flat: Vec3) -> Vec3 {
-        let vertex = self.welded[self.faces[face].vertices[corner] as usize] as usize;
+        let vertex = self.vertices[face][corner] as usize;
         let around = self.around(vertex);
         let shared = self.shared.binary_search_by_key(&(vertex as u32), |(v, _)| *v);
         let sum = match shared {

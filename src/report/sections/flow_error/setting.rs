@@ -13,7 +13,7 @@ pub(super) struct Setting {
     pub(super) cells: [u32; 2],
     /// Guide photons.
     pub(super) guides: u32,
-    /// Relative residual at which the solver stops.
+    /// Error of the velocities at which the solver stops.
     pub(super) tolerance: f32,
 }
 

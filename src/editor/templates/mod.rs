@@ -1,5 +1,7 @@
 //! The example projects that serve as templates.
 
+mod embedded;
+
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -7,6 +9,7 @@ use lightloom_core::Result;
 use lightloom_core::project::Project;
 
 use super::document::Document;
+use super::store::Folders;
 
 /// A template.
 #[derive(Clone, Copy, Debug)]
@@ -23,12 +26,18 @@ pub struct Template {
 
 macro_rules! picture {
     ($name:literal) => {
-        include_bytes!(concat!("../../assets/templates/", $name, ".png"))
+        include_bytes!(concat!("../../../assets/templates/", $name, ".png"))
     };
 }
 
 /// All templates; a first start shows the first one.
 pub const TEMPLATES: [Template; 6] = [
+    Template {
+        name: "Dark glass",
+        line: "The caustic of a glass of wine turns into a flower.",
+        file: "dark_glass.json",
+        picture: picture!("dark_glass"),
+    },
     Template {
         name: "Letters, free",
         line: "One letter becomes another on a bare plane: the fastest example.",
@@ -40,12 +49,6 @@ pub const TEMPLATES: [Template; 6] = [
         line: "The same with drawn lines and walls.",
         file: "letters.json",
         picture: picture!("letters"),
-    },
-    Template {
-        name: "Dark glass",
-        line: "The caustic of a glass of wine turns into a flower.",
-        file: "dark_glass.json",
-        picture: picture!("dark_glass"),
     },
     Template {
         name: "Bottles",
@@ -67,19 +70,19 @@ pub const TEMPLATES: [Template; 6] = [
     },
 ];
 
-/// The folder of the templates: beside the program, in the current folder, or where the program was built. Their meshes and
-/// pictures are in the sibling folder `assets`.
+/// The folder of the templates: beside the program, in the current folder, or unpacked from the program into the user's own.
+/// Their meshes and pictures are in the sibling folder `assets`. None where there is none and none can be written.
 pub fn folder() -> Option<&'static Path> {
     static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
     let find = || {
         let program = std::env::current_exe().ok();
         let beside = program.as_deref().and_then(Path::parent);
         let installed = beside.map(|bin| bin.join("../share/lightloom/projects"));
-        [beside.map(|bin| bin.join("projects")), installed]
+        [beside.map(|bin| bin.join("projects")), installed, Some(PathBuf::from("projects"))]
             .into_iter()
             .flatten()
-            .chain([PathBuf::from("projects"), Path::new(env!("CARGO_MANIFEST_DIR")).join("projects")])
             .find(|folder| folder.join(TEMPLATES[0].file).is_file())
+            .or_else(|| embedded::unpack(&Folders::of_user()?.examples()).ok())
             .and_then(|folder| folder.canonicalize().ok())
     };
     FOLDER.get_or_init(find).as_deref()
@@ -91,8 +94,7 @@ pub fn folder() -> Option<&'static Path> {
 /// The templates are not installed, or the file is invalid.
 pub fn load(template: &Template) -> Result<Project> {
     let Some(folder) = folder() else {
-        let what =
-            "the folder 'projects' of the examples is neither beside the program nor in the current folder";
+        let what = "the examples are not beside the program, and cannot be written into your folder";
         return Err(lightloom_core::Error::value(template.name, what));
     };
     Project::load(&folder.join(template.file))

@@ -1,0 +1,45 @@
+//! Notes on scenes in which something is as nobody means it.
+
+use crate::render::{ReceiverView, RenderSettings, receiver_view};
+use crate::scene::light::LightRole;
+use crate::scene::{LightDesc, Mesh, Scene};
+
+/// Notes on a camera that sees no light, and on lamps around what they shall light.
+pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<String> {
+    let mut notes: Vec<String> = camera_note(scene, render).into_iter().collect();
+    let lamps = scene.lights().iter().filter(|light| light.role() != LightRole::Background);
+    let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
+    notes.extend(lamps.flat_map(|light| specular().filter_map(move |mesh| lamp_note(light, mesh))));
+    notes
+}
+
+fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<String> {
+    let why = match receiver_view(scene, [render.width as usize, render.height as usize]) {
+        ReceiverView::Seen => return None,
+        ReceiverView::Back => {
+            "it stands behind the receiver, whose back no light reaches; move scene.camera.position \
+             to the lit side, or turn the receiver"
+                .to_owned()
+        }
+        ReceiverView::Outside => {
+            let receiver = scene.receiver();
+            let [x, y, z] = receiver.world_from_plane(receiver.extent() / 2.0).to_array();
+            format!("it looks elsewhere; set scene.camera.look_at to the receiver's middle ({x}, {y}, {z})")
+        }
+        ReceiverView::Hidden(mesh) => {
+            format!("'{}' stands before it", scene.meshes()[usize::from(mesh)].name)
+        }
+    };
+    Some(format!("the camera sees nothing of the receiver, so every frame is without caustics: {why}"))
+}
+
+/// A ball of light shines outward: what stands in it gets none of its light.
+fn lamp_note(light: &LightDesc, mesh: &Mesh) -> Option<String> {
+    light.encloses_box(mesh.lower, mesh.upper).then(|| {
+        format!(
+            "'{}' stands inside the ball lamp '{}', which shines outward only; make the lamp smaller, or move it away",
+            mesh.name,
+            light.name()
+        )
+    })
+}

@@ -1,0 +1,98 @@
+//! A mesh file and its placement, as saved.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::material::Material;
+use crate::setting::schema::Describe;
+use crate::setting::{Setting, settings};
+use crate::{Error, Result};
+
+/// One mesh file placed in the scene, as saved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS), transform = Describe(Material::KIND))]
+pub struct MeshDesc {
+    /// Its name.
+    pub name: String,
+    /// An OBJ file, relative to the project's folder.
+    pub file: String,
+    /// Material of the whole file; none: one object for each material of the file's MTL.
+    #[serde(default)]
+    pub material: Option<Material>,
+    /// Placement in the scene. Default: as in the file, in metres.
+    #[serde(default)]
+    pub transform: Transform,
+    /// Smooth shading ([`Self::SMOOTH`]).
+    #[serde(default = "smooth")]
+    pub smooth: bool,
+    /// Precedence where solids overlap ([`Self::PRIORITY`]).
+    #[serde(default)]
+    pub priority: i32,
+}
+
+settings! { MeshDesc {
+    /// Name of the mesh in the list of caustics; each name once.
+    NAME = Setting::text("scene.meshes[].name");
+    /// An OBJ file, relative to the project.
+    FILE = Setting::part("scene.meshes[].file");
+    /// Smooth shading by the file's normals, or else over edges of less than 50 degrees; off for facets, as of a gem.
+    SMOOTH = Setting::switch("scene.meshes[].smooth", true);
+    /// Where solids of glass overlap, as wine and its glass do, the higher priority fills the place; among equals the
+    /// later in the list.
+    PRIORITY = Setting::whole("scene.meshes[].priority", [-1000.0, 1000.0], &[0.0]);
+} }
+
+fn smooth() -> bool {
+    MeshDesc::SMOOTH.is_on()
+}
+
+/// Placement: scaled, then turned, then moved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(transform = Describe(Self::SETTINGS))]
+pub struct Transform {
+    /// Where the file's origin comes to lie (m).
+    pub translate: [f64; 3],
+    /// Turn about the X, then Y, then Z axis, degrees.
+    pub rotate: [f32; 3],
+    /// Factor on the file's units.
+    pub scale: f32,
+}
+
+settings! { Transform {
+    /// Where the file's origin comes to lie, x y z; y is up.
+    TRANSLATE = Setting::vector("scene.meshes[].transform.translate", [-1e8, 1e8], &[0.0; 3]).unit("m");
+    /// Turn about the x, then y, then z axis.
+    ROTATE = Setting::vector("scene.meshes[].transform.rotate", [-36_000.0, 36_000.0], &[0.0; 3]).unit("°");
+    /// Factor on the file's units: 0.001 for a file in millimetres.
+    SCALE = Setting::real("scene.meshes[].transform.scale", [1e-12, 1e12], &[1.0]);
+} }
+
+impl Default for Transform {
+    fn default() -> Self {
+        Self { translate: Self::TRANSLATE.value(), rotate: Self::ROTATE.value(), scale: Self::SCALE.value() }
+    }
+}
+
+impl Transform {
+    fn check(&self, place: &str) -> Result<()> {
+        Self::TRANSLATE.check(self.translate, place)?;
+        Self::ROTATE.check(self.rotate, place)?;
+        Self::SCALE.check(self.scale, place)
+    }
+}
+
+impl MeshDesc {
+    /// Refuses values out of range, naming `place.field`.
+    pub fn check(&self, place: &str) -> Result<()> {
+        if self.file.is_empty() {
+            return Err(Error::value(format!("{place}.file"), "is empty: name an OBJ file"));
+        }
+        Self::PRIORITY.check(self.priority, place)?;
+        if let Some(material) = &self.material {
+            material.check(&format!("{place}.material"))?;
+        }
+        self.transform.check(&format!("{place}.transform"))
+    }
+}
