@@ -282,8 +282,14 @@ def receiver_desc(frame, albedo):
 # ----------------------------------------------------------------------------------------------- lamps and camera
 
 
-def light_of(obj, notes):
-    """A lamp, in Lightloom's terms; none where there is no such kind."""
+def softened(lamp, distance):
+    """The share of its light that a lamp with soft falloff has at a distance: Cycles draws it as a disk that faces the point."""
+    radius = lamp.shadow_soft_size if getattr(lamp, "use_soft_falloff", False) else 0.0
+    return distance**2 / (distance**2 + radius**2) if radius > 0 else 1.0
+
+
+def light_of(obj, receiver, notes):
+    """A lamp in Lightloom's terms; `receiver` is the middle of the plane, for which a soft falloff is right."""
     lamp, matrix = obj.data, obj.matrix_world
     position, ahead = matrix.translation, -matrix.col[2].xyz.normalized()
     colour = Vector(lamp.color)
@@ -305,6 +311,8 @@ def light_of(obj, notes):
         return {"type": "directional", **light, "irradiance": power, "direction": y_up(ahead), "angle_deg": math.degrees(lamp.angle)}
     if not getattr(lamp, "normalize", True):
         note("its power is taken as that of the whole lamp ('Normalize' is off)")
+    if lamp.type in ("POINT", "SPOT"):
+        power *= softened(lamp, (position - receiver).length)
     if lamp.type == "POINT":
         if lamp.shadow_soft_size > 0:
             return {"type": "sphere", **light, "watts": power, "position": placed["position"], "radius": lamp.shadow_soft_size}
@@ -460,7 +468,7 @@ def export(context, path):
     os.makedirs(os.path.join(folder, assets), exist_ok=True)
     described = {
         "meshes": meshes_of(depsgraph, receiver, folder, assets, notes),
-        "lights": [light_of(o, notes) for o in objects if o.type == "LIGHT"],
+        "lights": [light_of(o, frame[0], notes) for o in objects if o.type == "LIGHT"],
         "camera": camera_of(scene.camera, scene, notes),
         "receiver": receiver_desc(frame, matt.get("albedo", [0.8] * 3)),
     }

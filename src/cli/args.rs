@@ -71,8 +71,8 @@ pub(crate) struct PhotonsArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// usda: one file with a sample for each frame; ply: a file for each frame.
-    #[arg(long = "as", value_name = "FORMAT", default_value = "usda")]
-    pub(crate) format: String,
+    #[arg(long = "as", value_name = "KIND", default_value = "usda")]
+    pub(crate) kind: String,
 }
 
 #[derive(Args)]

@@ -10,10 +10,10 @@ use super::job;
 const PHOTONS: u64 = 20_000;
 
 pub(super) fn run(args: &PhotonsArgs) -> Result<u8> {
-    let format = PhotonFormat::ALL.into_iter().find(|format| format.extension() == args.format.trim());
+    let format = PhotonFormat::ALL.into_iter().find(|format| format.extension() == args.kind.trim());
     let format = format.ok_or_else(|| {
         let names = PhotonFormat::ALL.map(PhotonFormat::extension).join(" or ");
-        Error::value("--as", format!("'{}' is not offered; give {names}", args.format))
+        Error::value("--as", format!("'{}' is not offered; give {names}", args.kind))
     })?;
     job::run(&args.project, &args.out, |engine, project, progress, saved| {
         let mut project = project.clone();

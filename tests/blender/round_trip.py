@@ -27,7 +27,10 @@ import lightloom  # noqa: E402
 # Markers register within a tenth of a pixel, light within one per cent.
 PIXELS, LIGHT = 0.1, 0.01
 # Light through glass: what is left of Cycles' noise at these samples, two standard deviations.
-CAUSTIC = 0.03
+CAUSTIC = 0.02
+
+# The picture without caustics; the few photons are not looked at.
+BACKGROUND = ["--layers", "background", "--photons", "10000", "--passes", "1"]
 
 failures = []
 
@@ -190,11 +193,14 @@ def markers(program, folder):
         camera.shift_x, camera.shift_y = shift
         # A wide view, so that the markers stay in every shifted picture.
         look_at(scene.camera, (0.4, -2.4, 1.5), (0, 0, 0.05))
+        # Something that casts a caustic, in the light of a lamp too faint to matter.
+        ball("glass", 0.01, (0.2, 0.1, 0.02), glass("glass"))
+        lamp(scene, "POINT", (0.2, 0.1, 1.0), energy=1e-4, shadow_soft_size=0.0)
         white = matt("marker", 0.9)
         for place in MARKERS:
             ball("marker", 0.02, place, white)
         path, _, _ = exported(folder)
-        ours = channels(rendered(program, path, folder, "--layers", "background"), "background.")
+        ours = channels(rendered(program, path, folder, *BACKGROUND), "background.")
         theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 96)
         worst, seen = 0.0, 0
         for place in MARKERS:
@@ -229,7 +235,8 @@ def worst_light(scene, ours, theirs, places, reach=4, quiet=True):
 def lamps(program, folder):
     kinds = [
         ("point", "POINT", (0.3, 0.2, 1.0), {"energy": 20.0, "shadow_soft_size": 0.0}),
-        ("point of 0.1 m", "POINT", (0.3, 0.2, 1.0), {"energy": 20.0, "shadow_soft_size": 0.1}),
+        ("point of 0.1 m with soft falloff", "POINT", (0.3, 0.2, 1.0), {"energy": 20.0, "shadow_soft_size": 0.1}),
+        ("point of 0.1 m, a sphere", "POINT", (0.3, 0.2, 1.0), {"energy": 20.0, "shadow_soft_size": 0.1, "use_soft_falloff": False}),
         ("spot", "SPOT", (-0.5, 0.3, 1.1), {"energy": 60.0, "spot_size": math.radians(60), "spot_blend": 0.6, "shadow_soft_size": 0.0}),
         ("area", "AREA", (-0.6, -0.4, 0.9), {"energy": 8.0, "shape": "RECTANGLE", "size": 0.5, "size_y": 0.2}),
         ("area straight down", "AREA", (0.1, 0.1, 0.7), {"energy": 8.0, "shape": "RECTANGLE", "size": 0.5, "size_y": 0.2}),
@@ -240,12 +247,12 @@ def lamps(program, folder):
         scene = empty_scene(320, 180)
         target = (place[0], place[1], 0) if "down" in name else (0, 0, 0)
         lamp(scene, kind, place, target, **values)
-        ball("glass", 0.01, (1.2, 0.7, 0.2), glass("glass"))
+        # Something that casts a caustic, beside the five places.
+        ball("glass", 0.01, (0.12, 0.12, 0.02), glass("glass"))
         path, _, _ = exported(folder)
-        more = ["--layers", "background"]
-        ours = channels(rendered(program, path, folder, *more), "background.")
-        theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 128)
-        verdict(f"light at five places, {name}", worst_light(scene, ours, theirs, PLACES), LIGHT)
+        ours = channels(rendered(program, path, folder, *BACKGROUND), "background.")
+        theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 512)
+        verdict(f"light at five places, {name}", worst_light(scene, ours, theirs, PLACES, quiet=False), LIGHT)
 
 
 def caustic(program, folder):
@@ -253,31 +260,16 @@ def caustic(program, folder):
     scene = empty_scene(160, 90)
     lamp(scene, "AREA", (-0.7, 0.2, 0.8), (0, 0, 0.15), energy=30.0, shape="SQUARE", size=0.35)
     ball("glass", 0.15, (0, 0, 0.2), glass("glass", 1.45))
-    path, project, _ = exported(folder)
-    ours = rendered(program, path, folder, "--layers", "beauty,caustic,plane", "--passes", "8")
+    path, _, _ = exported(folder)
+    ours = channels(rendered(program, path, folder, "--layers", "beauty"))
     theirs = cycles(scene, os.path.join(folder, "cycles.exr"), 3000)
-    # In the focus, its flanks, the shadow beside it, and the open table.
-    places = [(0.17, -0.05, 0), (0.24, -0.07, 0), (0.2, 0.05, 0), (0.3, 0.02, 0), (-0.3, -0.3, 0)]
-    worst = worst_light(scene, channels(ours), theirs, places, reach=2, quiet=False)
+    # The focus, its flank, and the table around.
+    places = [(0.21, -0.055, 0), (0.31, -0.08, 0), (-0.3, -0.3, 0), (0.1, -0.4, 0), (-0.35, 0.1, 0)]
+    worst = worst_light(scene, ours, theirs, places, quiet=False)
     verdict("light at five places, a ball of glass before a panel", worst, CAUSTIC)
-    on_plane(scene, ours, project)
-
-
-def on_plane(scene, frame, project):
-    """The texture of the plane against the caustic through the camera: radiance = irradiance times albedo / pi."""
-    light = channels(frame.replace("scene.", "scene_plane."))
-    seen = channels(frame, "caustic.")
-    receiver = project["scene"]["receiver"]
-    centre, size = receiver["centre"], receiver["size"]
-    ratios = []
-    for place in [(0.17, -0.05, 0), (0.24, -0.07, 0), (0.2, 0.05, 0)]:
-        u = (place[0] - centre[0]) / size[0] + 0.5
-        v = (place[1] + centre[2]) / size[1] + 0.5
-        at = np.array([u * light.shape[1], (1 - v) * light.shape[0]])
-        reach = max(int(round(0.02 / size[0] * light.shape[1])), 1)
-        ratios.append(box(light, at, reach) * receiver["albedo"][0] / math.pi / box(seen, pixel_of(scene, place), 2))
-    # The boxes are not quite the same: a square on the plane is none in the picture.
-    verdict("light of the plane's texture at three places", max(float(np.abs(r - 1).max()) for r in ratios), 0.05)
+    # All light that the ball sends to the table, and its shadow.
+    around = (slice(38, 70), slice(75, 140))
+    verdict("all light behind the ball", abs(ours[around].mean() / theirs[around].mean() - 1), LIGHT)
 
 
 def layer(program, folder):
