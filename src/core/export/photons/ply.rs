@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{DrawnLine, PhotonFrame};
+use super::sequence::{DrawnLine, PhotonFrame};
 use crate::Result;
 use crate::files::write_atomic;
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
-use super::{DrawnLine, PhotonFrame, PhotonSequence};
+use super::sequence::{DrawnLine, PhotonFrame, PhotonSequence};
 use crate::files::write_atomic;
 use crate::{Error, Result};
 
