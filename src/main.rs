@@ -3,10 +3,8 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-mod processor;
-
 fn main() -> ExitCode {
-    let Some(what) = processor::missing() else { return lightloom::cli::main() };
+    let Some(what) = lightloom::processor::missing() else { return lightloom::cli::main() };
     // Formatting is compiled for newer processors, too.
     let mut out = std::io::stderr();
     for part in ["lightloom: this processor has no ", what, "; the program needs them\n"] {

@@ -1,7 +1,8 @@
 //! What the program asks of the processor, told in words before the first instruction that an older one would not know.
 
+/// What this processor has not and the program needs; none where it has all.
 #[cfg(target_arch = "x86_64")]
-pub(crate) fn missing() -> Option<&'static str> {
+pub fn missing() -> Option<&'static str> {
     use std::arch::x86_64::__cpuid;
     // Bits of CPUID (Intel's and AMD's manuals); the compiler takes all of them for granted, so that std's own check says yes.
     const FMA: u32 = 1 << 12;
@@ -23,7 +24,8 @@ pub(crate) fn missing() -> Option<&'static str> {
     (!complete).then_some("AVX2 and FMA (Intel since 2013, AMD since 2015)")
 }
 
+/// Nothing is asked for of other processors.
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) fn missing() -> Option<&'static str> {
+pub fn missing() -> Option<&'static str> {
     None
 }
