@@ -13,6 +13,6 @@ pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     let assets = AssetFolder::new(args.project.path()?, args.project.common.allow_external)?;
     let report = Engine::new(assets).check(&project)?;
     let shown = if args.project.common.json { report.to_json() } else { report.to_text() };
-    Lines::Out.say(shown.trim_end());
+    Lines::Out.print(shown.trim_end())?;
     Ok(0)
 }

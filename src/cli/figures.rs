@@ -29,7 +29,7 @@ pub(super) fn run(args: &FiguresArgs) -> Result<u8> {
     let table = job::shown(Lines::Err, |progress, _| measure(&variants, progress))?;
     let json = || serde_json::to_string_pretty(&table).unwrap_or_default();
     let text = if args.common.json { json() } else { table.to_text() };
-    Lines::Out.say(text.trim_end());
+    Lines::Out.print(text.trim_end())?;
     Ok(0)
 }
 

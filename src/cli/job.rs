@@ -9,6 +9,7 @@ use lightloom_core::{Progress, Result};
 use lightloom_report::{Report, Stability};
 
 use super::args::ProjectArgs;
+use super::interrupt;
 use super::progress::{Display, Lines};
 
 /// Told of each file that is complete.
@@ -102,24 +103,10 @@ pub(super) fn watch<T: Outcome>(
 /// Shows on `lines` how far `work` is, until it ends or Ctrl-C stops it.
 pub(super) fn shown<T>(lines: Lines, work: impl FnOnce(&Progress, Saved) -> Result<T>) -> Result<T> {
     let progress = Progress::new();
-    stop_on_interrupt(&progress);
+    interrupt::stops(&progress);
     let display = Display::start(&progress, lines);
     let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
     work(&progress, &saved)
-}
-
-/// Ctrl-C asks the work to stop; a second one leaves at once.
-fn stop_on_interrupt(progress: &Progress) {
-    let progress = progress.clone();
-    let set = ctrlc::set_handler(move || {
-        if progress.is_cancelled() {
-            std::process::exit(130);
-        }
-        progress.cancel();
-    });
-    if let Err(error) = set {
-        eprintln!("lightloom: Ctrl-C stops at once and keeps nothing: {error}");
-    }
 }
 
 /// Writes the summary as JSON, and prints it so or as a few lines.
@@ -127,6 +114,5 @@ fn conclude<T: Outcome>(summary: &T, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
     write_report(dir, T::FILE, &text)?;
     let shown = if json { text } else { summary.to_text() };
-    Lines::Out.say(shown.trim_end());
-    Ok(())
+    Lines::Out.print(shown.trim_end())
 }

@@ -6,6 +6,7 @@ mod compare;
 mod exit_code;
 mod figures;
 mod fit;
+mod interrupt;
 mod job;
 mod photons;
 mod progress;
@@ -47,7 +48,10 @@ pub fn main() -> ExitCode {
         Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("lightloom: {error}");
-            ExitCode::from(exit_code(&error))
+            ExitCode::from(match (&error, interrupt::signal()) {
+                (Error::Cancelled, Some(signal)) => signal.exit_code(),
+                _ => exit_code(&error),
+            })
         }
     }
 }
@@ -71,6 +75,6 @@ fn edit(project: Option<&Path>) -> Result<u8, Error> {
 }
 
 fn schema() -> Result<u8, Error> {
-    progress::Lines::Out.say(&format!("{:#}", Project::json_schema()));
+    progress::Lines::Out.print(&format!("{:#}", Project::json_schema()))?;
     Ok(0)
 }

@@ -7,7 +7,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
-use lightloom_core::Progress;
+use lightloom_core::{Error, Progress};
 
 /// Farms call a job stuck when its log is silent for a minute.
 const HEARTBEAT: Duration = Duration::from_secs(20);
@@ -25,6 +25,26 @@ impl Lines {
     /// Where the lines go beside a summary that is JSON or not.
     pub(super) fn beside(json: bool) -> Self {
         if json { Self::Err } else { Self::Out }
+    }
+
+    /// Prints what was asked for. A reader that has read enough is no failure.
+    ///
+    /// # Errors
+    /// `Io` where it cannot be written, as into a full disk.
+    pub(super) fn print(self, text: &str) -> Result<(), Error> {
+        let (written, name) = match self {
+            Self::Out => {
+                let mut out = std::io::stdout().lock();
+                (writeln!(out, "{text}").and_then(|()| out.flush()), "the standard output")
+            }
+            Self::Err => (writeln!(std::io::stderr(), "{text}"), "the standard error"),
+        };
+        match written {
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                Err(Error::io("write", name)(error))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Prints a line. Nobody may be listening any more, which is no reason to stop the work.

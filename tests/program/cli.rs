@@ -224,6 +224,43 @@ fn schema_is_json_and_knows_the_fields() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn what_cannot_be_printed_is_a_failure() {
+    let (_folder, project) = letters("flow");
+    for args in [vec!["schema"], vec!["check", text(&project)]] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_lightloom")).args(&args).stdout(full).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(5), "{args:?}: {said}");
+        assert!(said.contains("standard output"), "{said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn sigterm_keeps_the_frames_as_ctrl_c_does() {
+    use std::io::{BufRead as _, BufReader};
+    for (signal, code) in [("-TERM", 143), ("-INT", 130)] {
+        let (folder, project) = letters("flow");
+        let out = folder.path().join("out");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_lightloom"))
+            // More passes than anybody waits for.
+            .args(["render", text(&project), "--out", text(&out), "--passes", "20000"])
+            .stdout(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(program.stdout.take().unwrap()).lines();
+        // The stages before the passes are short: with one per cent done, passes have begun.
+        lines.by_ref().map_while(Result::ok).find(|line| line.starts_with("Progress: 1%")).unwrap();
+        let killed = Command::new("kill").args([signal, &program.id().to_string()]).status().unwrap();
+        assert!(killed.success());
+        lines.for_each(drop);
+        assert_eq!(program.wait().unwrap().code(), Some(code));
+        assert!(!frames_of(&out).is_empty(), "{signal}: frames of the quality reached");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn without_a_screen_the_program_says_so_and_names_the_way_without() {
     for display in [None, Some(":987")] {
         let mut program = Command::new(env!("CARGO_BIN_EXE_lightloom"));

@@ -90,6 +90,7 @@ impl Engine {
         let prepared = prepared.collect::<Result<Vec<_>>>()?;
         for (prepared, _) in &prepared {
             prepared.plan.require_memory()?;
+            prepared.plan.require_space(out)?;
         }
         progress.set_stages(stages_ahead(&prepared));
         let mut done: Vec<(MotionMethod, Rendered)> = Vec::new();

@@ -1,5 +1,7 @@
 //! The plan of work for a project. Parts that are left out cost neither time nor memory.
 
+use std::path::Path;
+
 use glam::Vec2;
 use serde::Serialize;
 
@@ -9,7 +11,7 @@ use crate::matching::MatchingMethod;
 use crate::project::{Project, Shows};
 use crate::render::RenderSettings;
 use crate::render::frames::FrameStore;
-use crate::{Error, Result};
+use crate::{Error, Result, files};
 
 /// A part of the work that a project does not need.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -286,6 +288,23 @@ impl Plan {
             free / 1024.0
         );
         Err(Error::Limit { place: "render".into(), what })
+    }
+
+    /// Refuses work whose scratch file would not fit into `folder`, where the system tells how much is free there.
+    pub(super) fn require_space(&self, folder: &Path) -> Result<()> {
+        let Some(free) = files::free_bytes(folder).map(|bytes| bytes as f64 / MIB) else { return Ok(()) };
+        if self.scratch_mib <= free {
+            return Ok(());
+        }
+        let what = format!(
+            "{:.1} MiB are needed while the frames are rendered, {free:.1} MiB are free; \
+            ask for fewer frames or fewer texels, or for another folder",
+            self.scratch_mib
+        );
+        Err(Error::io("write the scratch file in", folder)(std::io::Error::new(
+            std::io::ErrorKind::StorageFull,
+            what,
+        )))
     }
 
     /// Seconds that a film of all frames takes, about.

@@ -67,6 +67,7 @@ impl Engine {
         let meter = Meter::default();
         let prepared = self.prepare(project, &meter, progress)?;
         prepared.plan.require_memory()?;
+        prepared.plan.require_space(output.folder)?;
         let mut stages = prepared.plan.stages.clone();
         if let Some(film) = film {
             let format = FilmFormat::of(film, "film")?;

@@ -2,7 +2,9 @@
 
 pub mod npy;
 pub mod npz;
+mod space;
 
+pub use space::free_bytes;
 use std::fs::File;
 use std::io::{self, BufWriter, Read as _, Write as _};
 use std::path::Path;
