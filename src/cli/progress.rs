@@ -49,10 +49,7 @@ impl Lines {
 
     /// Prints a line. Nobody may be listening any more, which is no reason to stop the work.
     pub(super) fn say(self, line: &str) {
-        let _ = match self {
-            Self::Out => writeln!(std::io::stdout(), "{line}"),
-            Self::Err => writeln!(std::io::stderr(), "{line}"),
-        };
+        let _ = self.print(line);
     }
 }
 

@@ -81,10 +81,7 @@ fn first_document(project: Option<&Path>) -> Result<(Document, Option<(String, S
     match example {
         Some(Ok((file, _))) => Ok((Document::opened(Arc::new(file), None), problem)),
         Some(Err(error)) => Err(error.to_string()),
-        None => {
-            Err("the examples are not beside the program, and cannot be written into your folder; name a project file"
-                .into())
-        }
+        None => Err(format!("{}; name a project file", templates::MISSING)),
     }
 }
 

@@ -133,20 +133,3 @@ fn odd_settings_come_through() {
         film(&a, &b, &settings, &[]).arrives(&a);
     }
 }
-
-#[test]
-#[ignore]
-fn scan() {
-    for count in [2000, 20_000] {
-        let (a, b) = (ell(count), tee(count));
-        for steps in [2, 4, 6, 8, 10, 12, 16, 20, 30, 40, 60] {
-            let film = film(&a, &b, &FlowSettings { steps, ..settings() }, &[]);
-            println!(
-                "count {count} steps {steps} gap {:.4} error {:.1e} cracks {:.4}",
-                film.report.gap,
-                film.plan.error,
-                film.continuity().cracks
-            );
-        }
-    }
-}

@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 use lightloom_core::constraint::{ActiveWall, Wall, Window};
-use lightloom_core::flow::{FlowReport, FlowSettings, GridSize, TurbulenceSettings};
+use lightloom_core::flow::{FlowReport, FlowSettings, TurbulenceSettings};
 
 use crate::crossing::crosses;
 use crate::meeting_film::{Film, disc, film, settings};
@@ -113,49 +113,5 @@ fn light_waits_for_a_wall_to_go() {
         let unreachable = film.report.unreachable;
         assert!(unreachable <= caught, "{from} to {to}: {unreachable} caught");
         assert!(crossers(&film, &walls, |t| t > from && t < to) <= unreachable, "{from} to {to}");
-    }
-}
-
-#[test]
-#[ignore]
-fn scan_slits() {
-    let (a, b) = (disc([0.25, 0.5], 0.15, 20_000), disc([0.75, 0.5], 0.15, 20_000));
-    for (grid, steps) in [(48, 20), (48, 40), (86, 40)] {
-        for width in [4.0f32, 8.0, 12.0, 16.0] {
-            let half = 0.5 * width / 64.0 + 0.01;
-            let walls = [wall(&[[0.5, 0.0], [0.5, 0.5 - half]]), wall(&[[0.5, 0.5 + half], [0.5, 1.0]])];
-            let grid = GridSize::Longer(grid);
-            let film = film(&a, &b, &FlowSettings { grid, steps, ..settings() }, &walls);
-            println!(
-                "grid {grid:?} steps {steps} slit {width}: {} {} bunch {} gap {} error {:.4} s {:?}",
-                film.report.wall_crossings,
-                film.report.unreachable,
-                film.continuity().bunch,
-                film.report.gap,
-                film.plan.error,
-                film.plan.seconds
-            );
-        }
-    }
-}
-
-#[test]
-#[ignore]
-fn scan_windows() {
-    let (a, b) = (disc([0.25, 0.5], 0.1, 3000), disc([0.75, 0.5], 0.1, 3000));
-    for (from, to) in [(0.0, 0.6), (0.0, 0.4), (0.0, 0.5), (0.6, 1.0), (0.4, 1.0), (0.3, 0.7), (0.1, 0.3)] {
-        for (steps, hold) in [(20, 0.05), (40, 0.05), (80, 0.05), (40, 0.1)] {
-            let walls = [standing(&[[0.5, 0.0], [0.5, 1.0]], between(from, to))];
-            let film = film(&a, &b, &FlowSettings { steps, hold, ..settings() }, &walls);
-            film.arrives(&a);
-            let found = crossers(&film, &walls, |t| t > from && t < to);
-            println!(
-                "window {from} {to} steps {steps} hold {hold}: {found} {} {} bunch {} gap {}",
-                film.report.wall_crossings,
-                film.report.unreachable,
-                film.continuity().bunch,
-                film.report.gap
-            );
-        }
     }
 }

@@ -129,7 +129,8 @@ impl FrameWriter<'_> {
             let plane = self.on_plane(&texture, moment);
             return Ok(FrameLight { all, caustics: Vec::new(), plane, passes });
         }
-        let mut together = ReceiverTexture::new(*self.render.layout());
+        let mut together =
+            self.project.output.shows_plane().then(|| ReceiverTexture::new(*self.render.layout()));
         let image = &self.pictures.background.image;
         let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
         let mut caustics = Vec::new();
@@ -137,15 +138,14 @@ impl FrameWriter<'_> {
             let (texture, of_group) = self.render.mean(slot * self.caustic_names.len() + group)?;
             let caustic = self.pictures.caustic(&texture, Some(group), moment);
             all = all.plus(&caustic);
-            together
-                .texels_mut()
-                .iter_mut()
-                .zip(texture.texels())
-                .for_each(|(sum, one): (&mut Vec4, _)| *sum += *one);
+            if let Some(together) = &mut together {
+                let texels = together.texels_mut().iter_mut().zip(texture.texels());
+                texels.for_each(|(sum, one): (&mut Vec4, _)| *sum += *one);
+            }
             caustics.push((name.clone(), caustic));
             passes = of_group;
         }
-        let plane = self.on_plane(&together, moment);
+        let plane = together.and_then(|together| self.on_plane(&together, moment));
         Ok(FrameLight { all, caustics, plane, passes })
     }
 

@@ -120,9 +120,7 @@ impl StillLight {
             }
         }
     }
-}
 
-impl StillLight {
     /// Adds what stays of all groups to the irradiance on a receiver of `extent` (W/m²), where its textures were wanted; the
     /// top row is its upper edge.
     pub(super) fn add_to_plane(

@@ -46,13 +46,13 @@ impl Geometry {
     ) -> Result<Self> {
         let mut meshes = Vec::new();
         let mut triangles = Vec::new();
-        let mut shells: Vec<u32> = Vec::new();
+        let (mut shells, mut next_shell) = (Vec::new(), 0);
         for (index, mesh_desc) in descs.iter().enumerate() {
             let place = format!("scene.meshes[{index}]");
             for part in mesh::load(mesh_desc, &place, assets, notes, progress)? {
                 let number = meshes.len() as u16;
-                let next = shells.iter().max().map_or(0, |last| last + 1);
-                shells.extend(part.shells.iter().map(|shell| next + shell));
+                shells.extend(part.shells.iter().map(|shell| next_shell + shell));
+                next_shell += part.shells.iter().max().map_or(0, |last| last + 1);
                 meshes.push(object(&part, mesh_desc.priority));
                 triangles.extend(part.triangles.into_iter().map(|t| Triangle { mesh: number, ..t }));
                 check::count("scene.meshes", meshes.len())?;

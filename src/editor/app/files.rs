@@ -152,8 +152,7 @@ impl App {
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
-                    let what = "They are not beside the program, and cannot be written into your folder.";
-                    return self.show_message("The examples are missing".into(), what.into());
+                    return self.show_message("The examples are missing".into(), templates::MISSING.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
                 self.files.template = Some(path.clone());

@@ -70,6 +70,9 @@ pub const TEMPLATES: [Template; 6] = [
     },
 ];
 
+/// Why there is no [`folder`].
+pub const MISSING: &str = "the examples are not beside the program, and cannot be written into your folder";
+
 /// The folder of the templates: beside the program, in the current folder, or unpacked from the program into the user's own.
 /// Their meshes and pictures are in the sibling folder `assets`. None where there is none and none can be written.
 pub fn folder() -> Option<&'static Path> {
@@ -94,8 +97,7 @@ pub fn folder() -> Option<&'static Path> {
 /// The templates are not installed, or the file is invalid.
 pub fn load(template: &Template) -> Result<Project> {
     let Some(folder) = folder() else {
-        let what = "the examples are not beside the program, and cannot be written into your folder";
-        return Err(lightloom_core::Error::value(template.name, what));
+        return Err(lightloom_core::Error::value(template.name, MISSING));
     };
     Project::load(&folder.join(template.file))
 }

@@ -18,7 +18,7 @@ use crate::{Progress, Result};
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],
-    /// The planned velocities near walls, and a bound on the fitted speed, by half and step; empty where no wall stands.
+    /// The planned velocities near walls, and a bound on the speed of photons, by half and step; empty where no wall stands.
     planned: [Vec<(CellVelocities, f32)>; 2],
     steps: usize,
     mean_way: f32,
@@ -63,7 +63,12 @@ impl MeetingFields {
 
     /// Appends the next field of a half, with the planned velocities where walls stand.
     pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
-        self.planned[half].extend(planned.map(|planned| (planned, field.speed_bound())));
+        if let Some(planned) = planned {
+            let times = self.step_times(half, self.halves[half].len());
+            let noise = times.map(|t| self.noise(t).iter().map(Field::speed_bound).sum::<f32>());
+            let bound = field.speed_bound() + noise.into_iter().fold(0.0, f32::max);
+            self.planned[half].push((planned, bound));
+        }
         self.halves[half].push(field);
     }
 
@@ -125,10 +130,7 @@ impl MeetingFields {
 
     /// A bound on the speed of a photon in step `done` of a half; none where no wall stands.
     pub(super) fn speed_bound(&self, half: usize, done: usize) -> Option<f32> {
-        let (_, bound) = self.planned[half].get(done)?;
-        let [begin, middle, end] =
-            self.step_times(half, done).map(|t| self.noise(t).iter().map(Field::speed_bound).sum::<f32>());
-        Some(bound + begin.max(middle).max(end))
+        self.planned[half].get(done).map(|(_, bound)| *bound)
     }
 
     /// Begin, middle and end of the step after `done` steps of a half.

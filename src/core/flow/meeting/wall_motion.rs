@@ -40,7 +40,7 @@ impl<'a> WallMotion<'a> {
     /// Whether a photon at `p` is so far from walls that it moves as without them.
     #[inline]
     pub(super) fn is_far(&self, p: Vec2) -> bool {
-        self.clearance.at(p) > self.far
+        self.is_far_with(p, Vec2::ZERO)
     }
 
     /// The same for one that makes up for `gap` besides.

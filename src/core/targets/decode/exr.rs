@@ -3,7 +3,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use exr::prelude::{IntegerBounds, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, Vec2};
+use exr::prelude::{
+    IntegerBounds, MetaData, ReadChannels, ReadLayers, ReadSpecificChannel, SpecificChannels, Vec2,
+};
 
 use super::decoded::{Picture, Pixels, damaged, require_size};
 use crate::{Error, Result};
@@ -105,7 +107,7 @@ fn rank(layer: &str) -> usize {
 
 fn read_colour(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
     let [r, g, b, a] = layer.channels.each_ref().map(|name| &**name);
-    let image = exr::prelude::read()
+    let layer = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .specific_channels()
@@ -116,18 +118,13 @@ fn read_colour(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
         .collect_pixels(blank, |(width, pixels), at, (r, g, b, a): (f32, f32, f32, f32)| {
             pixels[at.y() * *width + at.x()] = [r, g, b, a];
         })
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(|error| damaged(path, error))?;
-    let data = IntegerBounds::new(image.layer_data.attributes.layer_position, image.layer_data.size);
-    compose(path, data, &image.attributes, image.layer_data.channel_data.pixels.1)
+        .first_valid_layer();
+    read_pixels(path, bytes, layer)
 }
 
 fn read_grey(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
     let [y, _, _, a] = layer.channels.each_ref().map(|name| &**name);
-    let image = exr::prelude::read()
+    let layer = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .specific_channels()
@@ -136,7 +133,16 @@ fn read_grey(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
         .collect_pixels(blank, |(width, pixels), at, (y, a): (f32, f32)| {
             pixels[at.y() * *width + at.x()] = [y, y, y, a];
         })
-        .first_valid_layer()
+        .first_valid_layer();
+    read_pixels(path, bytes, layer)
+}
+
+/// The picture of the first layer that has the channels asked for.
+fn read_pixels<R, Channels>(path: &Path, bytes: &[u8], layer: R) -> Result<Picture>
+where
+    for<'s> R: ReadLayers<'s, Layers = exr::image::Layer<SpecificChannels<Stored, Channels>>>,
+{
+    let image = layer
         .all_attributes()
         .non_parallel()
         .from_buffered(Cursor::new(bytes))
@@ -145,8 +151,11 @@ fn read_grey(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
     compose(path, data, &image.attributes, image.layer_data.channel_data.pixels.1)
 }
 
-/// A black picture and its width.
-fn blank<Channels>(size: Vec2<usize>, _: &Channels) -> (usize, Vec<[f32; 4]>) {
+/// The width of a picture and its pixels.
+type Stored = (usize, Vec<[f32; 4]>);
+
+/// A black picture.
+fn blank<Channels>(size: Vec2<usize>, _: &Channels) -> Stored {
     (size.x(), vec![[0.0; 4]; size.x() * size.y()])
 }
 
