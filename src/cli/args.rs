@@ -8,6 +8,8 @@ use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{Project, frames};
 use lightloom_core::{Error, Result};
 
+use super::progress::Manner;
+
 /// Paint where caustics shall flow, and export the animation. Without a command, the editor opens.
 #[derive(Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
@@ -32,6 +34,14 @@ pub(crate) enum Command {
     /// Measure how well the light of projects holds together on its way: cracks, torn pieces, bunching, speed. A table with a
     /// row for each segment; nothing is rendered.
     Figures(FiguresArgs),
+    /// Write the files by which a render farm does a project in parts: Slurm scripts, or an OpenJD job.
+    Farm(FarmArgs),
+    /// Look whether the frames in a folder are whole, finished, made from the same, and without gaps.
+    Verify(VerifyArgs),
+    /// Print what frames say of themselves: size, layers, passes, settings, and the fingerprint of what they are made from.
+    Info(InfoArgs),
+    /// Write the contact sheet of the frames in a folder.
+    Sheet(SheetArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
     /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
@@ -51,6 +61,17 @@ pub(crate) struct RenderArgs {
     /// rate of the project, over and over.
     #[arg(long, value_name = "FILE")]
     pub(crate) film: Option<PathBuf>,
+    /// Replace frames in the folder that were made from another project or other settings. Finished frames of the same are kept
+    /// in any case: they have the same bytes.
+    #[arg(long, conflicts_with = "skip")]
+    pub(crate) overwrite: bool,
+    /// Keep frames in the folder that were made from another project or other settings.
+    #[arg(long)]
+    pub(crate) skip: bool,
+    /// Start from what `lightloom fit PROJECT --bake DIR` made with the same options. Then --frames are a part of a render that is
+    /// done in parts, on many machines: no contact sheet and no summary.json is written.
+    #[arg(long, value_name = "DIR", conflicts_with = "film")]
+    pub(crate) bake: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -58,8 +79,70 @@ pub(crate) struct FitArgs {
     #[command(flatten)]
     pub(crate) project: ProjectArgs,
     /// Folder for tracks.npy, flux.npy, fields.npz and summary.json; made if it is not there.
+    #[arg(long, value_name = "DIR", required_unless_present = "bake", conflicts_with = "bake")]
+    pub(crate) out: Option<PathBuf>,
+    /// Bake into this folder instead: all that a render needs before its first pass, for `lightloom render --bake DIR`.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) bake: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct FarmArgs {
+    /// All options but those below are those of the render.
+    #[command(flatten)]
+    pub(crate) project: ProjectArgs,
+    /// Folder on a disk that all machines see, for the job, the bake and the frames; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// slurm: scripts and submit.sh; openjd: job.json.
+    #[arg(long = "as", value_enum)]
+    pub(crate) kind: FarmKind,
+    /// Frames of one task. Without it as many as make what a task repeats a fifth of its work, at least half a minute's.
+    #[arg(long)]
+    pub(crate) chunk: Option<usize>,
+    /// The program as the machines of the farm call it.
+    #[arg(long, value_name = "COMMAND", default_value = "lightloom")]
+    pub(crate) program: String,
+}
+
+/// The kinds of render farms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FarmKind {
+    Slurm,
+    Openjd,
+}
+
+#[derive(Args)]
+pub(crate) struct VerifyArgs {
+    /// The folder of the frames.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// The frames that must be there, such as 1-100; without it those between the first and the last.
+    #[arg(long, allow_hyphen_values = true)]
+    pub(crate) frames: Option<String>,
+    /// The folder of the bake that they must be made from.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) bake: Option<PathBuf>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct InfoArgs {
+    /// The files, EXR or PNG.
+    #[arg(value_name = "FRAME", required = true)]
+    pub(crate) frames: Vec<PathBuf>,
+    /// Print it as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct SheetArgs {
+    /// The folder of the frames.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
 }
 
 #[derive(Args)]
@@ -177,6 +260,10 @@ pub(crate) struct CommonArgs {
     /// Print the result as JSON.
     #[arg(long)]
     pub(crate) json: bool,
+    /// How progress is told: a bar on a terminal and plain lines elsewhere (auto), lines for logs and farms at least every 20 seconds
+    /// (plain), a JSON object in each line (json), or as OpenJD reads it (openjd).
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(super) progress: Manner,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -216,6 +303,25 @@ impl ProjectArgs {
             other => other,
         })?;
         Ok(project)
+    }
+
+    /// The options of this run but for the frames, as they were typed.
+    pub(crate) fn options(&self) -> Vec<String> {
+        let CommonArgs { quality, threads, seed, allow_external, .. } = &self.common;
+        let named = [
+            ("--size", self.size.clone()),
+            ("--passes", self.passes.map(|n| n.to_string())),
+            ("--photons", self.photons.map(|n| n.to_string())),
+            ("--format", Some(self.format.join(",")).filter(|list| !list.is_empty())),
+            ("--layers", Some(self.layers.join(",")).filter(|list| !list.is_empty())),
+            ("--quality", matches!(quality, QualityName::Preview).then(|| "preview".into())),
+            ("--threads", threads.map(|n| n.to_string())),
+            ("--seed", seed.map(|n| n.to_string())),
+        ];
+        let named = named.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
+        let switches = [("--draw-constraints", self.draw_constraints), ("--allow-external", *allow_external)];
+        let switches = switches.into_iter().filter(|(_, on)| *on).map(|(name, _)| name.to_owned());
+        named.flatten().chain(switches).collect()
     }
 
     /// The project file.

@@ -26,7 +26,7 @@ pub(super) fn run(args: &FiguresArgs) -> Result<u8> {
     for path in &args.paths {
         variants.extend(variants_of(path, args)?);
     }
-    let table = job::shown(Lines::Err, |progress, _| measure(&variants, progress))?;
+    let table = job::shown((Lines::Err, args.common.progress), |progress, _| measure(&variants, progress))?;
     let json = || serde_json::to_string_pretty(&table).unwrap_or_default();
     let text = if args.common.json { json() } else { table.to_text() };
     Lines::Out.print(text.trim_end())?;

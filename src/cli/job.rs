@@ -10,7 +10,7 @@ use lightloom_report::{Report, Stability};
 
 use super::args::ProjectArgs;
 use super::interrupt;
-use super::progress::{Display, Lines};
+use super::progress::{Display, Lines, Manner};
 
 /// Told of each file that is complete.
 type Saved<'a> = &'a (dyn Fn(&Path) + Sync);
@@ -23,6 +23,11 @@ pub(super) trait Outcome {
     fn folders() -> Vec<&'static str> {
         Vec::new()
     }
+    /// Whether the file is written.
+    fn is_reported(&self) -> bool {
+        true
+    }
+
     fn to_json(&self) -> String;
     fn to_text(&self) -> String;
 }
@@ -95,24 +100,33 @@ pub(super) fn watch<T: Outcome>(
     out: &Path,
     work: impl FnOnce(&Progress, Saved) -> Result<T>,
 ) -> Result<T> {
-    let summary = shown(Lines::beside(args.common.json), work)?;
+    let summary = shown((Lines::beside(args.common.json), args.common.progress), work)?;
     conclude(&summary, out, args.common.json)?;
     Ok(summary)
 }
 
 /// Shows on `lines` how far `work` is, until it ends or Ctrl-C stops it.
-pub(super) fn shown<T>(lines: Lines, work: impl FnOnce(&Progress, Saved) -> Result<T>) -> Result<T> {
+pub(super) fn shown<T>(
+    (lines, manner): (Lines, Manner),
+    work: impl FnOnce(&Progress, Saved) -> Result<T>,
+) -> Result<T> {
     let progress = Progress::new();
     interrupt::stops(&progress);
-    let display = Display::start(&progress, lines);
-    let saved = |path: &Path| display.line(&format!("Saved: '{}'", path.display()));
-    work(&progress, &saved)
+    let display = Display::start(&progress, lines, manner);
+    let saved = |path: &Path| display.line(&manner.saved(path));
+    let done = work(&progress, &saved);
+    if let Some(line) = done.as_ref().err().and_then(|error| manner.failed(error)) {
+        display.line(&line);
+    }
+    done
 }
 
 /// Writes the summary as JSON, and prints it so or as a few lines.
 fn conclude<T: Outcome>(summary: &T, dir: &Path, json: bool) -> Result<()> {
     let text = summary.to_json();
-    write_report(dir, T::FILE, &text)?;
+    if summary.is_reported() {
+        write_report(dir, T::FILE, &text)?;
+    }
     let shown = if json { text } else { summary.to_text() };
     Lines::Out.print(shown.trim_end())
 }

@@ -4,8 +4,10 @@ pub(crate) mod args;
 mod check;
 mod compare;
 mod exit_code;
+mod farm;
 mod figures;
 mod fit;
+mod frames;
 mod interrupt;
 mod job;
 mod photons;
@@ -42,6 +44,10 @@ pub fn main() -> ExitCode {
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Report(args)) => report::run(args),
+        Some(Command::Farm(args)) => farm::run(args),
+        Some(Command::Verify(args)) => frames::verify(args),
+        Some(Command::Info(args)) => frames::info(args),
+        Some(Command::Sheet(args)) => frames::sheet(args),
         Some(Command::Schema) => schema(),
     };
     match done {

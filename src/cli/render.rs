@@ -1,6 +1,6 @@
 //! `lightloom render`: project file to numbered frames.
 
-use lightloom_core::engine::{Output, prepare_film};
+use lightloom_core::engine::{Existing, Output, prepare_film};
 use lightloom_core::{Error, Result};
 
 use super::args::RenderArgs;
@@ -13,10 +13,19 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8> {
         if let Some(film) = film {
             prepare_film(film, args.project.path()?, project, "--film")?;
         }
-        engine.render_to(project, &Output { folder: &args.out, film, progress, saved, observer: &() })
+        let existing = match (args.overwrite, args.skip) {
+            (true, _) => Existing::Overwrite,
+            (_, true) => Existing::Skip,
+            _ => Existing::Refuse,
+        };
+        let bake = args.bake.as_deref();
+        let output = Output { existing, film, bake, ..Output::new(&args.out, progress, saved) };
+        engine.render_to(project, &output)
     })?;
     if summary.passes < summary.passes_planned {
-        eprintln!("lightloom: stopped early; every frame is there, at the quality reached so far");
+        eprintln!(
+            "lightloom: stopped early; every frame is there, at the quality reached so far; the same command goes on from there"
+        );
         return Err(Error::Cancelled);
     }
     Ok(if summary.has_bad_frames() { BAD_FRAMES } else { 0 })

@@ -77,6 +77,9 @@
 //! | background | The picture without caustics, path traced once ([`mod@render::background`]). |
 //! | preview | The frames of a project at reduced quality, growing while computed ([`engine::Preview`]). |
 //! | quality | The limits on photons, cells and steps, from draft to final ([`engine::Quality`]). |
+//! | fingerprint | The hash of all that the pixels of a render depend on; frames carry it (`engine::fingerprint`). |
+//! | bake | The results of the stages before the first pass, in files ([`engine::Engine::bake`]). |
+//! | checkpoint | The folder that keeps the unfinished light of a render (`engine::checkpoint`). |
 //! | shot | Background and gather matrix of a preview, for pictures of any texture ([`engine::Shot`]). |
 //! | memo | The remembered results of a stage, found by their input (`engine::memo`). |
 //! | slot | The place that keeps one result of a memo, by client, quality and segment (`engine::memo`). |

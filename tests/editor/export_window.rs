@@ -13,6 +13,7 @@ use lightloom::editor::dialogs::{Picker, Scripted};
 use lightloom::editor::document::Document;
 use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::export::{ExportJob, ExportSettings, ExportWindow, Exports, Status};
+use lightloom_core::engine::Existing;
 use lightloom_core::project::Project;
 
 /// A folder with the project `letters_free` made tiny, its pictures, and room for frames.
@@ -60,6 +61,7 @@ impl Place {
             film: None,
             limit: None,
             shown: 30,
+            existing: Existing::Refuse,
         }
     }
 }

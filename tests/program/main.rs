@@ -9,6 +9,7 @@ mod compare;
 mod letters;
 mod real_window;
 mod report;
+mod resume;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 mod small;

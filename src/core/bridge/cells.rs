@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 /// Square cells over the plane, row by row from y = 0 upwards. Values stand for the centres of cells; points beyond the
 /// outermost centres take the value of the nearest.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct Cells {
     /// Cells along x and y; at least two.
     pub size: [usize; 2],

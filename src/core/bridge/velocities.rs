@@ -6,7 +6,7 @@ use super::cells::Cells;
 use crate::constraint::barrier::Barriers;
 
 /// Velocities in cells, plane units per unit of time, as a plan had them at one step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct CellVelocities {
     cells: Cells,
     velocities: Vec<Vec2>,

@@ -31,7 +31,7 @@ settings! { Span {
 } }
 
 /// A span in the flow time of one segment: rises over the first pair of times, falls over the second.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Window {
     /// Nothing before the first, full from the second on.
     pub rise: [f64; 2],

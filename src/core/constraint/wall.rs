@@ -51,7 +51,7 @@ fn default_thickness() -> f32 {
 }
 
 /// A wall in one segment of the animation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct ActiveWall {
     /// Its line, at least two points, plane units.
     pub points: Vec<Vec2>,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::bake::{Bake, baked};
 use super::grouping::Grouping;
 use super::memo::{Same, Slot};
 use super::memo_keys::{StillInput, ViewInput};
@@ -31,6 +32,8 @@ pub(super) struct CameraView<'a> {
     pub(super) background: BackgroundQuality,
     /// Whether coverage and depth of the surfaces are wanted.
     pub(super) surfaces: bool,
+    /// Results of an earlier process, where there may be some.
+    pub(super) bake: Option<&'a Bake>,
 }
 
 /// How the picture without caustics is made.
@@ -54,7 +57,8 @@ impl<'a> CameraView<'a> {
         let shown = project.output.shows_background();
         let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
         let surfaces = project.output.shows_surfaces();
-        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background, surfaces }
+        let bake = prepared.bake.as_deref();
+        Self { project, scene: prepared.scene.as_ref(), extent: *extent, layout, background, surfaces, bake }
     }
 }
 
@@ -98,7 +102,7 @@ impl Stages {
         meter: &Meter,
         progress: &Progress,
     ) -> Result<CameraPictures> {
-        let CameraView { project, scene, extent, layout, background, surfaces } = *view;
+        let CameraView { project, scene, extent, layout, background, surfaces, bake } = *view;
         let (render, seed) = (&project.render, project.seed);
         // Photons change nothing here but the layout, and the view transform changes nothing at all.
         let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
@@ -107,23 +111,23 @@ impl Stages {
         let exact = ViewInput { rough: false, ..input.clone() };
         let visible = ViewInput { layout: Some(layout), ..exact.clone() };
         let visible = self.visible.get(slot, visible, progress, |_| {
-            meter.measure("visible", || match scene {
-                Some(scene) => {
-                    GatherMatrix::through_camera(scene, &layout, render, seed, progress).map(Arc::new)
-                }
-                None => GatherMatrix::flat(extent, &layout, render, progress).map(Arc::new),
-            })
+            let make = || match scene {
+                Some(scene) => GatherMatrix::through_camera(scene, &layout, render, seed, progress),
+                None => GatherMatrix::flat(extent, &layout, render, progress),
+            };
+            meter.measure("visible", || baked(bake, "visible", make)).map(Arc::new)
         })?;
         let first_hits = scene.filter(|_| surfaces).map(|scene| {
             let size = [render.width as usize, render.height as usize];
-            let make = || FirstHits::new(scene, size, seed, progress).map(Arc::new);
+            let make = || FirstHits::new(scene, size, seed, progress);
+            let make = || baked(bake, "surfaces", make).map(Arc::new);
             self.first_hits.get(slot, exact, progress, |_| meter.measure("visible", make))
         });
         let first_hits = first_hits.transpose()?;
         let background = self.without_caustics(slot, view, input.clone(), meter, progress)?;
         let still = match scene {
             Some(scene) if project.traces() => {
-                match self.still_light(slot, (scene, project), input, meter, progress) {
+                match self.still_light((slot, bake), (scene, project), input, meter, progress) {
                     Ok(still) => Some(still),
                     // A scene that casts no caustic can be looked at while it is built.
                     Err(error) if !rough || matches!(error, Error::Cancelled) => return Err(error),
@@ -139,7 +143,7 @@ impl Stages {
     fn without_caustics(
         &self,
         slot: Slot,
-        &CameraView { project, scene, background: quality, .. }: &CameraView,
+        &CameraView { project, scene, background: quality, bake, .. }: &CameraView,
         input: ViewInput,
         meter: &Meter,
         progress: &Progress,
@@ -155,7 +159,8 @@ impl Stages {
                 Ok(Arc::new(Background { image, clamped: Default::default() }))
             }
             Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
-                meter.measure("background", || draw(scene, render, *seed, progress).map(Arc::new))
+                let make = || draw(scene, render, *seed, progress);
+                meter.measure("background", || baked(bake, "background", make)).map(Arc::new)
             }),
         }
     }
@@ -163,7 +168,7 @@ impl Stages {
     /// The light that does not flow.
     fn still_light(
         &self,
-        slot: Slot,
+        (slot, bake): (Slot, Option<&Bake>),
         (scene, project): (&Arc<Scene>, &Project),
         view: ViewInput,
         meter: &Meter,
@@ -177,7 +182,7 @@ impl Stages {
         let input = StillInput { view, photons, caustics, shares, apart, on_plane };
         self.still.get(slot, input, progress, |StillInput { shares, .. }| {
             let make = || StillLight::new(scene, project, (&grouping, shares), progress);
-            meter.measure("still", make).map(Arc::new)
+            meter.measure("still", || baked(bake, "still", make)).map(Arc::new)
         })
     }
 }

@@ -99,7 +99,8 @@ impl CheckReport {
 
     /// As lines for people.
     pub fn to_text(&self) -> String {
-        let Plan { photons, passes, frames, left_out, stages, memory_mib, scratch_mib } = &self.plan;
+        let Plan { photons, passes, frames, left_out, stages, memory_mib, scratch_mib, output_mib, .. } =
+            &self.plan;
         let mut text = format!("{}: {frames} frames, {passes} passes of {photons} photons\n", self.project);
         for key in &self.keys {
             let _ = writeln!(text, "  {key}");
@@ -117,7 +118,7 @@ impl CheckReport {
         }
         let _ = writeln!(
             text,
-            "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory, {scratch_mib:.0} MiB of scratch file",
+            "  in all about {:.0} seconds on two cores, {memory_mib:.0} MiB of memory, {scratch_mib:.0} MiB of scratch file, {output_mib:.0} MiB of frames",
             self.seconds
         );
         for LeftOut { what, why } in left_out {

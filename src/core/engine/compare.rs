@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::meter::Meter;
 use super::prepare::Prepared;
 use super::render::{Output, Rendered};
+use super::run_files::RunFiles;
 use super::segment_figures::SegmentContinuity;
 use super::{Engine, Summary, active_constraints};
 use crate::continuity::Continuity;
@@ -90,7 +91,7 @@ impl Engine {
         let prepared = prepared.collect::<Result<Vec<_>>>()?;
         for (prepared, _) in &prepared {
             prepared.plan.require_memory()?;
-            prepared.plan.require_space(out)?;
+            prepared.plan.require_space(out, 0)?;
         }
         progress.set_stages(stages_ahead(&prepared));
         let mut done: Vec<(MotionMethod, Rendered)> = Vec::new();
@@ -98,8 +99,8 @@ impl Engine {
         for ((method, _), (prepared, meter)) in variants.iter().zip(prepared) {
             let folder = out.join(method.name());
             std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
-            let output = Output { folder: &folder, film: None, progress, saved, observer: &() };
-            match self.render_prepared(prepared, &meter, &output) {
+            let output = Output::new(&folder, progress, saved);
+            match self.render_prepared(prepared, &meter, &output, RunFiles::fresh(&folder)) {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {
                     let rendered = rendered?;

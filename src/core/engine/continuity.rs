@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Engine;
 use super::fitted_project::FittedProject;
+use super::fitted_segment::FittedSegment;
 use super::job::Job;
 use super::memo::Same;
 use super::meter::Meter;
@@ -57,7 +58,7 @@ impl FittedProject {
         let mut segments = Vec::new();
         for (number, fitted) in flow.segments.iter().enumerate() {
             let make = |_: &_| {
-                let photons = ahead.of_segment(number)?;
+                let photons = ahead.of_segment(number, &flow.segments)?;
                 let ends: [&[_]; 2] = [&photons.from, &photons.to];
                 let figures = || Figures::of(fitted, ends, prepared.extent, &inner);
                 meter.measure("measure", figures).map(Arc::new)
@@ -80,13 +81,17 @@ struct Ahead<'a> {
 }
 
 impl Ahead<'_> {
-    fn of_segment(&mut self, number: usize) -> Result<SegmentPhotons> {
+    fn of_segment(&mut self, number: usize, flow: &[Arc<FittedSegment>]) -> Result<SegmentPhotons> {
         let mut walk = match self.walk.take() {
             Some(walk) => walk,
             None => Walk::start(self.job, 0)?,
         };
         loop {
-            let photons = walk.next(MapsFrom::Own { bounded: true })?.ok_or(Error::Cancelled)?;
+            let maps = match flow.get(self.walked) {
+                Some(fitted) if self.job.baked => MapsFrom::Others(&fitted.maps),
+                _ => MapsFrom::Own { bounded: true },
+            };
+            let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
             self.walked += 1;
             if self.walked > number {
                 self.walk = Some(walk);

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::frame_times::FrameTimes;
 use crate::export::{FilmFormat, Reel, film, write_film};
 use crate::project::Project;
 use crate::render::Image;
@@ -18,18 +17,17 @@ pub(super) struct FilmWriter<'a> {
 }
 
 impl<'a> FilmWriter<'a> {
-    /// The film of all frames in `times`; until it is written they lie in a scratch file in `scratch`.
+    /// The film of the frames `numbers`; until it is written they lie in a scratch file in `scratch`.
     ///
     /// # Errors
     /// No known kind of film; the system refuses.
-    pub(super) fn new(path: &'a Path, scratch: &Path, project: &Project, times: &FrameTimes) -> Result<Self> {
+    pub(super) fn new(path: &'a Path, scratch: &Path, project: &Project, numbers: &[i32]) -> Result<Self> {
         let size = [project.render.width as usize, project.render.height as usize];
-        let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
         Ok(Self {
             path,
             format: FilmFormat::of(path, "film")?,
             reel: Reel::new(scratch, size, numbers.len())?,
-            holds: film::holds(&numbers),
+            holds: film::holds(numbers),
             frames_per_second: project.output.fps,
         })
     }

@@ -10,6 +10,7 @@ use super::Engine;
 use super::energy_balance::EnergyBalance;
 use super::fitted_segment::{FittedFlow, FittedSegment};
 use super::flow;
+use super::flow_bake::BakedFlow;
 use super::frame_times::FrameTimes;
 use super::job::Job;
 use super::meter::Meter;
@@ -84,7 +85,16 @@ impl Engine {
         meter: &Meter,
         progress: &Progress,
     ) -> Result<FittedProject> {
-        let flow = flow::fit(&self.job(&prepared, meter, progress)?)?;
+        let job = self.job(&prepared, meter, progress)?;
+        let bake = prepared.bake.as_deref();
+        let flow = match bake.map_or(Ok(None), |bake| bake.read::<BakedFlow>("flow"))? {
+            Some(baked) => baked.into(),
+            None => {
+                let flow = flow::fit(&job)?;
+                bake.map_or(Ok(()), |bake| bake.keep("flow", &BakedFlow::from(&flow)))?;
+                flow
+            }
+        };
         Ok(FittedProject { engine: self.clone(), prepared, flow })
     }
 }
@@ -157,8 +167,8 @@ impl FittedProject {
         Ok(())
     }
 
-    /// Runs the passes of a render, and tells `passed` how many are complete. Returns their number, and how well they kept
-    /// the light. Once the first is complete, a cancelled run keeps what is there.
+    /// Runs the passes of a render that are not yet in all its frames, and tells `passed` how many are complete. Returns their
+    /// number, and how well they kept the light. Once the first is complete, a cancelled run keeps what is there.
     pub(super) fn render_passes(
         &self,
         render: &ProgressiveRender,
@@ -171,15 +181,15 @@ impl FittedProject {
         let (meter, inner) = (Meter::quick(), progress.inner());
         let job = engine.job(prepared, &meter, &inner)?;
         let mut exposures = Exposures::new(render, prepared.textures());
-        for pass in 0..plan.passes {
+        let before = render.least_passes().min(plan.passes);
+        progress.advance((before * times.moments.len()) as u64);
+        for pass in before..plan.passes {
             match exposures.run(&job, &flow.segments, times, (pass, pass), progress) {
-                Err(Error::Cancelled) if pass > 0 && !progress.is_abandoned() => {
-                    return Ok((pass, exposures.balance));
-                }
+                Err(Error::Cancelled) if render.least_passes() > 0 && !progress.is_abandoned() => break,
                 other => other?,
             }
             passed(pass + 1);
         }
-        Ok((plan.passes, exposures.balance))
+        Ok((render.least_passes(), exposures.balance))
     }
 }

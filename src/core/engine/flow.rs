@@ -8,7 +8,6 @@ use glam::Vec2;
 
 use super::active_constraints::{ActiveConstraints, active};
 use super::fitted_segment::{FittedFlow, FittedSegment, FlowInput};
-use super::flow_numbers::FlowNumbers;
 use super::job::Job;
 use super::key_photons::KeyPhotons;
 use super::layer::Layer;
@@ -33,11 +32,7 @@ pub(super) fn fit(job: &Job) -> Result<FittedFlow> {
     let idle_lights = idle.into_iter().map(|(_, note)| note).collect();
     let mut flow = FittedFlow { segments: Vec::new(), numbers: None, caustics, idle_lights };
     while let Some(photons) = walk.next(MapsFrom::Own { bounded: true })? {
-        let fitted = fit_segment(job, &photons, None)?;
-        let reports = fitted.reports.clone();
-        let numbers = flow.numbers.into_iter().chain(FlowNumbers::of_segment(reports, &fitted.cost));
-        flow.numbers = numbers.reduce(FlowNumbers::worst);
-        flow.segments.push(fitted);
+        flow.push(fit_segment(job, &photons, None)?);
     }
     Ok(flow)
 }

@@ -1,5 +1,6 @@
 //! Writes the gathered light of all frames to files.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -9,6 +10,9 @@ use rayon::prelude::*;
 use super::camera::CameraPictures;
 use super::film_writer::FilmWriter;
 use super::frame_times::FrameTimes;
+use super::kept_picture::kept_picture;
+use super::output_folder::CONTACT_SHEET;
+use super::run_files::RunFiles;
 use super::summary::BadValues;
 use crate::export::{
     Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet,
@@ -21,14 +25,19 @@ use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
 /// Pictures on the contact sheet.
-const SHEET_PICTURES: usize = 12;
+pub(super) const SHEET_PICTURES: usize = 12;
 /// Its columns.
-const SHEET_COLUMNS: usize = 4;
+pub(super) const SHEET_COLUMNS: usize = 4;
 /// Width of one of its pictures in pixels.
 const SHEET_WIDTH: usize = 480;
 
 /// Small pictures in screen values with the numbers of their frames.
 pub(super) type Thumbnails = Vec<(i32, Image)>;
+
+/// A picture as small as on the sheet.
+pub(super) fn small(image: &Image) -> Image {
+    image.resized(SHEET_WIDTH, (SHEET_WIDTH * image.height).div_ceil(image.width))
+}
 
 /// The light of a frame as the camera sees it.
 struct FrameLight {
@@ -60,40 +69,52 @@ pub(super) struct FrameWriter<'a> {
     /// The drawn constraints, for the contact sheet.
     pub(super) drawn: &'a [OverlayLine],
     pub(super) plane: PlaneView,
+    /// What is there already.
+    pub(super) files: &'a RunFiles,
+    /// Passes of a finished frame.
+    pub(super) planned: usize,
     /// Called with each finished file.
     pub(super) saved: &'a (dyn Fn(&Path) + Sync),
 }
 
 impl FrameWriter<'_> {
-    /// Writes all frames and the contact sheet, and keeps those of a film; returns the replaced values, and the pictures on
-    /// the sheet with their numbers.
+    /// Writes the `requested` frames that are not there, and the contact sheet of all; keeps the pictures of a film. Returns
+    /// the replaced values, and the pictures on the sheet with their numbers.
     pub(super) fn run(
         &self,
         times: &FrameTimes,
+        requested: &[i32],
         film: Option<&FilmWriter>,
         progress: &Progress,
     ) -> Result<(BadValues, Thumbnails)> {
-        progress.begin("write", times.frames.len() as u64);
-        let numbers: Vec<i32> = times.frames.iter().map(|(frame, _)| *frame).collect();
-        let on_sheet = sheet::evenly_chosen(&numbers, SHEET_PICTURES);
+        progress.begin("write", requested.len() as u64);
+        let on_sheet =
+            if self.files.sheet { sheet::evenly_chosen(requested, SHEET_PICTURES) } else { Vec::new() };
         let view = self.project.render.view.view();
         let thumbnails = Mutex::new(Vec::new());
-        let repairs: Vec<(i32, RepairedSamples)> = times
-            .frames
+        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
+        let repairs: Vec<(i32, RepairedSamples)> = requested
             .par_iter()
             .enumerate()
-            .map(|(index, &(frame, slot))| {
+            .map(|(index, &frame)| {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
-                let moment = times.moments[slot];
-                let (repairs, beauty) = self.frame(frame, (slot, moment), &view)?;
-                if let Some(film) = film {
-                    film.keep(index, &view.apply(&beauty))?;
+                let shown = on_sheet.contains(&frame);
+                let mut repairs = RepairedSamples::default();
+                let mut small_picture = None;
+                if let Some(&slot) = rendered.get(&frame) {
+                    let (repaired, beauty) = self.frame(frame, (slot, times.moments[slot]), &view)?;
+                    repairs = repaired;
+                    film.map_or(Ok(()), |film| film.keep(index, &view.apply(&beauty)))?;
+                    small_picture = shown.then(|| view.apply(&small(&beauty)));
+                } else if (film.is_some() || shown)
+                    && let Some(picture) = kept_picture(&self.project.output, self.folder, frame, &view)?
+                {
+                    film.map_or(Ok(()), |film| film.keep(index, &picture))?;
+                    small_picture = shown.then(|| small(&picture));
                 }
-                if on_sheet.contains(&frame) {
-                    let height = (SHEET_WIDTH * beauty.height).div_ceil(beauty.width);
-                    let small = view.apply(&beauty.resized(SHEET_WIDTH, height));
+                if let Some(small) = small_picture {
                     thumbnails.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((frame, small));
                 }
                 progress.advance(1);
@@ -101,13 +122,19 @@ impl FrameWriter<'_> {
             })
             .collect::<Result<_>>()?;
         let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-        thumbnails.sort_by_key(|(frame, _)| numbers.iter().position(|n| n == frame));
-        let path = self.folder.join("contact_sheet.png");
-        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
-        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
-        let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
-        sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay)?;
-        (self.saved)(&path);
+        thumbnails.sort_by_key(|(frame, _)| requested.iter().position(|n| n == frame));
+        let path = self.folder.join(CONTACT_SHEET);
+        if self.files.sheet && !self.files.found.kept.contains(&path) {
+            let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
+            let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
+            let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
+            // A sheet is as finished as it can be: it is made anew by any run of the same.
+            let made_from =
+                [("passes", "0"), ("passes_planned", "0"), ("fingerprint", &*self.files.fingerprint)];
+            let texts = made_from.map(|(name, text)| (name, text.to_owned()));
+            sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay, &texts)?;
+            (self.saved)(&path);
+        }
         Ok((BadValues::sum(&repairs), thumbnails))
     }
 
@@ -188,13 +215,18 @@ impl FrameWriter<'_> {
                 continue;
             }
             let path = pattern.path(self.folder, frame, format);
+            if self.files.found.kept.contains(&path) {
+                continue;
+            }
             all += write_frame(&path, format, &picture, view, output.png_depth())?;
             (self.saved)(&path);
         }
         if let Some(plane) = plane {
             let path = pattern.beside(FrameLayer::Plane.name()).path(self.folder, frame, FrameFormat::Exr);
-            all += write_plane(&path, &plane, &self.plane_metadata(metadata))?;
-            (self.saved)(&path);
+            if !self.files.found.kept.contains(&path) {
+                all += write_plane(&path, &plane, &self.plane_metadata(metadata))?;
+                (self.saved)(&path);
+            }
         }
         Ok((all, background.plus(&caustic)))
     }
@@ -221,6 +253,10 @@ impl FrameWriter<'_> {
             ("flow".into(), json(serde_json::to_string(flow))),
             ("render".into(), json(serde_json::to_string(render))),
         ];
+        settings.push(("passes_planned".into(), self.planned.to_string()));
+        if !self.files.fingerprint.is_empty() {
+            settings.push(("fingerprint".into(), self.files.fingerprint.clone()));
+        }
         if !method.fits() {
             settings.push(("method".into(), method.name().into()));
         }

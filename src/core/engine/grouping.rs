@@ -27,7 +27,7 @@ struct Members {
 }
 
 /// The light of one caustic on the receiver.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, serde::Deserialize)]
 pub struct CausticFlux {
     /// Its name in the project; none for the rest.
     pub name: Option<String>,

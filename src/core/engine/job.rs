@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::bake::{Bake, baked};
 use super::key_photons::PassLight;
 use super::key_sources::KeySources;
 use super::memo::{Client, Same, Slot};
@@ -35,6 +36,8 @@ pub(super) struct Job<'a> {
     pub(super) anchors: usize,
     /// Whether photons and matching of pass 0 are remembered.
     pub(super) remembers: bool,
+    /// Whether the flow may come from a bake, so that pass 0 is matched by its maps, as all others are.
+    pub(super) baked: bool,
 }
 
 impl<'a> Job<'a> {
@@ -65,19 +68,21 @@ impl<'a> Job<'a> {
             photons: *photons,
             anchors: quality.anchors(),
             remembers: true,
+            baked: prepared.bake.is_some(),
         };
         job.guide = match scene.filter(|_| sources.traces()) {
-            Some(scene) => Some(job.learn_guide(scene)?),
+            Some(scene) => Some(job.learn_guide(scene, prepared.bake.as_deref())?),
             None => None,
         };
         Ok(job)
     }
 
     /// The emission guide of the scene, remembered.
-    fn learn_guide(&self, scene: &Arc<Scene>) -> Result<Arc<EmissionGuide>> {
+    fn learn_guide(&self, scene: &Arc<Scene>, bake: Option<&Bake>) -> Result<Arc<EmissionGuide>> {
         let learn = || {
             let learn = || Tracer::new(scene, self.sources.seed(), self.progress);
-            self.meter.measure("trace", learn).map(|tracer| Arc::new(tracer.guide().clone()))
+            let learn = || baked(bake, "guide", || learn().map(|tracer| tracer.guide().clone()));
+            self.meter.measure("trace", learn).map(Arc::new)
         };
         let Some(desc) = &self.project.scene else { return learn() };
         let input = GuideInput {

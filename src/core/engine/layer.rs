@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::flow::SegmentFlow;
 
 /// Groups that flow together.
-#[derive(Clone)]
+#[derive(Clone, serde::Deserialize, serde::Serialize)]
 pub(super) struct Layer {
     pub(super) groups: Vec<usize>,
     pub(super) flow: Arc<SegmentFlow>,

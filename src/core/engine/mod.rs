@@ -13,20 +13,27 @@
 //! same stages; an [`Engine`] that is shared by several users shares its results among them.
 
 mod active_constraints;
+mod bake;
 mod camera;
 mod check;
+mod checkpoint;
 mod compare;
 mod continuity;
 mod energy_balance;
+mod existing;
 mod film_writer;
+mod fingerprint;
 mod fitted_project;
 mod fitted_segment;
 mod flow;
+mod flow_bake;
 mod flow_numbers;
+mod frame_sequence;
 mod frame_times;
 mod frame_writer;
 mod grouping;
 mod job;
+mod kept_picture;
 mod key_photons;
 mod key_sources;
 mod layer;
@@ -46,6 +53,7 @@ mod preview;
 mod quality;
 mod ray_benchmark;
 mod render;
+mod run_files;
 mod scene_notes;
 mod segment_figures;
 mod segment_photons;
@@ -54,14 +62,17 @@ mod still_light;
 mod summary;
 mod track_files;
 mod trajectories;
+mod verify;
 mod walk;
 
 use std::sync::Arc;
 
 pub use check::{CastCaustic, CheckReport};
 pub use compare::{Compared, Comparison};
+pub use existing::{Existing, Found};
 pub use fitted_project::{FittedProject, PlaneLight, PlanePasses};
 pub use flow_numbers::FlowNumbers;
+pub use frame_sequence::write_sheet;
 pub use grouping::CausticFlux;
 pub use memo::Client;
 pub use meter::StageCost;
@@ -75,6 +86,7 @@ pub use ray_benchmark::Traced;
 pub use render::Output;
 pub use segment_figures::{LayerContinuity, SegmentContinuity};
 pub use summary::{BadValues, Energy, Summary};
+pub use verify::{Verification, verify};
 
 use crate::project::{AssetFolder, Project};
 use crate::{Progress, Result};

@@ -71,10 +71,13 @@ fn is_of_report(path: &Path) -> bool {
     path.parent().is_some_and(|folder| folder.ends_with("report")) && (ends("csv") || ends("svg"))
 }
 
+/// The contact sheet in an output folder.
+pub(super) const CONTACT_SHEET: &str = "contact_sheet.png";
+
 /// Files in an output folder beside the frames.
 const OUTPUTS: [&str; 9] = [
     "summary.json",
-    "contact_sheet.png",
+    CONTACT_SHEET,
     "tracks.npy",
     "flux.npy",
     "fields.npz",

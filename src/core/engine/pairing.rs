@@ -108,7 +108,7 @@ impl Pairing {
 }
 
 /// The transport cost of the pairing of all groups, squared plane units.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize, serde::Serialize)]
 pub(super) struct TransportCost {
     /// Photons that were paired; those that rest are not.
     photons: f64,

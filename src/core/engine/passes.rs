@@ -48,8 +48,8 @@ impl<'a> Exposures<'a> {
         }
     }
 
-    /// Carries the photons of pass number `pass` of a job through all moments, which `progress` counts. `kernel` is the pass
-    /// whose kernel is used.
+    /// Carries the photons of pass number `pass` of a job through all moments that lack it, which `progress` counts. `kernel`
+    /// is the pass whose kernel is used.
     ///
     /// # Errors
     /// Photons that are not finite; input and output; cancelled.
@@ -66,12 +66,15 @@ impl<'a> Exposures<'a> {
             self.positions = all_positions(walk.at()).collect();
             self.flux = all_flux(walk.at()).collect();
             let rows = self.rows(walk.at());
-            self.expose((0, &rows), kernel, walk.requested(), |_, _| Ok(()))?;
+            self.expose((0, &rows), (pass, kernel), walk.requested(), |_, _| Ok(()))?;
             progress.advance(1);
         }
-        for (i, fitted) in segments.iter().enumerate() {
+        let lacking = |i: &usize| times.of_segment(*i).any(|(slot, _)| self.lacks(slot, pass));
+        // Beyond the last moment that lacks the pass nothing is seen.
+        let needed = (0..segments.len()).rev().find(lacking).map_or(0, |last| last + 1);
+        for (i, fitted) in segments[..needed].iter().enumerate() {
             let maps = match pass {
-                0 if job.remembers => MapsFrom::Own { bounded: true },
+                0 if job.remembers && !job.baked => MapsFrom::Own { bounded: true },
                 _ => MapsFrom::Others(&fitted.maps),
             };
             let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
@@ -79,9 +82,15 @@ impl<'a> Exposures<'a> {
                 SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
             let moments = times.of_segment(i);
             let rows = self.rows(&photons.from);
-            self.carry((trajectories, &rows), photons.requested, kernel, moments, progress)?;
+            self.carry((trajectories, &rows), photons.requested, (pass, kernel), moments, progress)?;
         }
         self.pending.take().map_or(Ok(()), |slot| self.render.accumulate(slot, &self.works[1]))
+    }
+
+    /// Whether a texture of the frame of `slot` is without a pass.
+    fn lacks(&self, slot: usize, pass: usize) -> bool {
+        let textures = slot * self.textures..(slot + 1) * self.textures;
+        textures.into_iter().any(|texture| self.render.passes(texture) <= pass)
     }
 
     /// Carries the photons through the moments of one segment; `requested` is the flux they should have at its ends.
@@ -89,17 +98,19 @@ impl<'a> Exposures<'a> {
         &mut self,
         (mut trajectories, rows): (SegmentTrajectories, &[Range<usize>]),
         requested: [f64; 2],
-        kernel: usize,
+        passes: (usize, usize),
         moments: impl Iterator<Item = (usize, f64)>,
         progress: &Progress,
     ) -> Result<()> {
         self.positions.resize(trajectories.len(), Vec2::ZERO);
         self.flux.resize(trajectories.len(), Vec3::ZERO);
         for (slot, time) in moments {
-            self.expose((slot, rows), kernel, between(requested, time), |positions, flux| {
-                trajectories.flux_at(time, flux);
-                trajectories.positions_at(time, positions, &progress.inner())
-            })?;
+            if self.lacks(slot, passes.0) {
+                self.expose((slot, rows), passes, between(requested, time), |positions, flux| {
+                    trajectories.flux_at(time, flux);
+                    trajectories.positions_at(time, positions, &progress.inner())
+                })?;
+            }
             progress.advance(1);
             progress.check()?;
         }
@@ -121,11 +132,11 @@ impl<'a> Exposures<'a> {
     }
 
     /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`, a texture for each of `rows`;
-    /// `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
+    /// that lacks the pass; `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
     fn expose(
         &mut self,
         (slot, rows): (usize, &[Range<usize>]),
-        kernel: usize,
+        (pass, kernel): (usize, usize),
         requested: f64,
         place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
     ) -> Result<()> {
@@ -146,7 +157,8 @@ impl<'a> Exposures<'a> {
             outside.flux += beyond.flux;
             lit += total;
             self.works.swap(0, 1);
-            self.pending = Some(slot * self.textures + texture);
+            let texture = slot * self.textures + texture;
+            self.pending = Some(texture).filter(|texture| self.render.passes(*texture) <= pass);
         }
         self.balance.keep(outside, total(&self.flux), requested, lit);
         Ok(())

@@ -6,6 +6,7 @@ use glam::Vec2;
 use serde::Serialize;
 
 use crate::constraint::Constraint;
+use crate::export::{FrameFormat, FrameLayer, PngDepth};
 use crate::flow::{MotionMethod, TurbulenceSettings};
 use crate::matching::MatchingMethod;
 use crate::project::{Project, Shows};
@@ -39,6 +40,21 @@ pub struct Plan {
     pub memory_mib: f64,
     /// Expected size of the scratch file that holds all frames while they are rendered, in MiB.
     pub scratch_mib: f64,
+    /// Expected size of the frames in MiB.
+    pub output_mib: f64,
+    /// Seconds that the photons of all passes take before they are counted into frames.
+    #[serde(skip)]
+    pub(super) shared_seconds: f64,
+}
+
+/// Bytes of a pixel in a frame, measured on noisy pictures.
+mod bytes {
+    /// Of a half float in an EXR file, compressed.
+    pub(super) const HALF: f64 = 0.95;
+    /// Of an 8-bit PNG.
+    pub(super) const PNG: f64 = 1.3;
+    /// Of a 16-bit PNG.
+    pub(super) const PNG_16: f64 = 4.5;
 }
 
 /// Measured on two cores of a server of 2024; used by the progress bar and by `check` only.
@@ -90,9 +106,12 @@ pub(super) fn plan(
         stages: Vec::new(),
         memory_mib: 0.0,
         scratch_mib: 0.0,
+        shared_seconds: 0.0,
+        output_mib: frames as f64 * frame_bytes(project, extent) / MIB,
     };
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
+    plan.shared_seconds = passes as f64 * shared_by_frames(project, photons as f64, moving_segments(project));
     plan.scratch_mib =
         FrameStore::bytes(texels(project, extent) as usize, frames * textures(project)) as f64 / MIB;
     plan
@@ -168,10 +187,9 @@ fn texels(project: &Project, extent: Vec2) -> f64 {
 fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
     let render = &project.render;
     let layers: Vec<usize> = (1..project.keys.len()).map(|key| layers(project, key)).collect();
-    let segments = layers.iter().filter(|layers| **layers > 0).count() as f64;
+    let segments = moving_segments(project);
     let (photons, passes) = (plan.photons as f64, plan.passes as f64);
     let pixels = f64::from(render.width) * f64::from(render.height);
-    let steps = segments * f64::from(project.flow.steps);
     let traced = project.traces();
     let trace = if traced { photons / pace::TRACE } else { 0.0 };
     let mut stages = Vec::new();
@@ -185,16 +203,28 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
         stages.push(("trace", trace));
     }
     stages.extend(motion_stages(project, extent, photons, &layers));
-    // Each noise grid is asked for a velocity as the fitted field is.
-    let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
-    let per_pass = trace
-        + segments * photons / match_pace(project.method)[1]
-        + if project.fits() { steps * photons * fields_asked / pace::ADVECT } else { 0.0 }
+    let per_pass = shared_by_frames(project, photons, segments)
         + plan.frames as f64
             * (photons / pace::SPLAT + textures(project) as f64 * texels(project, extent) / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
+}
+
+/// Seconds of a pass before its photons are counted into frames: they are traced, matched and carried.
+fn shared_by_frames(project: &Project, photons: f64, segments: f64) -> f64 {
+    // Each noise grid is asked for a velocity as the fitted field is.
+    let fields_asked = 1.0 + swirls(project).map_or(0.0, |turbulence| turbulence.grids.len() as f64);
+    let trace = if project.traces() { photons / pace::TRACE } else { 0.0 };
+    let steps = segments * f64::from(project.flow.steps);
+    trace
+        + segments * photons / match_pace(project.method)[1]
+        + if project.fits() { steps * photons * fields_asked / pace::ADVECT } else { 0.0 }
+}
+
+/// The segments in which light moves.
+fn moving_segments(project: &Project) -> f64 {
+    (1..project.keys.len()).filter(|&key| layers(project, key) > 0).count() as f64
 }
 
 /// Matching and fit of each segment, whose fields are counted by `layers`.
@@ -276,6 +306,26 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     60.0 + (photons + fields + noises + pixels * 600.0 + textures) / MIB
 }
 
+/// About the size of one frame in all formats.
+fn frame_bytes(project: &Project, extent: Vec2) -> f64 {
+    let (output, render) = (&project.output, &project.render);
+    let pixels = f64::from(render.width) * f64::from(render.height);
+    let halves = |layer: &FrameLayer| match layer {
+        FrameLayer::Beauty | FrameLayer::Background => 4.0,
+        FrameLayer::Caustic => 3.0,
+        FrameLayer::Caustics => 3.0 * (project.caustics.len() + 1) as f64,
+        FrameLayer::Depth => 2.0,
+        FrameLayer::Plane => 0.0,
+    };
+    let of_format = |format: &FrameFormat| match (format, output.png_depth()) {
+        (FrameFormat::Exr, _) => output.layers.iter().map(halves).sum::<f64>() * bytes::HALF,
+        (FrameFormat::Png, PngDepth::Eight) => bytes::PNG,
+        (FrameFormat::Png, PngDepth::Sixteen) => bytes::PNG_16,
+    };
+    let plane = if output.shows_plane() { 6.0 * bytes::HALF * texels(project, extent) } else { 0.0 };
+    pixels * output.formats.iter().map(of_format).sum::<f64>() + plane
+}
+
 const MIB: f64 = 1_048_576.0;
 
 impl Plan {
@@ -290,21 +340,31 @@ impl Plan {
         Err(Error::Limit { place: "render".into(), what })
     }
 
-    /// Refuses work whose scratch file would not fit into `folder`, where the system tells how much is free there.
-    pub(super) fn require_space(&self, folder: &Path) -> Result<()> {
+    /// Refuses work whose scratch file and frames would not fit into `folder`, where the system tells how much is free there.
+    /// `kept` bytes are there already.
+    pub(super) fn require_space(&self, folder: &Path, kept: u64) -> Result<()> {
         let Some(free) = files::free_bytes(folder).map(|bytes| bytes as f64 / MIB) else { return Ok(()) };
-        if self.scratch_mib <= free {
+        let needed = (self.scratch_mib - kept as f64 / MIB).max(0.0) + self.output_mib;
+        if needed <= free {
             return Ok(());
         }
         let what = format!(
-            "{:.1} MiB are needed while the frames are rendered, {free:.1} MiB are free; \
-            ask for fewer frames or fewer texels, or for another folder",
-            self.scratch_mib
+            "{needed:.1} MiB are needed: {:.1} MiB while the frames are rendered, {:.1} MiB for the frames; {free:.1} MiB are \
+            free; ask for fewer frames or fewer texels, or for another folder",
+            self.scratch_mib, self.output_mib
         );
         Err(Error::io("write the scratch file in", folder)(std::io::Error::new(
             std::io::ErrorKind::StorageFull,
             what,
         )))
+    }
+
+    /// Seconds that every part of a render takes that starts from a bake, and those of each frame.
+    pub fn seconds_of_chunk(&self) -> [f64; 2] {
+        let of =
+            |name: &str| self.stages.iter().filter(|(stage, _)| *stage == name).map(|(_, s)| s).sum::<f64>();
+        let frames = self.frames.max(1) as f64;
+        [self.shared_seconds, (of("render") - self.shared_seconds + of("write")).max(0.0) / frames]
     }
 
     /// Seconds that a film of all frames takes, about.

@@ -1,9 +1,11 @@
 //! The first step of every command: a project checked, its files opened, its work planned.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec2;
 
+use super::bake::Bake;
 use super::frame_times::FrameTimes;
 use super::key_sources::KeySources;
 use super::memo::{Client, Slot};
@@ -32,6 +34,10 @@ pub(super) struct Prepared {
     pub(super) notes: Vec<String>,
     /// Photons of one pass.
     pub(super) photons: usize,
+    /// The files that meshes were read from, in the order of their names.
+    pub(super) mesh_files: Arc<Vec<PathBuf>>,
+    /// Results of an earlier process, where there may be some.
+    pub(super) bake: Option<Arc<Bake>>,
 }
 
 impl Stages {
@@ -46,7 +52,8 @@ impl Stages {
             None => None,
             Some(desc) => Some(self.scene(client, desc, progress)?),
         };
-        let (scene, of_scene) = scene.unzip();
+        let (noted, mesh_files) = scene.unzip();
+        let (scene, of_scene) = noted.unzip();
         let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
         let open = |shows: &Shows, place: &str, index: usize| {
             let slot = Slot { client, quality: Quality::Final, index };
@@ -71,7 +78,20 @@ impl Stages {
         );
         let photons = plan.photons;
         let (project, quality) = (project.clone(), Quality::Final);
-        Ok(Prepared { project, quality, scene, extent, sources, times, plan, notes, photons })
+        let mesh_files = mesh_files.unwrap_or_default();
+        Ok(Prepared {
+            project,
+            quality,
+            scene,
+            extent,
+            sources,
+            times,
+            plan,
+            notes,
+            photons,
+            mesh_files,
+            bake: None,
+        })
     }
 }
 
@@ -92,6 +112,18 @@ impl Prepared {
     /// The look of light on the plane.
     pub(super) fn plane_material(&self) -> PlaneMaterial {
         self.scene.as_ref().map_or(PlaneMaterial::WHITE, |scene| PlaneMaterial::of(scene.receiver()))
+    }
+
+    /// Plans some of the frames in place of all.
+    ///
+    /// # Errors
+    /// Point files of different lengths whose rows are paired as given.
+    pub(super) fn plan_frames(&mut self, frames: &[i32]) -> Result<()> {
+        let rows = self.sources.given_rows(self.project.matching)?;
+        let fixed = self.sources.is_fixed(self.project.render.photons as usize);
+        self.plan = plan::plan(&self.project, self.extent, frames.len(), rows, fixed);
+        self.times = FrameTimes::new(&self.project.keys, frames);
+        Ok(())
     }
 
     /// The same with at most `photons` photons in a pass, at a lower quality.

@@ -1,9 +1,13 @@
 //! Renders a project's frames, or writes its tracks.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use super::bake::Bake;
 use super::camera::CameraView;
+use super::existing::Existing;
 use super::film_writer::FilmWriter;
+use super::fingerprint::fingerprint;
 use super::fitted_project::FittedProject;
 use super::frame_writer::{FrameWriter, Thumbnails};
 use super::job::Job;
@@ -11,11 +15,12 @@ use super::memo::Slot;
 use super::meter::Meter;
 use super::observer::RenderObserver;
 use super::prepare::Prepared;
+use super::run_files::RunFiles;
 use super::summary::{Done, Summary};
 use super::{Engine, Quality, active_constraints, track_files};
 use crate::export::FilmFormat;
 use crate::project::Project;
-use crate::render::{PlaneView, ProgressiveRender, first_radius};
+use crate::render::{PlaneView, first_radius};
 use crate::{Error, Progress, Result};
 
 /// Where a render goes, and those who are told of it.
@@ -24,12 +29,25 @@ pub struct Output<'a> {
     pub folder: &'a Path,
     /// The file of a film of all frames, where one is wanted ([`prepare_film`](super::prepare_film)).
     pub film: Option<&'a Path>,
+    /// What becomes of frames of other renders that are in the folder.
+    pub existing: Existing,
+    /// The folder of a bake of the same project ([`Engine::bake`]): the frames are a part of a render that is done in parts, so
+    /// that no contact sheet is written.
+    pub bake: Option<&'a Path>,
     /// The progress of the work.
     pub progress: &'a Progress,
     /// Called with each finished file.
     pub saved: &'a (dyn Fn(&Path) + Sync),
     /// Sees the frames grow.
     pub observer: &'a dyn RenderObserver,
+}
+
+impl<'a> Output<'a> {
+    /// Frames alone, which replace others.
+    pub fn new(folder: &'a Path, progress: &'a Progress, saved: &'a (dyn Fn(&Path) + Sync)) -> Self {
+        let (existing, film, bake) = (Existing::Overwrite, None, None);
+        Self { folder, film, existing, bake, progress, saved, observer: &() }
+    }
 }
 
 /// A finished render, with what a comparison asks of it.
@@ -41,7 +59,8 @@ pub(super) struct Rendered {
 }
 
 impl Engine {
-    /// Renders the project's frames into the folder `out`, which must exist. `saved` is told of each file.
+    /// Renders the project's frames into the folder `out`, which must exist; those that are there and made from the same are
+    /// kept, others replaced. `saved` is told of each file.
     ///
     /// A run that is cancelled after its first pass still writes all frames, at the quality reached.
     ///
@@ -55,19 +74,20 @@ impl Engine {
         progress: &Progress,
         saved: &(dyn Fn(&Path) + Sync),
     ) -> Result<Summary> {
-        self.render_to(project, &Output { folder: out, film: None, progress, saved, observer: &() })
+        self.render_to(project, &Output::new(out, progress, saved))
     }
 
     /// As [`Engine::render`], with a film, and an observer who sees the frames grow.
     ///
     /// # Errors
-    /// As [`Engine::render`]; a film that cannot be written on this machine.
+    /// As [`Engine::render`]; frames of other renders that may not be replaced; a bake of another project; a film that cannot
+    /// be written on this machine.
     pub fn render_to(&self, project: &Project, output: &Output) -> Result<Summary> {
         let &Output { film, progress, observer, .. } = output;
         let meter = Meter::default();
-        let prepared = self.prepare(project, &meter, progress)?;
+        let mut prepared = self.prepare(project, &meter, progress)?;
+        let files = RunFiles::open(self, &mut prepared, output)?;
         prepared.plan.require_memory()?;
-        prepared.plan.require_space(output.folder)?;
         let mut stages = prepared.plan.stages.clone();
         if let Some(film) = film {
             let format = FilmFormat::of(film, "film")?;
@@ -76,7 +96,10 @@ impl Engine {
         }
         progress.set_stages(stages);
         observer.planned(&prepared.plan);
-        self.render_prepared(prepared, &meter, output).map(|rendered| rendered.summary)
+        if files.is_done() && film.is_none() {
+            return Ok(Summary::of_kept(&prepared, &files, &meter));
+        }
+        self.render_prepared(prepared, &meter, output, files).map(|rendered| rendered.summary)
     }
 
     /// All stages of a render of a prepared project.
@@ -85,8 +108,9 @@ impl Engine {
         prepared: Prepared,
         meter: &Meter,
         output: &Output,
+        files: RunFiles,
     ) -> Result<Rendered> {
-        let &Output { folder, film, progress, saved, observer } = output;
+        let &Output { folder, film, progress, saved, observer, .. } = output;
         let view = CameraView::of_render(&prepared);
         let slot = Slot { client: self.client, quality: Quality::Final, index: 0 };
         let camera = self.stages.look(slot, &view, meter, progress)?;
@@ -97,7 +121,8 @@ impl Engine {
         let first = first_radius(&project.render, prepared.extent);
         let textures = prepared.textures();
         let moments = times.moments.len() * textures;
-        let render = ProgressiveRender::new(*camera.visible.layout(), first, moments, folder)?;
+        let render = files.store(*camera.visible.layout(), first, moments)?;
+        let before = render.least_passes();
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
             project,
@@ -110,14 +135,17 @@ impl Engine {
             folder,
             drawn: &active_constraints::drawn(project),
             plane: plane.clone(),
+            files: &files,
+            planned: prepared.plan.passes,
             saved,
         };
-        let film = film.map(|path| FilmWriter::new(path, folder, project, times)).transpose()?;
+        let requested = project.frames()?;
+        let film = film.map(|path| FilmWriter::new(path, folder, project, &requested)).transpose()?;
         let passed = |passes| observer.passed(passes, &|frame| writer.picture(times, frame));
         let (passes, balance) =
             meter.measure("render", || fitted.render_passes(&render, progress, &passed))?;
         let (bad_values, thumbnails) =
-            meter.measure("write", || writer.run(times, film.as_ref(), progress))?;
+            meter.measure("write", || writer.run(times, &requested, film.as_ref(), progress))?;
         if let Some(film) = &film {
             meter.measure("film", || film.write(progress))?;
             saved(film.path());
@@ -125,8 +153,47 @@ impl Engine {
         let continuity = fitted.measured_unless_stopped(meter, progress)?;
         let clamped = camera.background.clamped;
         let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
-        let summary = Summary::new(prepared, done, meter);
+        let mut summary = Summary::new(prepared, done, meter);
+        files.tell(&mut summary, before);
+        drop(render);
+        if summary.passes >= summary.passes_planned {
+            files.finish(folder, &requested)?;
+        }
         Ok(Rendered { summary, fitted, thumbnails, plane })
+    }
+
+    /// Bakes everything into `folder`, which must exist, that a render needs before its first pass: what the camera sees
+    /// without the light that flows, the aim of the photons, the maps and the fields. Renders of parts of the frames then
+    /// start from there, wherever they run, with the same bytes as one render of all ([`Output::bake`]).
+    ///
+    /// # Errors
+    /// Anything wrong with the project or its files; input and output; cancelled.
+    pub fn bake(
+        &self,
+        project: &Project,
+        folder: &Path,
+        progress: &Progress,
+        saved: &(dyn Fn(&Path) + Sync),
+    ) -> Result<Summary> {
+        let meter = Meter::default();
+        let mut prepared = self.prepare(project, &meter, progress)?;
+        prepared.plan.require_memory()?;
+        let stages = prepared.plan.stages.iter().copied();
+        progress.set_stages(stages.filter(|(stage, _)| !["render", "write"].contains(stage)).collect());
+        let print = fingerprint(project, &self.stages.assets, &prepared.mesh_files)?;
+        let bake = Arc::new(Bake::growing(folder, &print));
+        prepared.bake = Some(bake.clone());
+        let view = CameraView::of_render(&prepared);
+        let slot = Slot { client: self.client, quality: Quality::Final, index: 0 };
+        let camera = self.stages.look(slot, &view, &meter, progress)?;
+        let fitted = self.fit_prepared(prepared, &meter, progress)?;
+        saved(&bake.complete(&project.name)?);
+        let FittedProject { prepared, flow, .. } = &fitted;
+        let continuity = fitted.measured_unless_stopped(&meter, progress)?;
+        let (balance, bad_values, clamped) =
+            (Default::default(), Default::default(), camera.background.clamped);
+        let done = Done { command: "fit", passes: 0, flow, continuity, balance, bad_values, clamped };
+        Ok(Summary { fingerprint: print, ..Summary::new(prepared, done, &meter) })
     }
 
     /// Fits the flow and writes `tracks.npy`, `flux.npy` and `fields.npz` into the folder `out`.

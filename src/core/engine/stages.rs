@@ -1,7 +1,8 @@
 //! The stages of the engine, with what they remember.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::Vec2;
 
@@ -22,7 +23,7 @@ use crate::{Progress, Result};
 /// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
 pub(super) struct Stages {
     pub(super) assets: AssetFolder,
-    geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), Noted<Geometry>>,
+    geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), (Noted<Geometry>, Arc<Vec<PathBuf>>)>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
     pub(super) guides: Memo<GuideInput, Arc<EmissionGuide>>,
@@ -61,7 +62,7 @@ impl Stages {
         }
     }
 
-    /// A scene with its notes. Meshes are read again only if they, or their files, changed.
+    /// A scene with its notes, and the files that its meshes were read from. Meshes are read again only if they, or their files, changed.
     ///
     /// # Errors
     /// The first value of the scene that cannot be used; a mesh that cannot be read; cancelled.
@@ -70,21 +71,28 @@ impl Stages {
         client: Client,
         desc: &SceneDesc,
         progress: &Progress,
-    ) -> Result<Noted<Scene>> {
+    ) -> Result<(Noted<Scene>, Arc<Vec<PathBuf>>)> {
         desc.check("scene")?;
         // A scene without meshes is the bare plane of a project that has no scene; it takes no slot from the others.
         let slot = Slot { client, quality: Quality::Final, index: usize::from(desc.meshes.is_empty()) };
         // A file that cannot be found has no stamp; reading it tells why.
         let stamp = |mesh: &MeshDesc| Some(FileStamp::of(&self.assets.resolve(&mesh.file, "").ok()?));
         let input = (desc.meshes.clone(), desc.meshes.iter().filter_map(stamp).collect());
-        let (geometry, of_meshes) = self.geometry.get(slot, input, progress, |(meshes, _)| {
-            let resolve = |path: &str, place: &str| self.assets.resolve(path, place);
-            Geometry::load(meshes, &resolve, progress).map(noted)
+        let ((geometry, of_meshes), files) = self.geometry.get(slot, input, progress, |(meshes, _)| {
+            let files = Mutex::new(BTreeSet::new());
+            let resolve = |path: &str, place: &str| {
+                let file = self.assets.resolve(path, place)?;
+                files.lock().unwrap_or_else(PoisonError::into_inner).insert(file.clone());
+                Ok(file)
+            };
+            let geometry = Geometry::load(meshes, &resolve, progress).map(noted)?;
+            let files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
+            Ok((geometry, Arc::new(files.into_iter().collect())))
         })?;
         let input = (desc.clone(), Same::of(&geometry));
         let (scene, of_scene) =
             self.scenes.get(slot, input, progress, |_| Scene::with_geometry(desc, geometry).map(noted))?;
-        Ok((scene, Arc::new(of_meshes.iter().chain(&*of_scene).cloned().collect())))
+        Ok(((scene, Arc::new(of_meshes.iter().chain(&*of_scene).cloned().collect())), files))
     }
 
     /// The source of light that `shows` asks for at `place` of the project, read again only if its file changed.

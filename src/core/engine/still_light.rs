@@ -23,7 +23,7 @@ const MOST_TEXELS: f32 = 1024.0;
 const PASS: u64 = u64::MAX - 2;
 
 /// Shares of the light of a caustic in the frames: RGB factors by key frame, linear in the time between.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub(super) struct StillShares {
     /// Of what stays on the border and the floor: 1 while the caustic is physical.
     stays: Vec<Vec3>,
@@ -54,12 +54,14 @@ pub(super) fn shares(project: &Project, grouping: &Grouping) -> Vec<Option<Still
 }
 
 /// The light that does not flow, as the camera sees it.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct StillLight {
     /// Groups with equal shares have their pictures in common, unless all are wanted apart.
     layers: Vec<Layer>,
 }
 
 /// The light of some groups of photons.
+#[derive(serde::Deserialize, serde::Serialize)]
 struct Layer {
     /// By number, in order.
     groups: Vec<usize>,

@@ -11,6 +11,7 @@ use super::grouping::{CausticFlux, notes_on_dark};
 use super::meter::{Meter, StageCost};
 use super::plan::LeftOut;
 use super::prepare::Prepared;
+use super::run_files::RunFiles;
 use super::segment_figures::SegmentContinuity;
 use crate::constraint::Constraint;
 use crate::continuity::FIGURES;
@@ -56,6 +57,14 @@ pub struct Summary {
     pub passes_planned: usize,
     /// Frames that were written.
     pub frames: usize,
+    /// Files of frames that were there already, and kept.
+    pub kept: usize,
+    /// The hash of all that the frames are made from; empty where they do not tell it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub fingerprint: String,
+    /// Whether it is about a part of the frames, or about none, so that it must not replace the summary of all.
+    #[serde(skip)]
+    pub(super) partial: bool,
     /// Frames per second of the project, as a fraction.
     pub frames_per_second: [u32; 2],
     /// The flow; absent where nothing moves.
@@ -137,6 +146,9 @@ impl Summary {
             passes: done.passes,
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
+            kept: 0,
+            fingerprint: String::new(),
+            partial: false,
             frames_per_second: project.output.fps,
             flow,
             continuity: done.continuity,
@@ -150,6 +162,23 @@ impl Summary {
             left_out: prepared.plan.left_out.clone(),
             notes,
         }
+    }
+
+    /// Whether it is about all frames of the run.
+    pub fn is_of_all(&self) -> bool {
+        !self.partial
+    }
+
+    /// Of a run whose frames are all there already.
+    pub(super) fn of_kept(prepared: &Prepared, files: &RunFiles, meter: &Meter) -> Self {
+        let (segments, caustics, idle_lights) = Default::default();
+        let flow = &FittedFlow { segments, numbers: None, caustics, idle_lights };
+        let (continuity, balance, bad_values, clamped) = Default::default();
+        let passes = prepared.plan.passes;
+        let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
+        let mut summary = Self::new(prepared, done, meter);
+        files.tell(&mut summary, 0);
+        summary
     }
 
     /// Whether a frame holds values that were not finite and had to be replaced.
@@ -169,6 +198,9 @@ impl Summary {
             "{}: {} frames, {} passes of {} photons, {:.1} s\n",
             self.project, self.frames, self.passes, self.photons, self.seconds
         );
+        if self.kept > 0 {
+            let _ = writeln!(text, "  kept: {} files that were there", self.kept);
+        }
         for cost in &self.stages {
             let memory = cost.peak_memory_mib.map_or(String::new(), |mib| format!("  {mib:7.0} MiB"));
             let _ = writeln!(text, "  {:<12}{:8.2} s{memory}", cost.stage, cost.seconds);

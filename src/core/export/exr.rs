@@ -12,7 +12,7 @@ use std::path::Path;
 use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds};
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image as ExrImage, ImageAttributes,
-    Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
+    Layer, LayerAttributes, LineOrder, ReadChannels as _, ReadLayers as _, Text, Vec2, WritableImage,
 };
 use glam::Vec3;
 use half::f16;
@@ -113,6 +113,33 @@ fn save(
     crate::files::write_atomic(path, |file| file.write_all(&bytes))
 }
 
+/// The picture of a frame, linear light: its beauty, or the caustics where it has none; none where it has neither.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read_beauty(path: &Path) -> Result<Option<Image>> {
+    let bytes = crate::files::read_regular_file(path, 8 << 30)?;
+    let picture = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels();
+    let file = picture
+        .all_layers()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|error| Error::format(path, "", format!("cannot be read: {error}")))?;
+    let named = |prefix: &str| {
+        file.layer_data.iter().find_map(|layer| {
+            let channel = |name: &str| {
+                layer.channel_data.list.iter().find(|of| of.name.to_string() == format!("{prefix}{name}"))
+            };
+            let planes = [channel("R")?, channel("G")?, channel("B")?];
+            let planes = planes.map(|channel| channel.sample_data.values_as_f32().collect::<Vec<f32>>());
+            let [r, g, b] = &planes;
+            let pixels = r.iter().zip(g).zip(b).map(|((r, g), b)| Vec3::new(*r, *g, *b)).collect();
+            Some(Image { width: layer.size.0, height: layer.size.1, pixels })
+        })
+    };
+    Ok(named("").or_else(|| named("caustic.")))
+}
+
 /// The primaries of Rec.709 and D65.
 const REC709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
@@ -145,12 +172,8 @@ fn attributes(
     let mut other = HashMap::new();
     other.insert(Text::from("colorInteropID"), text("lin_rec709_scene"));
     other.insert(Text::from("lightloom:frame"), AttributeValue::I32(metadata.frame));
-    other.insert(Text::from("lightloom:seed"), text(&metadata.seed.to_string()));
-    other.insert(Text::from("lightloom:passes"), text(&metadata.passes.to_string()));
-    other.insert(Text::from("lightloom:half_clamped"), text(&repairs.half_clamped.to_string()));
-    other.insert(Text::from("lightloom:nonfinite_replaced"), text(&repairs.nonfinite_replaced.to_string()));
-    for (name, value) in &metadata.settings {
-        other.insert(utf8(&format!("lightloom:{name}")), text(value));
+    for (name, value) in metadata.texts(repairs) {
+        other.insert(utf8(&format!("lightloom:{name}")), text(&value));
     }
     attributes.other = other;
     attributes

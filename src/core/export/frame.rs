@@ -39,6 +39,20 @@ pub struct Metadata {
     pub settings: Vec<(String, String)>,
 }
 
+impl Metadata {
+    /// All that is told in words, by name without `lightloom:`: frame, seed, passes, the settings and what was repaired.
+    pub(super) fn texts(&self, repairs: RepairedSamples) -> Vec<(&str, String)> {
+        let numbers = [
+            ("seed", self.seed.to_string()),
+            ("passes", self.passes.to_string()),
+            ("half_clamped", repairs.half_clamped.to_string()),
+            ("nonfinite_replaced", repairs.nonfinite_replaced.to_string()),
+        ];
+        let settings = self.settings.iter().map(|(name, value)| (name.as_str(), value.clone()));
+        numbers.into_iter().chain(settings).collect()
+    }
+}
+
 /// Counts of samples that the file format cannot hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepairedSamples {

@@ -12,6 +12,7 @@ pub mod png;
 pub mod sheet;
 
 mod frame;
+mod inspect;
 mod projection;
 mod text;
 mod time_code;
@@ -26,6 +27,7 @@ pub use exr::write_plane;
 pub use fields::{SegmentFields, load_fields, write_fields};
 pub use film::{FilmFormat, Reel, write_film};
 pub use frame::{Frame, Metadata, RepairedSamples};
+pub use inspect::{FrameFile, inspect};
 pub use layer::{FrameLayer, caustic_layer_names};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
@@ -77,8 +79,11 @@ pub fn write_frame(
             let beauty = frame.background.plus(frame.caustic);
             let nonfinite =
                 beauty.pixels.iter().flat_map(|p| p.to_array()).filter(|v| !v.is_finite()).count();
-            png::write(path, &view.apply(&beauty), depth)?;
-            Ok(RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 })
+            let repairs = RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 };
+            let mut texts = vec![("frame", frame.metadata.frame.to_string())];
+            texts.extend(frame.metadata.texts(repairs));
+            png::write_with_texts(path, &view.apply(&beauty), depth, &texts)?;
+            Ok(repairs)
         }
     }
 }

@@ -24,7 +24,17 @@ pub enum PngDepth {
 /// Writes screen values (0..=1, after the view transform), dithered against banding. The dither depends on the pixel alone:
 /// it does not flicker, and grey stays grey.
 pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
-    crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth))
+    write_with_texts(path, encoded, depth, &[])
+}
+
+/// As [`write()`], with texts by their names, each of which is prefixed with `lightloom:`.
+pub(super) fn write_with_texts(
+    path: &Path,
+    encoded: &Image,
+    depth: PngDepth,
+    texts: &[(&str, String)],
+) -> Result<()> {
+    crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth, texts))
 }
 
 /// As [`write()`], 8 bit, into memory.
@@ -33,12 +43,17 @@ pub fn write(path: &Path, encoded: &Image, depth: PngDepth) -> Result<()> {
 /// A picture without pixels, or larger than PNG allows.
 pub fn encode(encoded: &Image) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    write_to(&mut bytes, encoded, PngDepth::Eight)
+    write_to(&mut bytes, encoded, PngDepth::Eight, &[])
         .map_err(|error| Error::Numeric { stage: "png", what: error.to_string() })?;
     Ok(bytes)
 }
 
-fn write_to(writer: impl io::Write, encoded: &Image, depth: PngDepth) -> io::Result<()> {
+fn write_to(
+    writer: impl io::Write,
+    encoded: &Image,
+    depth: PngDepth,
+    texts: &[(&str, String)],
+) -> io::Result<()> {
     let (bits, data) = match depth {
         PngDepth::Eight => (png::BitDepth::Eight, bytes(encoded)),
         PngDepth::Sixteen => {
@@ -51,6 +66,9 @@ fn write_to(writer: impl io::Write, encoded: &Image, depth: PngDepth) -> io::Res
     encoder.set_depth(bits);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::Fast);
+    for (name, text) in texts {
+        encoder.add_itxt_chunk(format!("lightloom:{name}"), text.clone()).map_err(io::Error::other)?;
+    }
     let mut writer = encoder.write_header().map_err(io::Error::other)?;
     writer.write_image_data(&data).map_err(io::Error::other)?;
     writer.finish().map_err(io::Error::other)

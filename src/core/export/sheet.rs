@@ -30,7 +30,7 @@ pub fn evenly_chosen(frames: &[i32], count: usize) -> Vec<i32> {
 }
 
 /// Writes a PNG with the pictures (screen values, all of one size) row by row, each under the overlay and with its number
-/// below.
+/// below; and texts by their names ([`png`]).
 ///
 /// # Panics
 /// If the pictures differ in size.
@@ -39,8 +39,9 @@ pub fn write_contact_sheet(
     pictures: &[(i32, Image)],
     columns: usize,
     overlay: Overlay,
+    texts: &[(&str, String)],
 ) -> Result<()> {
-    png::write(path, &arrange(pictures, columns, overlay), PngDepth::Eight)
+    png::write_with_texts(path, &arrange(pictures, columns, overlay), PngDepth::Eight, texts)
 }
 
 /// The page itself, in screen values.

@@ -4,7 +4,7 @@ pub mod npy;
 pub mod npz;
 mod space;
 
-pub use space::free_bytes;
+pub use space::{free_bytes, reserve};
 use std::fs::File;
 use std::io::{self, BufWriter, Read as _, Write as _};
 use std::path::Path;

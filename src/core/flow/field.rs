@@ -11,7 +11,7 @@ use wide::f32x8;
 use crate::math::bspline::{self, EXTRA};
 
 /// M x N cells over `[0, extent.x] x [0, extent.y]`: (M+3)(N+3) coefficients for each potential.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, serde::Deserialize, serde::Serialize)]
 pub struct Grid {
     /// Cells along x and y, M and N.
     pub cells: [usize; 2],
@@ -37,7 +37,7 @@ impl Grid {
 }
 
 /// One fitted field. Its potentials carry their weights: psi stands for (1-gamma) psi of Eq. (1), phi for gamma phi.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct Field {
     grid: Grid,
     per_plane: Vec2,

@@ -16,6 +16,7 @@ use crate::{Progress, Result};
 ///
 /// Between fits the field is extrapolated from the last two, u(t) = u_n + (t - t_n)/h (u_n - u_(n-1)): second order in h
 /// at one fit per step, and known before the next fit, so that guide photons and those of later passes move alike.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub struct Fields {
     nodes: Vec<Field>,
     steps: usize,

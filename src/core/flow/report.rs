@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// Quality and cost of the flow between two key frames, over the guide photons and the whole run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct FlowReport {
     /// Guide photons.
     pub guides: usize,

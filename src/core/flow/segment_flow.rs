@@ -11,6 +11,7 @@ use super::trajectories::Trajectories;
 use super::turbulence::Turbulence;
 
 /// The flow of one segment: fitted fields, or closed-form paths.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub enum SegmentFlow {
     /// Fields fitted to the guidance of paired photons.
     Fields(Fields),

@@ -18,7 +18,7 @@ use crate::{Progress, Result};
 const CHUNK: usize = 4096;
 
 /// The continuous map from one key to the next: photons of all passes are paired near it, and so move together.
-#[derive(Clone)]
+#[derive(Clone, serde::Deserialize, serde::Serialize)]
 pub enum ContinuousMap {
     /// The optimal transport map between the densities.
     Transport(TransportMap),

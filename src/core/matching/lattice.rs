@@ -13,7 +13,7 @@ const REACH: f32 = 1.0;
 const CHUNK: usize = 1 << 17;
 
 /// `size[0]` x `size[1]` square cells. Row-major, x first; "cell units" have their origin at the lattice's corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub(super) struct Lattice {
     pub(super) size: [usize; 2],
     /// The corner of least x and y, in the plane.

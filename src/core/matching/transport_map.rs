@@ -19,7 +19,7 @@ const POINTS_PER_CELL: f64 = 4.0;
 const FLOOR: f64 = 0.001;
 
 /// The optimal (Brenier) map between two densities.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct TransportMap {
     lattice: Lattice,
     /// T at the corners of the cells, cell units.

@@ -21,6 +21,7 @@ pub enum EmissionGuiding {
 }
 
 /// The rays from one light that meet the bounding sphere of one caster and none of the spheres before it.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct Domain {
     pub light: u16,
     pub emission: Emission,

@@ -21,6 +21,7 @@ const INACTIVE_SHARE: f64 = 0.2;
 /// Most cells to be refined on one level of the quadtree; fewer for scenes of many lights and casters.
 const MAX_OPEN: usize = 16_384;
 /// A cell of a domain's square with the flux of its candidates.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct Cell {
     pub domain: u32,
     pub corner: [f32; 2],
@@ -32,6 +33,7 @@ pub(super) struct Cell {
 }
 
 /// The cells of all lights with their shares of the candidates.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct EmissionPlan {
     pub domains: Vec<Domain>,
     pub cells: Vec<Cell>,

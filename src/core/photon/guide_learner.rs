@@ -21,6 +21,7 @@ const LAST_LEVEL: u32 = 10;
 const LEARNING: u64 = u64::MAX;
 
 /// A leaf of the quadtree over one domain.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct Leaf {
     pub domain: u32,
     /// Depth: the domain has 2^level x 2^level cells of this size.

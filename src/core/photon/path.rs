@@ -15,7 +15,7 @@ const MAX_SURFACES: usize = 256;
 const SMOOTH_SURFACES: usize = 32;
 
 /// The part of the caustics that is traced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
 pub enum LightPart {
     /// What flows: on the receiver, within its soft border.
     Flowing,
@@ -41,7 +41,7 @@ pub(super) struct Landing {
 }
 
 /// The balance of the lights' flux (W) per channel. `emitted` is the sum of all others, to rounding.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct FluxBalance {
     /// Sent towards glass and mirrors.
     pub emitted: DVec3,

@@ -55,9 +55,10 @@ pub struct Tracer<'a> {
 
 /// The learned emission of a scene's lights: importance sampling towards the part of the light that is traced. Valid while
 /// meshes, lights, receiver and seed stay the same. Cheap to clone.
-#[derive(Clone)]
+#[derive(Clone, serde::Deserialize, serde::Serialize)]
 pub struct EmissionGuide(Arc<GuidedEmission>);
 
+#[derive(serde::Deserialize, serde::Serialize)]
 struct GuidedEmission {
     plan: EmissionPlan,
     part: LightPart,

@@ -31,7 +31,7 @@ const PRIOR: f32 = 4.0;
 const LEAST: f32 = 1e-4;
 
 /// The cells of surface and direction: neighbouring triangles together, and directions by an octahedral map.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub(super) struct Cells {
     /// Triangles of a part, as a power of 2: those of a leaf of the hierarchy, or of several.
     shift: u32,
@@ -165,7 +165,7 @@ impl Lesson {
         Window {
             cells: self.cells,
             steps: self.tallies.iter().enumerate().map(wanted).collect(),
-            factors: std::array::from_fn(|step| (step as f32 / STEPS).exp2()),
+            factors: (0..=STEPS_TO_MOST).map(|step| (step as f32 / STEPS).exp2()).collect(),
         }
     }
 
@@ -188,12 +188,13 @@ impl Lesson {
 }
 
 /// The flux that a path should have in each cell, over that of one that was not ended early.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct Window {
     cells: Cells,
     /// By cell, in eighths of a power of 2.
     steps: Vec<u8>,
     /// The flux of each step.
-    factors: [f32; STEPS_TO_MOST + 1],
+    factors: Vec<f32>,
 }
 
 /// Holds paths to a window.

@@ -38,7 +38,7 @@ const ROUNDS: u32 = 6;
 const FIREFLY_LIMIT: f32 = 50.0;
 
 /// The picture without caustics.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct Background {
     /// Linear light.
     pub image: Image,

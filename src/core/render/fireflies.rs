@@ -12,7 +12,7 @@ use crate::math::colour::luminance;
 const OUTLIER: f32 = 2.0;
 
 /// Highlights of the background that were clamped.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct ClampedLight {
     /// Pixels that lost light.
     pub pixels: usize,

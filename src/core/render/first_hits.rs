@@ -15,7 +15,7 @@ pub const NO_DEPTH: f32 = 1e10;
 
 /// Coverage and depth of the first surfaces, pixel by pixel. Glass covers what is behind it; the sky and lamps are no
 /// surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct FirstHits {
     /// Share of the pixel's filter that meets a surface, 0..=1. Things thinner than a pixel may be missed.
     pub coverage: Vec<f32>,

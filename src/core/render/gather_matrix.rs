@@ -20,7 +20,7 @@ use crate::{Progress, Result};
 const NEGLIGIBLE: f32 = 1e-7;
 
 /// The sparse matrix from the texels of one layout to the pixels of one picture, compressed by rows.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct GatherMatrix {
     width: usize,
     height: usize,
@@ -31,7 +31,7 @@ pub struct GatherMatrix {
 }
 
 /// An entry of the matrix: a pixel's radiance [W/(sr m^2)] per watt in a texel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 struct TexelWeight {
     texel: u32,
     weight: Vec3,

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// RGB, linear Rec.709 primaries, f32; row 0 is the top.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct Image {
     /// Pixels per row.
     pub width: usize,

@@ -8,6 +8,7 @@
 pub mod background;
 pub mod density;
 pub mod first_hits;
+mod frame_journal;
 pub mod frames;
 pub mod gather_matrix;
 pub mod image;

@@ -56,6 +56,28 @@ impl ProgressiveRender {
         Ok(Self { layout, first_radius, store: FrameStore::new(layout, frames, folder)? })
     }
 
+    /// The same render in files of `folder` that outlive the process, with the light that an earlier one left there
+    /// ([`FrameStore::kept`]).
+    pub fn kept(
+        layout: TextureLayout,
+        first_radius: f32,
+        frames: usize,
+        folder: &Path,
+        checked: bool,
+    ) -> Result<Self> {
+        Ok(Self { layout, first_radius, store: FrameStore::kept(layout, frames, folder, checked)? })
+    }
+
+    /// Passes in a frame.
+    pub fn passes(&self, frame: usize) -> usize {
+        self.store.passes(frame)
+    }
+
+    /// Passes in the frame that has the fewest.
+    pub fn least_passes(&self) -> usize {
+        self.store.least_passes()
+    }
+
     /// The layout of the textures.
     pub fn layout(&self) -> &TextureLayout {
         &self.layout

@@ -24,7 +24,7 @@ pub struct StillTextures {
 }
 
 /// The camera's pictures of [`StillTextures`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct StillPictures {
     /// The light that stays, wherever it is seen.
     pub stays: Image,

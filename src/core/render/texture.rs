@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::math::sum::ordered_sum;
 
 /// The placement of the texels on the plane; row 0 is at the bottom (smallest plane y).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct TextureLayout {
     /// Texels per row.
     pub columns: usize,
@@ -73,7 +73,7 @@ impl TextureLayout {
 }
 
 /// RGB flux per texel, f32. The fourth lane is always zero: four lanes are one vector register.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct ReceiverTexture {
     layout: TextureLayout,
     texels: Vec<Vec4>,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lightloom_core::project::Project;
 
 use crate::editor::dialogs::Question;
+use crate::editor::export::InterruptedExport;
 use crate::editor::store::{Folders, Journal, Preferences, Recovery, SaveRequest, Saver, StoreRequest};
 
 /// The file threads, and the requests they have not answered yet.
@@ -31,6 +32,7 @@ pub(super) enum PendingQuestion {
     Leave(Leave),
     Recover(Box<Recovery>),
     Changed(Box<SaveRequest>),
+    Export(Box<InterruptedExport>),
     Nothing,
 }
 

@@ -29,6 +29,11 @@ impl App {
             }
         } else if let Some(recovery) = self.files.lost.pop() {
             self.offer(recovery);
+        } else if let Some(export) = self.interrupted.pop() {
+            let settings = &export.settings;
+            let (title, folder) = (settings.project.name.clone(), settings.folder.display().to_string());
+            let question = Question::Export { title, folder };
+            self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         for file in dropped {
@@ -100,6 +105,12 @@ impl App {
             (PendingQuestion::Changed(save), dialogs::Answer::No) => {
                 self.request(StoreRequest::Save(SaveRequest { seen: None, ..*save }));
             }
+            (PendingQuestion::Export(export), dialogs::Answer::Yes) => {
+                self.exports.add(export.settings.clone());
+                export.forget();
+                self.windows.export.open = true;
+            }
+            (PendingQuestion::Export(export), dialogs::Answer::No) => export.forget(),
             (_, dialogs::Answer::Cancel) | (PendingQuestion::Nothing, _) => self.files.after_save = None,
         }
     }

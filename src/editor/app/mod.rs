@@ -18,7 +18,7 @@ use super::action::Action;
 use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
 use super::engine::SharedEngine;
-use super::export::Exports;
+use super::export::{Exports, InterruptedExport, interrupted};
 use super::playback::{self, Playback};
 use super::preview::{LivePreview, Subject};
 use super::session::Session;
@@ -40,6 +40,8 @@ pub struct App {
     playback: Playback,
     views: Views,
     exports: Exports,
+    /// Exports that an earlier run left, not yet offered.
+    interrupted: Vec<InterruptedExport>,
     picker: Picker,
     windows: Windows,
     recents: Recents,
@@ -90,6 +92,7 @@ impl App {
             move || ctx.request_repaint()
         };
         let engine = SharedEngine::default();
+        let records = setup.folders.as_ref().map(Folders::exports);
         let first_start = !setup.preferences.first_start_seen;
         let mut app = Self {
             editor: EditorState::new(setup.document, engine.clone(), wake()),
@@ -97,7 +100,8 @@ impl App {
             timeline: Timeline::default(),
             playback: Playback::default(),
             views: Views::default(),
-            exports: Exports::new(engine, wake()),
+            exports: Exports::new(engine, wake()).with_records(records.clone()),
+            interrupted: records.as_deref().map(interrupted).unwrap_or_default(),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),

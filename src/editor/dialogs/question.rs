@@ -27,6 +27,13 @@ pub enum Question {
         /// Whether the document has unsaved changes too.
         unsaved: bool,
     },
+    /// An export of an earlier run was cut off.
+    Export {
+        /// Name of the project.
+        title: String,
+        /// Folder of the frames.
+        folder: String,
+    },
     /// A message.
     Message {
         /// Title.
@@ -39,11 +46,11 @@ pub enum Question {
 /// The answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save the changes; recover the work; reload the file.
+    /// Save the changes; recover the work; reload the file; go on with the export.
     Yes,
-    /// Discard the changes; delete the recovered work; keep the document.
+    /// Discard the changes; delete the recovered work; keep the document; forget the export.
     No,
-    /// Change nothing; close a message; offer the recovered work again at the next start.
+    /// Change nothing; close a message; offer the recovered work or the export again at the next start.
     Cancel,
 }
 
@@ -82,6 +89,13 @@ impl Question {
                     "Reload it, or keep the open version.".into()
                 },
                 labels: ["Reload", "Keep open version", ""],
+            },
+            Self::Export { title, folder } => Words {
+                title: format!("Go on with the export of '{title}'?"),
+                text: format!(
+                    "The program ended before all frames in '{folder}' were finished. What is there is kept; the project is rendered as it was when the export began."
+                ),
+                labels: ["Go on", "Forget it", "Ask again later"],
             },
             Self::Message { title, text } => {
                 Words { title: title.clone(), text: text.clone(), labels: ["", "", "Close"] }

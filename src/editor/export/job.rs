@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use lightloom_core::engine::{
-    Client, Output, Plan, RenderObserver, Summary, prepare_film, prepare_folder, write_report,
+    Client, Existing, Output, Plan, RenderObserver, Summary, prepare_film, prepare_folder, write_report,
 };
 use lightloom_core::progress::Snapshot;
 use lightloom_core::project::Project;
@@ -21,6 +21,9 @@ use crate::editor::engine::SharedEngine;
 const PICTURE: usize = 480;
 /// How often the window is told that something may have changed, and the time limit is looked at.
 const TICK: Duration = Duration::from_millis(100);
+
+/// The place of the error where frames of another render are in the folder.
+const OCCUPIED: &str = "--out";
 
 /// What to export. Later changes of the document do not touch it.
 #[derive(Clone, Debug)]
@@ -39,6 +42,8 @@ pub struct ExportSettings {
     pub limit: Option<Duration>,
     /// The frame that is shown while it grows.
     pub shown: i32,
+    /// What becomes of frames of other renders that are in the folder.
+    pub existing: Existing,
 }
 
 /// How an export stands.
@@ -54,6 +59,8 @@ pub enum Status {
     Cancelled,
     /// It could not be done, and why.
     Failed(String),
+    /// Frames of another render are in the folder, and nothing was done: the user decides what becomes of them.
+    Occupied(String),
 }
 
 /// What was exported.
@@ -97,6 +104,8 @@ pub struct ExportJob {
     engine: SharedEngine,
     progress: Progress,
     stop_asked: AtomicBool,
+    /// Whether it is offered again at the next start: the window is closed while it works.
+    left: AtomicBool,
     shown: AtomicI32,
     state: Mutex<State>,
 }
@@ -118,6 +127,7 @@ impl ExportJob {
             engine,
             progress: Progress::new(),
             stop_asked: AtomicBool::new(false),
+            left: AtomicBool::new(false),
             state: Mutex::new(state),
         }
     }
@@ -186,6 +196,18 @@ impl ExportJob {
         }
     }
 
+    /// Breaks it off because the window closes; it is offered again at the next start.
+    pub(super) fn leave(&self) {
+        self.left.store(true, Relaxed);
+        self.cancel();
+    }
+
+    /// Whether nothing is left to do of it, so that it is not offered again.
+    pub(super) fn is_settled(&self) -> bool {
+        let settled = matches!(self.status(), Status::Done(_) | Status::Cancelled | Status::Occupied(_));
+        settled && !self.left.load(Relaxed)
+    }
+
     /// Ends it with the passes that are complete; before the first it goes on until that is.
     pub fn stop(&self) {
         self.stop_asked.store(true, Relaxed);
@@ -232,7 +254,7 @@ impl ExportJob {
     }
 
     fn render(&self) -> Result<Summary> {
-        let ExportSettings { project, file, external, folder, film, .. } = &self.settings;
+        let ExportSettings { project, file, external, folder, film, existing, .. } = &self.settings;
         let engine = self.engine.of(file, *external)?.on_behalf_of(Client::Export);
         prepare_folder(folder, file, project, "folder")?;
         if let Some(film) = film {
@@ -240,7 +262,8 @@ impl ExportJob {
         }
         let saved = |_: &Path| self.state().files += 1;
         let (film, progress) = (film.as_deref(), &self.progress);
-        let output = Output { folder, film, progress, saved: &saved, observer: self };
+        let output =
+            Output { film, observer: self, existing: *existing, ..Output::new(folder, progress, &saved) };
         // Threads of its own, one less than the machine has: they may rest without those of the preview, and leave
         // the window one to answer with.
         let threads = thread::available_parallelism().map_or(1, |n| n.get().saturating_sub(1).max(1));
@@ -250,7 +273,9 @@ impl ExportJob {
             .build()
             .map_err(|e| Error::value("threads", format!("the system does not start them: {e}")))?;
         let summary = pool.install(|| engine.render_to(project, &output))?;
-        write_report(folder, "summary.json", &summary.to_json())?;
+        if summary.is_of_all() {
+            write_report(folder, "summary.json", &summary.to_json())?;
+        }
         Ok(summary)
     }
 
@@ -293,6 +318,7 @@ fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(summary)) => Status::Done(outcome(&summary)),
         Ok(Err(Error::Cancelled)) => Status::Cancelled,
+        Ok(Err(Error::Value { place, what })) if place == OCCUPIED => Status::Occupied(what),
         Ok(Err(error)) => Status::Failed(error.to_string()),
         Err(panic) => Status::Failed(format!("the export failed: {}", words(&*panic))),
     }

@@ -1,10 +1,11 @@
 //! The list of exports with their status, and the preview picture of the active one.
 
 use egui::{Color32, ColorImage, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, vec2};
+use lightloom_core::engine::Existing;
 use lightloom_core::export::FrameFormat;
 use lightloom_core::render::Image;
 
-use super::job::{ExportJob, Growing, Status};
+use super::job::{ExportJob, ExportSettings, Growing, Status};
 use super::queue::Exports;
 use super::status_line::{colour, controls, words};
 use crate::editor::action::Action;
@@ -50,7 +51,9 @@ impl JobList {
                     if index == active {
                         self.picture(ui, index, job);
                     }
-                    card(ui, job, actions);
+                    if let Some(again) = card(ui, job, actions) {
+                        exports.add(again);
+                    }
                 });
                 ui.add_space(6.0);
             }
@@ -76,8 +79,10 @@ impl JobList {
     }
 }
 
-fn card(ui: &mut Ui, job: &ExportJob, actions: &mut Vec<Action>) {
+/// One export; returns what the user decided to export after all.
+fn card(ui: &mut Ui, job: &ExportJob, actions: &mut Vec<Action>) -> Option<ExportSettings> {
     let fill = ui.visuals().faint_bg_color;
+    let mut decided = None;
     egui::Frame::new().fill(fill).corner_radius(4.0).inner_margin(8.0).show(ui, |ui| {
         ui.set_width(ui.available_width());
         let status = job.status();
@@ -86,7 +91,10 @@ fn card(ui: &mut Ui, job: &ExportJob, actions: &mut Vec<Action>) {
         if !job.is_open() {
             let settings = job.settings();
             let shown = settings.project.output.formats.contains(&FrameFormat::Png);
-            if matches!(job.status(), Status::Done(_)) && shown && ui.button("Play frames").clicked() {
+            if matches!(status, Status::Occupied(_)) {
+                decided = decide(ui, settings);
+            }
+            if matches!(status, Status::Done(_)) && shown && ui.button("Play frames").clicked() {
                 actions.push(Action::PlayFrames(settings.folder.clone()));
             }
             return;
@@ -102,6 +110,21 @@ fn card(ui: &mut Ui, job: &ExportJob, actions: &mut Vec<Action>) {
         }
         ui.horizontal(|ui| controls(ui, job));
     });
+    decided
+}
+
+/// Asks what becomes of the frames of another render.
+fn decide(ui: &mut Ui, settings: &ExportSettings) -> Option<ExportSettings> {
+    let answers = [
+        ("Replace them", Existing::Overwrite, "The frames there are lost."),
+        ("Keep them", Existing::Skip, "Only frames that are missing are exported."),
+    ];
+    let ask = |ui: &mut Ui| {
+        let clicked =
+            answers.into_iter().filter(|(text, _, tip)| ui.button(*text).on_hover_text(*tip).clicked());
+        clicked.last().map(|(_, existing, _)| ExportSettings { existing, ..settings.clone() })
+    };
+    ui.horizontal(ask).inner
 }
 
 fn size(mib: f64) -> String {

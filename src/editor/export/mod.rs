@@ -5,11 +5,13 @@ mod job;
 mod job_list;
 mod options;
 mod queue;
+mod record;
 mod status_line;
 mod window;
 
 pub use job::{Cost, ExportJob, ExportSettings, Growing, Outcome, Status};
 pub use options::ExportOptions;
 pub use queue::Exports;
+pub use record::{ExportRecord, InterruptedExport, interrupted};
 pub use status_line::status_line;
 pub use window::ExportWindow;

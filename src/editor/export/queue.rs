@@ -1,33 +1,59 @@
 //! The export queue: exports are rendered one after the other on a thread of their own.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::{self, JoinHandle};
 
 use super::job::{ExportJob, ExportSettings};
+use super::record::ExportRecord;
 use crate::editor::engine::SharedEngine;
 
 /// The exports of this session, oldest first.
 pub struct Exports {
     engine: SharedEngine,
     jobs: Vec<Arc<ExportJob>>,
-    queue: Option<Sender<Arc<ExportJob>>>,
+    queue: Option<Sender<Queued>>,
     worker: Option<JoinHandle<()>>,
+    /// The folder of the records of exports at work; none where nothing is kept between runs.
+    records: Option<PathBuf>,
 }
+
+/// An export, and its record for the next start.
+type Queued = (Arc<ExportJob>, Option<ExportRecord>);
 
 impl Exports {
     /// An empty queue. `wake` is called from other threads whenever something may have changed.
     pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (queue, jobs) = channel::<Arc<ExportJob>>();
-        let work = move || jobs.into_iter().for_each(|job| job.run(&wake));
+        let (queue, jobs) = channel::<Queued>();
+        let work = move || {
+            for (job, record) in jobs {
+                job.run(&wake);
+                if job.is_settled() {
+                    record.map(ExportRecord::forget);
+                }
+            }
+        };
         let worker = thread::Builder::new().name("exports".into()).spawn(work).ok();
-        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker }
+        Self { engine, jobs: Vec::new(), queue: worker.is_some().then_some(queue), worker, records: None }
+    }
+
+    /// The same with records of exports at work in a folder: those that an earlier run left are offered ([`interrupted`]).
+    ///
+    /// [`interrupted`]: super::interrupted
+    #[must_use]
+    pub fn with_records(mut self, folder: Option<PathBuf>) -> Self {
+        self.records = folder;
+        self
     }
 
     /// Appends an export to the queue.
     pub fn add(&mut self, settings: ExportSettings) -> Arc<ExportJob> {
         let job = Arc::new(ExportJob::new(settings, self.engine.clone()));
-        if self.queue.as_ref().is_none_or(|queue| queue.send(job.clone()).is_err()) {
+        // An export that cannot be offered again is better than none.
+        let record =
+            self.records.as_ref().and_then(|folder| ExportRecord::write(folder, job.settings()).ok());
+        if self.queue.as_ref().is_none_or(|queue| queue.send((job.clone(), record)).is_err()) {
             job.fail("the system starts no thread for it");
         }
         self.jobs.push(job.clone());
@@ -52,7 +78,7 @@ impl Exports {
 
 impl Drop for Exports {
     fn drop(&mut self) {
-        self.jobs.iter().for_each(|job| job.cancel());
+        self.jobs.iter().filter(|job| job.is_open()).for_each(|job| job.leave());
         // With the queue closed the worker ends after the cancelled export.
         self.queue = None;
         if let Some(worker) = self.worker.take() {

@@ -71,12 +71,14 @@ pub(super) fn words(job: &ExportJob) -> String {
         }
         Status::Cancelled => "Export cancelled".into(),
         Status::Failed(why) => format!("Export failed: {why}"),
+        Status::Occupied(_) => "Frames of another project or other settings are in the folder".into(),
     }
 }
 
 pub(super) fn colour(status: &Status, ui: &Ui) -> egui::Color32 {
     match status {
         Status::Done(outcome) if outcome.bad => theme::WARN,
+        Status::Occupied(_) => theme::WARN,
         Status::Done(_) => theme::GOOD,
         Status::Failed(_) => theme::BAD,
         Status::Waiting | Status::Running | Status::Cancelled => ui.visuals().text_color(),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Button, Context, RichText, TextEdit, Ui, vec2};
+use lightloom_core::engine::Existing;
 use lightloom_core::project::Project;
 
 use super::form;
@@ -123,6 +124,7 @@ impl ExportWindow {
                 film: options.film_file(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
                 shown: shown.or(frames.get(frames.len() / 2).copied()).unwrap_or_default(),
+                existing: Existing::Refuse,
             });
         }
         ui.add_space(10.0);

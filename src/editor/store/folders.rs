@@ -43,6 +43,11 @@ impl Folders {
         self.state.join("recovery")
     }
 
+    /// Folder of the records of exports at work.
+    pub fn exports(&self) -> PathBuf {
+        self.state.join("exports")
+    }
+
     /// Folder of backups: the previous version of each saved file.
     pub fn backups(&self) -> PathBuf {
         self.state.join("backups")

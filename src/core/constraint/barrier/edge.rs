@@ -4,7 +4,7 @@ use glam::{DVec2, Vec2};
 use robust::{Coord, orient2d};
 
 /// A straight edge of a wall, or of a bridge that closes a narrow gap.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct Edge {
     /// First point.
     pub from: Vec2,

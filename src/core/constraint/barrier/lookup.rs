@@ -14,6 +14,7 @@ const MARGIN: f64 = 1e-3;
 const CREEP: f64 = 1e-5;
 
 /// The edges, sorted into square cells.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct Lookup {
     origin: DVec2,
     /// Cells per plane unit.

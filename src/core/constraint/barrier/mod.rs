@@ -16,6 +16,7 @@ pub use edge::Edge;
 use lookup::Lookup;
 
 /// The wall edges at one moment, with a grid to find those near a move.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub struct Barriers {
     edges: Vec<Edge>,
     lookup: Lookup,

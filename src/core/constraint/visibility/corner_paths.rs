@@ -13,6 +13,7 @@ use crate::{Progress, Result};
 pub(super) const NONE: u16 = u16::MAX;
 
 /// All shortest paths between corners.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(super) struct CornerPaths {
     count: usize,
     /// Length of the path from corner `a` to corner `b` at `b * count + a`; infinite where there is none.

@@ -21,7 +21,7 @@ const SHARES: [f32; 4] = [1.0, 0.5, 0.25, 0.125];
 const KEPT: f32 = 0.5;
 
 /// A point where a path may turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub(super) struct Corner {
     pub(super) at: Vec2,
     /// Unit direction towards the wall.

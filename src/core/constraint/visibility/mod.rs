@@ -19,6 +19,7 @@ use corners::Corner;
 const MOST_CORNERS: usize = 8000;
 
 /// The walls at one moment, and the shortest paths around them.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub struct VisibilityGraph {
     extent: Vec2,
     barriers: Barriers,
@@ -34,7 +35,7 @@ pub struct WallPath {
 }
 
 /// Lengths of the shortest paths from all corners to one target, see [`VisibilityGraph::paths_to`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct PathsToTarget {
     target: Vec2,
     lengths: Vec<f32>,

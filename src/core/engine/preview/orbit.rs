@@ -42,7 +42,7 @@ impl Engine {
                 &bare
             }
         };
-        let (scene, _) = self.stages.scene(self.client, desc, progress)?;
+        let ((scene, _), _) = self.stages.scene(self.client, desc, progress)?;
         let lamp = (-project.render.view.exposure).exp2();
         let image = orbit_image(&scene, &camera, size, OrbitLight { caustic: light, lamp }, progress)?;
         let marks = match &project.scene {

@@ -66,7 +66,7 @@ impl Engine {
         let project = &Project { render, ..project.clone() };
         project.check()?;
         let scene = match &project.scene {
-            Some(desc) => Some(self.stages.scene(self.client, desc, progress)?.0),
+            Some(desc) => Some(self.stages.scene(self.client, desc, progress)?.0.0),
             None => None,
         };
         let extent = scene.as_ref().map_or_else(|| project.plane.extent(), |s| s.receiver().extent());
@@ -79,6 +79,7 @@ impl Engine {
             layout,
             background: BackgroundQuality::Rough,
             surfaces: false,
+            bake: None,
         };
         let slot = Slot { client: self.client, quality: Quality::Preview, index: 0 };
         let camera = self.stages.look(slot, &view, &Meter::quick(), progress)?;

@@ -15,6 +15,7 @@ use crate::{Progress, Result};
 /// Step n of the first half has the field fitted at its begin; step n of the second half that fitted at its end, where the
 /// light that moves backward comes from. It stays within a step, so that guide photons and those of later passes move alike;
 /// extrapolated from the last two fits, light that fills cracks would swing.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],

@@ -42,7 +42,7 @@ pub struct MeetingFit {
 }
 
 /// Figures of the plans of a segment.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct BridgeReport {
     /// Cells along the longer side.
     pub cells: usize,

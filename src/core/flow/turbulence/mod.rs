@@ -46,6 +46,7 @@ fn envelope(t: f64) -> f64 {
 }
 
 /// The turbulence of one segment.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub struct Turbulence {
     /// Key noises in order, of each one field per grid.
     keys: Vec<Vec<Field>>,

@@ -21,6 +21,7 @@ pub(crate) const SUBSTEPS: usize = 4;
 const STIFFNESS: f64 = 10.0;
 
 /// The walls of a segment over its steps.
+#[derive(serde::Deserialize, serde::Serialize)]
 pub(crate) struct Obstacles {
     walls: Vec<ActiveWall>,
     extent: Vec2,
@@ -30,11 +31,14 @@ pub(crate) struct Obstacles {
 }
 
 /// A run of steps in which the same walls stand.
+#[derive(serde::Deserialize, serde::Serialize)]
 struct Epoch {
     first: usize,
     standing: Vec<usize>,
     /// None where no wall stands.
     graph: Option<Arc<VisibilityGraph>>,
+    /// Made when first asked for.
+    #[serde(skip)]
     clearance: OnceLock<Clearance>,
 }
 

@@ -40,7 +40,7 @@ const LANDMARKS: usize = 400;
 const WARP_SHARE: f32 = 0.2;
 
 /// The thin-plate warp between two point sets, the continuous map of this method.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct StylizedMap(ThinPlate);
 
 impl StylizedMap {

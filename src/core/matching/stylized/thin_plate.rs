@@ -20,7 +20,7 @@ const ONE_PLACE: f64 = 1e-3;
 const ON_A_LINE: f64 = 1e-6;
 
 /// A smooth map of the plane through given pairs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub(super) struct ThinPlate {
     middle: DVec2,
     /// Directions in which the landmarks have a spread, each over it: none, one or two.

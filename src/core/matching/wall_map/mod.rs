@@ -36,7 +36,7 @@ const ORDER: f64 = 0.03;
 const SHUT_OFF: f64 = 100.0;
 
 /// The continuous map around walls.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct WallMap {
     anchors: Vec<Anchor>,
     /// Anchors sorted into square cells along rows, to find those near a point.
@@ -44,7 +44,7 @@ pub struct WallMap {
 }
 
 /// A point where the map is known, with its affine extension.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 struct Anchor {
     from: Vec2,
     to: Vec2,
@@ -59,7 +59,7 @@ struct Anchor {
 }
 
 /// A uniform grid over points.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 struct Buckets {
     low: Vec2,
     per_plane: f32,

@@ -10,7 +10,7 @@ use crate::math::rng::Stream;
 use crate::scene::Ray;
 
 /// A sphere in world space (m).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
 pub struct Sphere {
     /// Its centre.
     pub centre: Vec3,
@@ -47,7 +47,7 @@ impl Sphere {
 }
 
 /// A cone of directions: unit axis and 1 - cosine of its half angle.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, serde::Deserialize, serde::Serialize)]
 pub(super) struct Cone {
     pub axis: Vec3,
     pub one_minus_cos: f32,
@@ -91,7 +91,7 @@ pub(super) fn cosine_direction(normal: Vec3, u: [f32; 2]) -> Vec3 {
 }
 
 /// Relative intensity by direction, 0..=1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub(super) struct Profile {
     pub axis: Vec3,
     /// 1 - cosine where the fading begins and ends.
@@ -118,7 +118,7 @@ impl Profile {
 }
 
 /// The emission of one light.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct Emission {
     /// RGB flux (W) of the whole square, without rejection.
     pub flux: Vec3,
@@ -126,7 +126,7 @@ pub struct Emission {
 }
 
 /// The maps, by kind of source.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub(super) enum Source {
     /// From a point into a cone.
     Point { origin: Vec3, cone: Cone },
@@ -141,7 +141,7 @@ pub(super) enum Source {
 }
 
 /// Lambertian surfaces of area lights.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, serde::Deserialize, serde::Serialize)]
 pub(super) enum Emitter {
     Rectangle { centre: Vec3, half_x: Vec3, half_y: Vec3, normal: Vec3 },
     Sphere(Sphere),

@@ -1,0 +1,122 @@
+//! The files around a render: those that are there already, and those that outlive it should it be cut off.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Engine;
+use super::bake::Bake;
+use super::checkpoint::{Checkpoint, bytes_kept};
+use super::existing::Found;
+use super::fingerprint::fingerprint;
+use super::frame_times::FrameTimes;
+use super::prepare::Prepared;
+use super::render::Output;
+use super::summary::Summary;
+use crate::Result;
+use crate::render::{ProgressiveRender, TextureLayout};
+
+/// What a render keeps, and where its unfinished light is.
+pub(super) struct RunFiles {
+    /// Empty where frames do not tell what they are made from.
+    pub(super) fingerprint: String,
+    pub(super) found: Found,
+    /// Whether a contact sheet is written.
+    pub(super) sheet: bool,
+    checkpoint: Option<Checkpoint>,
+    /// The folder of a scratch file that goes with the process, where there is no checkpoint.
+    scratch: PathBuf,
+    notes: Vec<String>,
+}
+
+impl RunFiles {
+    /// Those of a render that replaces whatever is in its folder, and is never taken up.
+    pub(super) fn fresh(folder: &Path) -> Self {
+        Self {
+            fingerprint: String::new(),
+            found: Found::default(),
+            sheet: true,
+            checkpoint: None,
+            scratch: folder.to_owned(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Looks at what is in the folder of `output`, makes sure that there is room, and takes up unfinished light; `prepared` is
+    /// then about the frames that are to be rendered.
+    ///
+    /// # Errors
+    /// Frames of other renders that may not be replaced; a bake of another project; too little room on the disk.
+    pub(super) fn open(engine: &Engine, prepared: &mut Prepared, output: &Output) -> Result<Self> {
+        let print = fingerprint(&prepared.project, &engine.stages.assets, &prepared.mesh_files)?;
+        let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
+        found.require(output.existing, "--out")?;
+        if let Some(folder) = output.bake {
+            prepared.bake = Some(Arc::new(Bake::of_folder(folder, &print)?));
+        }
+        let mut files =
+            Self { fingerprint: print, sheet: output.bake.is_none(), ..Self::fresh(output.folder) };
+        let wanted = if found.wanted.is_empty() && output.film.is_some() {
+            prepared.project.frames()?
+        } else {
+            found.wanted.clone()
+        };
+        files.found = found;
+        prepared.plan_frames(&wanted)?;
+        if wanted.is_empty() {
+            return Ok(files);
+        }
+        prepared.plan.require_space(output.folder, bytes_kept(output.folder, &files.fingerprint))?;
+        let whose = (&prepared.project, files.fingerprint.as_str());
+        files.checkpoint = Checkpoint::open(output.folder, whose, &wanted, &mut files.notes)?;
+        if let Some(checkpoint) = &files.checkpoint {
+            prepared.times = FrameTimes::new(&prepared.project.keys, checkpoint.frames());
+            if prepared.bake.is_none() {
+                prepared.bake = Some(Arc::new(Bake::growing(checkpoint.folder(), &files.fingerprint)));
+            }
+        }
+        Ok(files)
+    }
+
+    /// Whether all frames are there.
+    pub(super) fn is_done(&self) -> bool {
+        self.found.wanted.is_empty()
+    }
+
+    /// The light of `frames` textures, with what was kept of it.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub(super) fn store(
+        &self,
+        layout: TextureLayout,
+        first_radius: f32,
+        frames: usize,
+    ) -> Result<ProgressiveRender> {
+        match &self.checkpoint {
+            Some(kept) => ProgressiveRender::kept(layout, first_radius, frames, kept.folder(), kept.checked),
+            None => ProgressiveRender::new(layout, first_radius, frames, &self.scratch),
+        }
+    }
+
+    /// Tells in a summary what was kept; `before` are the passes that were there at the begin.
+    pub(super) fn tell(&self, summary: &mut Summary, before: usize) {
+        summary.fingerprint.clone_from(&self.fingerprint);
+        summary.partial = !self.sheet || self.is_done();
+        summary.kept = self.found.kept.len();
+        summary.notes.extend(self.notes.iter().cloned());
+        if before > 0 {
+            summary.notes.push(format!(
+                "taken up after {before} passes of an earlier run; the figures of the energy are those of the passes since"
+            ));
+        }
+    }
+
+    /// Removes what was kept for a run that takes this one up: all frames are finished.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub(super) fn finish(self, out: &Path, frames: &[i32]) -> Result<()> {
+        let Self { checkpoint, fingerprint, .. } = self;
+        checkpoint.map_or(Ok(()), |checkpoint| checkpoint.finish(out, &fingerprint, frames))
+    }
+}
