@@ -94,6 +94,11 @@ impl Checkpoint {
         let folder = out.join(name);
         fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
         let Some(lock) = lock(&folder)? else { return Ok(None) };
+        // Light of other frames, or of nobody knows which.
+        let left = fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        for path in left.filter(|path| !path.ends_with(LOCK)) {
+            fs::remove_file(&path).map_err(Error::io("remove", &path))?;
+        }
         let manifest = Manifest {
             fingerprint: fingerprint.into(),
             project: project.name.clone(),

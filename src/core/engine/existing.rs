@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use super::output_folder::CONTACT_SHEET;
 use crate::export::{FrameFormat, FrameLayer, FramePattern, inspect};
 use crate::project::{OutputSettings, Project};
@@ -57,28 +59,28 @@ impl Found {
         existing: Existing,
     ) -> Result<Self> {
         let mut found = Self::default();
-        let mut look = |path: PathBuf| -> bool {
-            match (state(&path, fingerprint), existing) {
-                (State::Missing | State::Unfinished, _) => return true,
-                (State::Done, _) => found.kept.insert(path),
-                (State::Other, Existing::Skip) => {
+        let frames = project.frames()?;
+        let files = frames.iter().map(|&frame| files_of(&project.output, folder, frame));
+        let files = files.collect::<Result<Vec<_>>>()?;
+        // Each is read to its end.
+        let states = files.into_par_iter().map(|files| {
+            let with_state = |path: PathBuf| (state(&path, fingerprint), path);
+            files.into_iter().map(with_state).collect::<Vec<_>>()
+        });
+        for (frame, files) in frames.into_iter().zip(states.collect::<Vec<_>>()) {
+            let mut lacks = false;
+            for (state, path) in files {
+                if state == State::Other {
                     found.others.push(path.clone());
-                    found.kept.insert(path)
                 }
-                (State::Other, _) => {
-                    found.others.push(path);
-                    return true;
+                if state == State::Done || (state == State::Other && existing == Existing::Skip) {
+                    found.kept.insert(path);
+                } else {
+                    lacks = true;
                 }
-            };
-            false
-        };
-        let mut wanted = Vec::new();
-        for frame in project.frames()? {
-            // All files are looked at, whatever the first is.
-            if files_of(&project.output, folder, frame)?.into_iter().filter(|path| look(path.clone())).count()
-                > 0
-            {
-                wanted.push(frame);
+            }
+            if lacks {
+                found.wanted.push(frame);
             }
         }
         let sheet = folder.join(CONTACT_SHEET);
@@ -88,7 +90,6 @@ impl Found {
                 found.kept.insert(sheet);
             }
         }
-        found.wanted = wanted;
         Ok(found)
     }
 

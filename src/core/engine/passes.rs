@@ -108,7 +108,7 @@ impl<'a> Exposures<'a> {
             if self.lacks(slot, passes.0) {
                 self.expose((slot, rows), passes, between(requested, time), |positions, flux| {
                     trajectories.flux_at(time, flux);
-                    trajectories.positions_at(time, positions, &progress.inner())
+                    trajectories.light_at(time, positions, &progress.inner())
                 })?;
             }
             progress.advance(1);
