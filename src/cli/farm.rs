@@ -54,7 +54,7 @@ pub(super) fn run(args: &FarmArgs) -> Result<u8> {
     let all = list(&frames);
     let manner = if args.kind == FarmKind::Openjd { "openjd" } else { "plain" };
     let job = FarmJob {
-        name: project.name.clone(),
+        name: project.name,
         fit: command(&["fit", &project_file, "--bake", &bake, "--progress", manner], &options),
         render: command(
             &["render", &project_file, "--bake", &bake, "--out", &pictures, "--progress", manner],

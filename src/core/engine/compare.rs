@@ -6,8 +6,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::meter::Meter;
+use super::output::Output;
 use super::prepare::Prepared;
-use super::render::{Output, Rendered};
+use super::render::Rendered;
 use super::run_files::RunFiles;
 use super::segment_figures::SegmentContinuity;
 use super::{Engine, Summary, active_constraints};

@@ -38,13 +38,13 @@ enum State {
 
 /// What a run finds in its folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Found {
+pub(super) struct Found {
     /// Files that are not written: they are there.
-    pub kept: BTreeSet<PathBuf>,
+    pub(super) kept: BTreeSet<PathBuf>,
     /// Frames of which a file must be written, in the order of the project.
-    pub wanted: Vec<i32>,
+    pub(super) wanted: Vec<i32>,
     /// Files that are made from something else, or damaged.
-    pub others: Vec<PathBuf>,
+    others: Vec<PathBuf>,
 }
 
 impl Found {

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::bake::Bake;
 use super::camera::CameraView;
-use super::existing::Existing;
 use super::film_writer::FilmWriter;
 use super::fingerprint::fingerprint;
 use super::fitted_project::FittedProject;
@@ -13,7 +12,7 @@ use super::frame_writer::{FrameWriter, Thumbnails};
 use super::job::Job;
 use super::memo::Slot;
 use super::meter::Meter;
-use super::observer::RenderObserver;
+use super::output::Output;
 use super::prepare::Prepared;
 use super::run_files::RunFiles;
 use super::summary::{Done, Summary};
@@ -22,33 +21,6 @@ use crate::export::FilmFormat;
 use crate::project::Project;
 use crate::render::{PlaneView, first_radius};
 use crate::{Error, Progress, Result};
-
-/// Where a render goes, and those who are told of it.
-pub struct Output<'a> {
-    /// The folder of the frames; it must exist.
-    pub folder: &'a Path,
-    /// The file of a film of all frames, where one is wanted ([`prepare_film`](super::prepare_film)).
-    pub film: Option<&'a Path>,
-    /// What becomes of frames of other renders that are in the folder.
-    pub existing: Existing,
-    /// The folder of a bake of the same project ([`Engine::bake`]): the frames are a part of a render that is done in parts, so
-    /// that no contact sheet is written.
-    pub bake: Option<&'a Path>,
-    /// The progress of the work.
-    pub progress: &'a Progress,
-    /// Called with each finished file.
-    pub saved: &'a (dyn Fn(&Path) + Sync),
-    /// Sees the frames grow.
-    pub observer: &'a dyn RenderObserver,
-}
-
-impl<'a> Output<'a> {
-    /// Frames alone, which replace others.
-    pub fn new(folder: &'a Path, progress: &'a Progress, saved: &'a (dyn Fn(&Path) + Sync)) -> Self {
-        let (existing, film, bake) = (Existing::Overwrite, None, None);
-        Self { folder, film, existing, bake, progress, saved, observer: &() }
-    }
-}
 
 /// A finished render, with what a comparison asks of it.
 pub(super) struct Rendered {
@@ -97,7 +69,7 @@ impl Engine {
         progress.set_stages(stages);
         observer.planned(&prepared.plan);
         if files.is_done() && film.is_none() {
-            return Ok(Summary::of_kept(&prepared, &files, &meter));
+            return Ok(files.summary_of_kept(&prepared, &meter));
         }
         self.render_prepared(prepared, &meter, output, files).map(|rendered| rendered.summary)
     }

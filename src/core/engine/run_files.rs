@@ -8,10 +8,12 @@ use super::bake::Bake;
 use super::checkpoint::{Checkpoint, bytes_kept};
 use super::existing::Found;
 use super::fingerprint::fingerprint;
+use super::fitted_segment::FittedFlow;
 use super::frame_times::FrameTimes;
+use super::meter::Meter;
+use super::output::Output;
 use super::prepare::Prepared;
-use super::render::Output;
-use super::summary::Summary;
+use super::summary::{Done, Summary};
 use crate::Result;
 use crate::render::{ProgressiveRender, TextureLayout};
 
@@ -80,6 +82,18 @@ impl RunFiles {
     /// Whether all frames are there.
     pub(super) fn is_done(&self) -> bool {
         self.found.wanted.is_empty()
+    }
+
+    /// The summary of a run whose frames are all there already.
+    pub(super) fn summary_of_kept(&self, prepared: &Prepared, meter: &Meter) -> Summary {
+        let (segments, caustics, idle_lights) = Default::default();
+        let flow = &FittedFlow { segments, numbers: None, caustics, idle_lights };
+        let (continuity, balance, bad_values, clamped) = Default::default();
+        let passes = prepared.plan.passes;
+        let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
+        let mut summary = Summary::new(prepared, done, meter);
+        self.tell(&mut summary, 0);
+        summary
     }
 
     /// The light of `frames` textures, with what was kept of it.

@@ -23,7 +23,7 @@ use crate::{Progress, Result};
 /// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
 pub(super) struct Stages {
     pub(super) assets: AssetFolder,
-    geometry: Memo<(Vec<MeshDesc>, Vec<FileStamp>), (Noted<Geometry>, Arc<Vec<PathBuf>>)>,
+    geometry: Memo<MeshInput, WithFiles<Noted<Geometry>>>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
     pub(super) guides: Memo<GuideInput, Arc<EmissionGuide>>,
@@ -37,6 +37,12 @@ pub(super) struct Stages {
     pub(super) backgrounds: Memo<ViewInput, Arc<Background>>,
     pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
+
+/// The meshes of a scene, and the state of their files.
+type MeshInput = (Vec<MeshDesc>, Vec<FileStamp>);
+
+/// A result, and the files that meshes were read from.
+type WithFiles<T> = (T, Arc<Vec<PathBuf>>);
 
 /// A result, and notes for the artist.
 pub(super) type Noted<T> = (Arc<T>, Arc<Vec<String>>);
@@ -71,7 +77,7 @@ impl Stages {
         client: Client,
         desc: &SceneDesc,
         progress: &Progress,
-    ) -> Result<(Noted<Scene>, Arc<Vec<PathBuf>>)> {
+    ) -> Result<WithFiles<Noted<Scene>>> {
         desc.check("scene")?;
         // A scene without meshes is the bare plane of a project that has no scene; it takes no slot from the others.
         let slot = Slot { client, quality: Quality::Final, index: usize::from(desc.meshes.is_empty()) };

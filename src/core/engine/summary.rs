@@ -11,7 +11,6 @@ use super::grouping::{CausticFlux, notes_on_dark};
 use super::meter::{Meter, StageCost};
 use super::plan::LeftOut;
 use super::prepare::Prepared;
-use super::run_files::RunFiles;
 use super::segment_figures::SegmentContinuity;
 use crate::constraint::Constraint;
 use crate::continuity::FIGURES;
@@ -167,18 +166,6 @@ impl Summary {
     /// Whether it is about all frames of the run.
     pub fn is_of_all(&self) -> bool {
         !self.partial
-    }
-
-    /// Of a run whose frames are all there already.
-    pub(super) fn of_kept(prepared: &Prepared, files: &RunFiles, meter: &Meter) -> Self {
-        let (segments, caustics, idle_lights) = Default::default();
-        let flow = &FittedFlow { segments, numbers: None, caustics, idle_lights };
-        let (continuity, balance, bad_values, clamped) = Default::default();
-        let passes = prepared.plan.passes;
-        let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
-        let mut summary = Self::new(prepared, done, meter);
-        files.tell(&mut summary, 0);
-        summary
     }
 
     /// Whether a frame holds values that were not finite and had to be replaced.

@@ -29,8 +29,8 @@ impl Exports {
         let work = move || {
             for (job, record) in jobs {
                 job.run(&wake);
-                if job.is_settled() {
-                    record.map(ExportRecord::forget);
+                if let Some(record) = record.filter(|_| job.is_settled()) {
+                    record.forget();
                 }
             }
         };
