@@ -276,11 +276,11 @@ fn the_contact_sheet_holds_every_picture() {
             (90 + 5 * i, image)
         })
         .collect();
-    write_contact_sheet(&path, &pictures, 3, Overlay::NONE).unwrap();
+    write_contact_sheet(&path, &pictures, 3, Overlay::NONE, &[]).unwrap();
     let read = image::open(&path).unwrap().to_rgb8();
     for i in 0..5_u8 {
         let shown = read.pixels().filter(|p| p.0[2] == 255 && p.0[1] == 51 * i).count();
         assert_eq!(shown, 40 * 30, "picture {i}");
     }
-    write_contact_sheet(&path, &[], 3, Overlay::NONE).unwrap();
+    write_contact_sheet(&path, &[], 3, Overlay::NONE, &[]).unwrap();
 }

@@ -65,8 +65,7 @@ pub fn write_sheet(folder: &Path) -> Result<PathBuf> {
         ("fingerprint", fingerprint.unwrap_or_default()),
     ];
     let path = folder.join(CONTACT_SHEET);
-    let overlay = Overlay { lines: &[], pixel_from_plane: &|_| None };
-    write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay, &texts)?;
+    write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, Overlay::NONE, &texts)?;
     Ok(path)
 }
 
