@@ -34,6 +34,10 @@ pub(super) trait Outcome {
 
 impl Outcome for Summary {
     const FILE: &'static str = "summary.json";
+
+    fn is_reported(&self) -> bool {
+        self.is_of_all()
+    }
     fn to_json(&self) -> String {
         self.to_json()
     }

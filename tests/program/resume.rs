@@ -134,6 +134,7 @@ fn parts_that_start_from_a_bake_have_the_bytes_of_one_render() {
         for frames in ["8-9", "4", "1"] {
             with(&["render", project, "--out", text(&parts), "--bake", text(&bake)], frames);
         }
+        assert!(!parts.join("summary.json").exists(), "a part has no summary of all");
         let sheet = |files: Vec<(String, Vec<u8>)>| -> Vec<_> {
             files.into_iter().filter(|(name, _)| name != "contact_sheet.png").collect()
         };

@@ -340,6 +340,11 @@ impl Plan {
         Err(Error::Limit { place: "render".into(), what })
     }
 
+    /// Sets the size of the scratch file, once the texture of the camera is known.
+    pub(super) fn set_scratch(&mut self, bytes: u64) {
+        self.scratch_mib = bytes as f64 / MIB;
+    }
+
     /// Refuses work whose scratch file and frames would not fit into `folder`, where the system tells how much is free there.
     /// `kept` bytes are there already.
     pub(super) fn require_space(&self, folder: &Path, kept: u64) -> Result<()> {

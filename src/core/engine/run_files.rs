@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Engine;
 use super::bake::Bake;
+use super::camera::CameraView;
 use super::checkpoint::{Checkpoint, bytes_kept};
 use super::existing::Found;
 use super::fingerprint::fingerprint;
@@ -15,6 +16,7 @@ use super::output::Output;
 use super::prepare::Prepared;
 use super::summary::{Done, Summary};
 use crate::Result;
+use crate::render::frames::FrameStore;
 use crate::render::{ProgressiveRender, TextureLayout};
 
 /// What a render keeps, and where its unfinished light is.
@@ -67,6 +69,9 @@ impl RunFiles {
         if wanted.is_empty() {
             return Ok(files);
         }
+        let texels = CameraView::of_render(prepared).layout.len();
+        let textures = prepared.times.moments.len() * prepared.textures();
+        prepared.plan.set_scratch(FrameStore::bytes(texels, textures));
         prepared.plan.require_space(output.folder, bytes_kept(output.folder, &files.fingerprint))?;
         let whose = (&prepared.project, files.fingerprint.as_str());
         files.checkpoint = Checkpoint::open(output.folder, whose, &wanted, &mut files.notes)?;
