@@ -71,6 +71,8 @@ fn texts(package: &Package) -> io::Result<Vec<(String, String)>> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
 
     #[test]

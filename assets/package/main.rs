@@ -18,6 +18,11 @@ const DESKTOP_ENTRY: &str = include_str!("lightloom.desktop");
 const FILE_TYPE: &str = include_str!("lightloom.xml");
 const INSTALL: &str = include_str!("install.sh");
 const ICON: &[u8] = include_bytes!("../icon.png");
+/// Our own licences.
+const LICENCES: [(&str, &str); 2] = [
+    ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),
+    ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
+];
 /// Sizes of the icon in pixels, those of the hicolor theme.
 const ICON_SIZES: [u32; 6] = [16, 32, 48, 64, 128, 256];
 
@@ -92,6 +97,9 @@ fn pack(path: &Path, name: &str, program: &[u8], notices: &str) -> io::Result<()
     archive.add("share/applications/lightloom.desktop", DESKTOP_ENTRY.as_bytes(), false)?;
     archive.add("share/mime/packages/lightloom.xml", FILE_TYPE.as_bytes(), false)?;
     archive.add("share/doc/lightloom/NOTICES.txt", notices.as_bytes(), false)?;
+    for (name, text) in LICENCES {
+        archive.add(&format!("share/doc/lightloom/{name}"), text.as_bytes(), false)?;
+    }
     for size in ICON_SIZES {
         let icon = icon(size).map_err(io::Error::other)?;
         archive.add(&format!("share/icons/hicolor/{size}x{size}/apps/lightloom.png"), &icon, false)?;
@@ -110,6 +118,8 @@ fn icon(size: u32) -> image::ImageResult<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use std::collections::BTreeMap;
     use std::io::Read;
 
