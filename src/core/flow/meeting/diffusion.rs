@@ -61,7 +61,7 @@ mod tests {
     fn light_is_where_it_is_at_both_key_frames_and_at_rest() {
         let source: Vec<Vec2> = (0..2000).map(|i| Vec2::splat(i as f32 / 2000.0)).collect();
         let targets: Vec<Vec2> =
-            source.iter().enumerate().map(|(i, p)| if i % 2 == 0 { *p } else { *p + 0.2 }).collect();
+            source.iter().enumerate().map(|(i, p)| if i < 1000 { *p } else { *p + 0.2 }).collect();
         let fields = MeetingFields::new(4, 0.1, None, None).with_hold(0.05);
         let diffusion = Diffusion::new(fields.hold(), (&source, &targets), &source);
         for t in [0.0, 1.0] {
@@ -72,10 +72,10 @@ mod tests {
         let mut at = source.clone();
         diffusion.displace(&fields, 0.5, &mut at);
         let moved = |row: &usize| at[*row].distance(source[*row]);
-        assert!((0..2000).step_by(2).all(|row| moved(&row) == 0.0), "light at rest moves");
+        assert!((0..1000).all(|row| moved(&row) == 0.0), "light at rest moves");
         // 1000 photons: the mean square of a two-dimensional normal, 2 sigma^2, is known to 1/sqrt(1000) of itself;
         // cut off at 3 it loses 1 %.
-        let mean: f32 = (1..2000).step_by(2).map(|row| moved(&row).powi(2)).sum::<f32>() / 1000.0;
+        let mean: f32 = (1000..2000).map(|row| moved(&row).powi(2)).sum::<f32>() / 1000.0;
         let expected = 2.0 * (SHARE * 0.05_f32).powi(2);
         assert!((mean / expected - 1.0).abs() < 0.11, "mean square {mean}, expected {expected}");
     }
