@@ -97,7 +97,7 @@ pub(crate) struct FarmArgs {
     /// slurm: scripts and submit.sh; openjd: job.json.
     #[arg(long = "as", value_enum)]
     pub(crate) kind: FarmKind,
-    /// Frames of one task. Without it as many as make what a task repeats a fifth of its work, at least half a minute's.
+    /// Frames of one task. Without it as many that a task lasts half a minute, and is a third its own.
     #[arg(long)]
     pub(crate) chunk: Option<usize>,
     /// The program as the machines of the farm call it.

@@ -14,8 +14,8 @@ use super::progress::Lines;
 
 /// Least seconds of a task: starting one takes a second or two.
 const LEAST_SECONDS: f64 = 30.0;
-/// Most of a task that others do, too, over what it does alone.
-const REPEATED: f64 = 0.25;
+/// Most work of a task that others do, too, over what it does alone: fewer tasks waste less, more are done sooner.
+const REPEATED: f64 = 2.0;
 
 /// A job, as words of commands.
 struct FarmJob {
@@ -39,7 +39,8 @@ pub(super) fn run(args: &FarmArgs) -> Result<u8> {
         Some(chunk) => chunk,
         None => {
             let [shared, each] = report.plan.seconds_of_chunk();
-            ((LEAST_SECONDS.max(shared / REPEATED) / each.max(1e-6)).ceil() as usize).clamp(1, frames.len())
+            (((LEAST_SECONDS - shared).max(shared / REPEATED) / each.max(1e-6)).ceil() as usize)
+                .clamp(1, frames.len())
         }
     };
     let absolute = |path: &Path| std::path::absolute(path).map_err(Error::io("find the folder", path));
