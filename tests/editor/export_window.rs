@@ -81,10 +81,10 @@ fn wait_until(what: &str, mut holds: impl FnMut() -> bool) {
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .unwrap()
-        .map(|entry| {
-            let path = entry.unwrap().path();
-            (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap())
-        })
+        .map(|entry| entry.unwrap().path())
+        // Unfinished light is in a folder.
+        .filter(|path| path.is_file())
+        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap()))
         .collect();
     files.sort();
     files
@@ -163,7 +163,7 @@ fn breaking_off_leaves_no_file_at_all() {
     job.cancel();
     wait_until("cancelled", || !job.is_open());
     assert_eq!(job.status(), Status::Cancelled);
-    assert_eq!(files(&place.path("frames")), []);
+    assert_eq!(place.path("frames").read_dir().unwrap().count(), 0);
 }
 
 #[test]

@@ -6,6 +6,11 @@ use crate::render::Image;
 
 /// Observer of a growing render. Pictures are made only for an observer that asks for them.
 pub trait RenderObserver: Sync {
+    /// Whether the unfinished light of a run that is abandoned is kept for another that takes it up.
+    fn keeps_unfinished(&self) -> bool {
+        true
+    }
+
     /// The project and its files are in order; this is the work ahead and its cost.
     fn planned(&self, _plan: &Plan) {}
 

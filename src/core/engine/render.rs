@@ -71,7 +71,13 @@ impl Engine {
         if files.is_done() && film.is_none() {
             return Ok(files.summary_of_kept(&prepared, &meter));
         }
-        self.render_prepared(prepared, &meter, output, files).map(|rendered| rendered.summary)
+        let unfinished = files.unfinished();
+        let rendered = self.render_prepared(prepared, &meter, output, files);
+        let abandoned = matches!(rendered, Err(Error::Cancelled)) && progress.is_abandoned();
+        if let Some(folder) = unfinished.filter(|_| abandoned && !observer.keeps_unfinished()) {
+            std::fs::remove_dir_all(&folder).map_err(Error::io("remove", &folder))?;
+        }
+        rendered.map(|rendered| rendered.summary)
     }
 
     /// All stages of a render of a prepared project.

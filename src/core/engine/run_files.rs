@@ -84,6 +84,11 @@ impl RunFiles {
         Ok(files)
     }
 
+    /// The folder of the unfinished light, where it is kept.
+    pub(super) fn unfinished(&self) -> Option<PathBuf> {
+        self.checkpoint.as_ref().map(|checkpoint| checkpoint.folder().to_owned())
+    }
+
     /// Whether all frames are there.
     pub(super) fn is_done(&self) -> bool {
         self.found.wanted.is_empty()

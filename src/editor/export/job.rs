@@ -296,6 +296,10 @@ impl ExportJob {
 }
 
 impl RenderObserver for ExportJob {
+    fn keeps_unfinished(&self) -> bool {
+        self.left.load(Relaxed)
+    }
+
     fn planned(&self, plan: &Plan) {
         let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
         self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
