@@ -6,6 +6,7 @@ mod compare;
 mod exit_code;
 mod figures;
 mod fit;
+mod import;
 mod interrupt;
 mod job;
 mod photons;
@@ -41,6 +42,7 @@ pub fn main() -> ExitCode {
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Import(args)) => import::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Schema) => schema(),
     };

@@ -63,14 +63,7 @@ impl AssetUse {
                 let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
                 let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
                 let name = super::unique_name::unique_name(&name, taken);
-                scene.meshes.push(MeshDesc {
-                    name,
-                    file,
-                    material: None,
-                    transform: Default::default(),
-                    smooth: true,
-                    priority: 0,
-                });
+                scene.meshes.push(MeshDesc::new(name, file));
                 Some(Edit::Scene(Some(Box::new(scene))))
             }
             Self::MeshFile(index) => {
