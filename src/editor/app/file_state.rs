@@ -40,6 +40,7 @@ pub(super) enum Leave {
     Quit,
     Open(PathBuf),
     New(usize),
+    Empty,
 }
 
 impl Files {

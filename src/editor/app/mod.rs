@@ -4,6 +4,7 @@ mod autosave;
 mod commands;
 mod file_state;
 mod files;
+mod import;
 mod layout;
 mod open_windows;
 mod recents;
@@ -29,6 +30,7 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::Files;
+use import::Importing;
 use open_windows::Windows;
 use recents::Recents;
 
@@ -44,6 +46,8 @@ pub struct App {
     windows: Windows,
     recents: Recents,
     files: Files,
+    /// The scene that is being read for the document.
+    importing: Option<Importing>,
     preferences: Preferences,
     /// The graphics device.
     gpu: Gpu,
@@ -102,6 +106,7 @@ impl App {
             windows: Windows::default(),
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
+            importing: None,
             preferences: setup.preferences,
             gpu: setup.gpu,
             external: false,
@@ -190,6 +195,7 @@ impl App {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
         self.views.forget_pictures();
+        self.importing = None;
         self.external = false;
     }
 }

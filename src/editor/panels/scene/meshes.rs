@@ -38,7 +38,11 @@ pub(super) fn show(
     let chosen = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        if ui.button("Add OBJ…").on_hover_text("Choose a mesh file, or drop it onto the window").clicked() {
+        if ui
+            .button("Import…")
+            .on_hover_text("Choose a glTF or OBJ file, or drop it onto the window")
+            .clicked()
+        {
             editor.ask(Action::PickFile(AssetUse::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
