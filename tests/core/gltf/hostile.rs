@@ -117,9 +117,9 @@ const CASES: &[Case] = &[
     ("no such child", |glb| glb.json["nodes"][0]["children"] = json!([12]), "nodes[12]: is named as a child"),
     ("no such scene", |glb| glb.json["scene"] = 4.into(), "names scene 4"),
     (
-        "a node placed at infinity",
+        "a scale beyond 32 bits",
         |glb| glb.json["nodes"][0]["scale"] = json!([1e39, 1, 1]),
-        "numbers that are not finite",
+        "number out of range",
     ),
     ("farther than can be", |glb| glb.json["nodes"][0]["translation"] = json!([1e30, 0, 0]), "scene.glb"),
     ("only lines", |glb| primitive(glb)["mode"] = 1.into(), "has no triangles"),
@@ -182,9 +182,10 @@ fn containers_that_lie_are_refused() {
 }
 
 #[test]
-fn a_tree_of_a_million_levels_is_refused_without_recursion() {
+fn a_tree_of_many_levels_is_refused_without_recursion() {
     let mut glb = ball();
-    let count = 1_000_000;
+    // Recursion would take some 200 bytes of stack and more for each.
+    let count = 50_000;
     let nodes =
         (0..count).map(|i| if i + 1 < count { json!({ "children": [i + 1] }) } else { json!({ "mesh": 0 }) });
     glb.json["nodes"] = nodes.collect();

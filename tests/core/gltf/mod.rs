@@ -12,8 +12,8 @@ use crate::scenes::icosphere;
 
 mod fuzz;
 mod hostile;
-mod scenes_made;
 mod materials;
+mod scenes_made;
 mod shapes;
 
 /// A file being made.

@@ -10,6 +10,9 @@ use serde_json::json;
 use super::{Glb, Written, ball, imported, loaded, with_table};
 use crate::scenes::sphere_obj;
 
+/// The cone holds the box around the ball and a little more: a quarter of its light meets the ball, and glass reflects some.
+const HELD: f64 = 0.18;
+
 /// Share of all lamps' power that reaches the receiver through glass.
 fn share(glb: &Glb) -> f64 {
     let written = Written::new(&glb.bytes());
@@ -25,9 +28,8 @@ fn share(glb: &Glb) -> f64 {
 fn a_ball_alone_casts_a_caustic_at_once() {
     let import = imported(&ball());
     assert_eq!(import.summary.casters, 1);
-    // The cone is a little wider than the ball: most of its light goes through.
     let share = share(&ball());
-    assert!((0.4..1.0).contains(&share), "{share}");
+    assert!((HELD..1.0).contains(&share), "{share}");
     // The camera sees the whole ball and the middle of the table.
     let (camera, receiver) = import.scene.camera_and_receiver().unwrap();
     let middle = receiver.world_from_plane(receiver.extent() / 2.0);
@@ -45,7 +47,7 @@ fn a_matt_plane_beneath_the_glass_is_the_receiver() {
     assert_eq!(scene.meshes.len(), 1, "{:?}", scene.meshes);
     assert_eq!((scene.receiver.size, scene.receiver.centre), ([1.0, 0.8], [0.0; 3]));
     assert_eq!(scene.receiver.albedo, [0.4, 0.3, 0.2]);
-    assert!(share(&glb) > 0.4);
+    assert!(share(&glb) > HELD);
     // Turned by 30 degrees about the vertical, it is turned as much; not by 90 more, though it is as deep as wide.
     let half = 15_f32.to_radians();
     let mut glb = ball();
@@ -62,7 +64,7 @@ fn of_a_large_floor_only_the_part_by_the_glass_receives() {
     let [width, height] = import.scene.receiver.size;
     assert!(width.max(height) < 3.0 && import.scene.receiver.surround > 40.0, "{:?}", import.scene.receiver);
     assert!(import.summary.notes.join("\n").contains("the rest is floor"));
-    assert!(share(&glb) > 0.4);
+    assert!(share(&glb) > HELD);
 }
 
 #[test]
