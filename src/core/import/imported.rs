@@ -33,6 +33,8 @@ impl Import {
     /// A project of the scene alone: its light stays as it is until a key frame shows something else.
     pub fn project(&self, name: &str, file: &str) -> Project {
         let mut project = Project { name: name.into(), ..empty_project() };
+        let plain: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+        project.output.name = format!("{plain}.####");
         self.add_to(&mut project, file);
         project
     }

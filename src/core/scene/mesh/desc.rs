@@ -18,7 +18,7 @@ pub struct MeshDesc {
     /// An OBJ or glTF file, relative to the project's folder.
     pub file: String,
     /// The object of a glTF file that is taken ([`Self::NODE`]).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub node: Option<String>,
     /// Material of the whole mesh; none: one object for each material of the file.
     #[serde(default)]
