@@ -10,7 +10,7 @@ const TOWARDS: Vec3 = vec3(0.12, 0.58, 1.0);
 /// Vertical field of view, degrees.
 const VIEW: f32 = 30.0;
 /// Share of the receiver's half diagonal that shall be seen across the height of the picture.
-const SEEN: f32 = 0.8;
+const SEEN: f32 = 0.52;
 
 pub(super) fn framing(glass: &Bounds, receiver: &ReceiverDesc) -> CameraDesc {
     let table = Vec3::from(receiver.centre);

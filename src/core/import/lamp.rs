@@ -13,9 +13,9 @@ const TOWARDS: Vec3 = vec3(-0.62, 0.62, -0.48);
 /// Its distance in radii of the glass.
 const DISTANCE: f32 = 9.0;
 /// The cone over that in which the glass is seen.
-const WIDER: f32 = 1.15;
-/// Irradiance at the glass (W/m²): a matt table is a fifth as bright as white, so that caustics stand out.
-const IRRADIANCE: f32 = 1.2;
+const WIDER: f32 = 1.2;
+/// Irradiance at the glass (W/m²): a matt table is a third as bright as white, so that caustics stand out.
+const IRRADIANCE: f32 = 2.0;
 
 /// A spot that shines on the glass, from a place or from one that is good.
 pub(super) fn aimed_at(glass: &Bounds, place: Option<Vec3>) -> LightDesc {
