@@ -273,7 +273,7 @@ impl App {
             Some(pick) => self.insert(pick, &file),
             None => match mesh::advice(&file) {
                 Some(advice) => {
-                    self.show_message(format!("'{}' is not read", name(&file)), format!("It {advice}."))
+                    self.show_message(format!("'{}' is not read", name(&file)), format!("It {advice}."));
                 }
                 None => {
                     self.editor.status =

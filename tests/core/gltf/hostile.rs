@@ -83,7 +83,7 @@ const CASES: &[Case] = &[
         "zeros without end",
         |glb| {
             glb.json["accessors"][0] = json!({ "componentType": 5126, "count": 2_000_000_000, "type": "VEC3",
-        "sparse": { "count": 0, "indices": { "bufferView": 0, "componentType": 5123 }, "values": { "bufferView": 0 } } })
+        "sparse": { "count": 0, "indices": { "bufferView": 0, "componentType": 5123 }, "values": { "bufferView": 0 } } });
         },
         "beyond its data",
     ),
@@ -91,7 +91,7 @@ const CASES: &[Case] = &[
         "sparse beyond",
         |glb| {
             glb.json["accessors"][0]["sparse"] = json!({ "count": 2,
-        "indices": { "bufferView": 1, "componentType": 5125 }, "values": { "bufferView": 0 } })
+        "indices": { "bufferView": 1, "componentType": 5125 }, "values": { "bufferView": 0 } });
         },
         "indices that do not rise, or lie beyond",
     ),

@@ -6,6 +6,9 @@ use serde_json::json;
 use super::{Glb, Written, ball, glass, loaded};
 use crate::scenes::icosphere;
 
+/// Writes the positions of a ball and returns their accessor.
+type Write<'a> = &'a dyn Fn(&mut Glb) -> usize;
+
 /// A square of glass with its corners in the order of a fan.
 const SQUARE: [Vec3; 4] =
     [vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0), vec3(1.0, 1.0, 0.5), vec3(0.0, 1.0, 0.0)];
@@ -60,7 +63,7 @@ fn all_ways_to_write_triangles_give_the_same() {
 fn whole_numbers_strides_and_sparse_elements_are_read() {
     let (unit, faces) = icosphere(1);
     let (_, lower, upper) = extent(&ball());
-    let variants: [(&str, &dyn Fn(&mut Glb) -> usize); 3] = [
+    let variants: [(&str, Write<'_>); 3] = [
         ("normalized shorts", &|glb| {
             let bytes: Vec<u8> = unit
                 .iter()
