@@ -1,14 +1,14 @@
 //! Scenes of other programs: read on a thread of their own, then put into the open project in one step.
 
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::path::Path;
 use std::time::Duration;
 
 use eframe::egui;
 use lightloom_core::import::{self, Import};
-use lightloom_core::{Progress, Result};
 
 use super::App;
+use super::files::name;
+use super::importing::Importing;
 use crate::editor::document::{Document, Edit};
 use crate::editor::relative_path;
 use crate::editor::session::Panel;
@@ -16,19 +16,6 @@ use crate::editor::templates;
 
 /// How often the window looks whether the file is read.
 const LOOK: Duration = Duration::from_millis(30);
-
-/// A file that is being read for the open document.
-pub(super) struct Importing {
-    file: PathBuf,
-    result: Receiver<Result<Import>>,
-    progress: Progress,
-}
-
-impl Drop for Importing {
-    fn drop(&mut self) {
-        self.progress.cancel();
-    }
-}
 
 impl App {
     /// Replaces the document by an empty project, with its scene in the panel.
@@ -39,15 +26,10 @@ impl App {
 
     /// Begins to read a scene for the open project; one that is still being read is given up.
     pub(super) fn import(&mut self, file: &Path) {
-        let (sender, result) = channel();
-        let progress = Progress::new();
-        let (path, reading) = (file.to_owned(), progress.clone());
-        // The window may have given it up.
-        let read = move || drop(sender.send(import::read(&path, &reading)));
-        match std::thread::Builder::new().name("import".into()).spawn(read) {
-            Ok(_) => {
-                self.editor.status = format!("Reading '{}'", super::files::name(file));
-                self.importing = Some(Importing { file: file.to_owned(), result, progress });
+        match Importing::start(file) {
+            Ok(importing) => {
+                self.editor.status = format!("Reading '{}'", name(file));
+                self.importing = Some(importing);
             }
             Err(error) => self.editor.status = format!("no thread could be started to read it: {error}"),
         }
@@ -56,26 +38,14 @@ impl App {
     /// Takes over a scene that was read.
     pub(super) fn imported(&mut self, ctx: &egui::Context) {
         let Some(importing) = &self.importing else { return };
-        let result = match importing.result.try_recv() {
-            Ok(result) => result,
-            Err(TryRecvError::Empty) => return ctx.request_repaint_after(LOOK),
-            // The thread ended without an answer: it panicked.
-            Err(TryRecvError::Disconnected) => Err(lightloom_core::Error::format(
-                &importing.file,
-                "",
-                "could not be read: a fault of the program",
-            )),
-        };
+        let Some(result) = importing.result() else { return ctx.request_repaint_after(LOOK) };
         let file = importing.file.clone();
         self.importing = None;
         match result {
             Ok(import) => self.put_in(&import, &file),
             Err(error) => {
                 self.editor.status.clear();
-                self.show_message(
-                    format!("'{}' cannot be imported", super::files::name(&file)),
-                    error.to_string(),
-                );
+                self.show_message(format!("'{}' cannot be imported", name(&file)), error.to_string());
             }
         }
     }
@@ -95,7 +65,7 @@ impl App {
         self.editor.status = summary.line();
         if !summary.notes.is_empty() {
             let text = format!("{}.\n\n{}", summary.line(), summary.notes.join("\n"));
-            self.show_message(format!("'{}' was imported", super::files::name(file)), text);
+            self.show_message(format!("'{}' was imported", name(file)), text);
         }
     }
 }

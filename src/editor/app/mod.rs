@@ -5,6 +5,7 @@ mod commands;
 mod file_state;
 mod files;
 mod import;
+mod importing;
 mod layout;
 mod open_windows;
 mod recents;
@@ -30,7 +31,7 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::Files;
-use import::Importing;
+use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
 
