@@ -44,6 +44,8 @@ pub(crate) enum Command {
     Sheet(SheetArgs),
     /// Say what would be done, what is left out and why, what is wrong, and what it would cost.
     Check(CheckArgs),
+    /// Make a project of a scene from another program: glTF (.glb, .gltf) with its lamps, cameras and glass, or OBJ.
+    Import(ImportArgs),
     /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
     Report(ReportArgs),
     /// Print the JSON schema of project files.
@@ -201,6 +203,16 @@ pub(crate) struct FiguresArgs {
     pub(crate) method: Vec<String>,
     #[command(flatten)]
     pub(crate) common: CommonArgs,
+}
+
+#[derive(Args)]
+pub(crate) struct ImportArgs {
+    /// The scene: .glb, .gltf or .obj.
+    #[arg(value_name = "SCENE")]
+    pub(crate) file: PathBuf,
+    /// Folder for the project SCENE.json and a copy of the scene; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) into: PathBuf,
 }
 
 #[derive(Args)]

@@ -8,6 +8,7 @@ mod farm;
 mod figures;
 mod fit;
 mod frames;
+mod import;
 mod interrupt;
 mod job;
 mod photons;
@@ -43,6 +44,7 @@ pub fn main() -> ExitCode {
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Import(args)) => import::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Farm(args)) => farm::run(args),
         Some(Command::Verify(args)) => frames::verify(args),

@@ -8,6 +8,8 @@
 //!                                   bridge
 //! ```
 //!
+//! [`import`] makes a project of a scene of another program.
+//!
 //! [`engine`] runs these stages and remembers their results; the command line, the editor and the report (the package
 //! `lightloom_report`) ask it.
 //!
@@ -190,6 +192,8 @@ pub mod render;
 pub mod export;
 
 pub mod project;
+
+pub mod import;
 
 pub mod engine;
 

@@ -1,7 +1,6 @@
 //! Asset files: their use in the project, and the edit that puts a picked file there.
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
-use lightloom_core::scene::MeshDesc;
 use lightloom_core::targets::{ImageTarget, PointsTarget};
 
 use super::document::Edit;
@@ -9,7 +8,7 @@ use super::document::Edit;
 /// The use of a picked file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AssetUse {
-    /// A new mesh.
+    /// New meshes, with lamps and camera where there are none.
     Mesh,
     /// Replaces the file of the mesh of this index.
     MeshFile(usize),
@@ -48,7 +47,7 @@ impl AssetUse {
     /// Name and extensions of these files.
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Mesh | Self::MeshFile(_) => ("Meshes", &["obj"]),
+            Self::Mesh | Self::MeshFile(_) => ("Meshes", &["glb", "gltf", "obj"]),
             Self::Picture(_) => ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"]),
             Self::Points(_) => ("Points", &["csv", "npy"]),
         }
@@ -57,25 +56,13 @@ impl AssetUse {
     /// The edit that uses `file`, a path relative to the project; none where its use no longer exists.
     pub fn edit(&self, project: &Project, file: String) -> Option<Edit> {
         match self {
-            Self::Mesh => {
-                let mut scene = project.scene.clone().unwrap_or_default();
-                let stem = file.rsplit('/').next().and_then(|name| name.split('.').next());
-                let name = stem.filter(|name| !name.is_empty()).unwrap_or("mesh").replace('_', " ");
-                let taken = |name: &str| scene.meshes.iter().any(|mesh| mesh.name == name);
-                let name = super::unique_name::unique_name(&name, taken);
-                scene.meshes.push(MeshDesc {
-                    name,
-                    file,
-                    material: None,
-                    transform: Default::default(),
-                    smooth: true,
-                    priority: 0,
-                });
-                Some(Edit::Scene(Some(Box::new(scene))))
-            }
+            // Read first, and then put in with all that it holds.
+            Self::Mesh => None,
             Self::MeshFile(index) => {
                 let mut scene = project.scene.clone()?;
-                scene.meshes.get_mut(*index)?.file = file;
+                let mesh = scene.meshes.get_mut(*index)?;
+                // Another file has other objects.
+                (mesh.file, mesh.node) = (file, None);
                 Some(Edit::Scene(Some(Box::new(scene))))
             }
             Self::Picture(at) => {

@@ -7,7 +7,9 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Command {
     New,
+    NewEmpty,
     Open,
+    Import,
     Save,
     SaveAs,
     Quit,
@@ -107,7 +109,9 @@ const fn off(command: Command, menu: Menu, name: &'static str) -> CommandInfo {
 /// All commands, in the order of the menus.
 pub const COMMANDS: &[CommandInfo] = &[
     on(Command::New, Menu::File, "New", CTRL, Key::N),
+    off(Command::NewEmpty, Menu::File, "New empty project"),
     on(Command::Open, Menu::File, "Open…", CTRL, Key::O),
+    on(Command::Import, Menu::File, "Import…", CTRL, Key::I),
     on(Command::Save, Menu::File, "Save", CTRL, Key::S),
     on(Command::SaveAs, Menu::File, "Save as…", CTRL_SHIFT, Key::S),
     on(Command::Export, Menu::File, "Export…", CTRL, Key::E),

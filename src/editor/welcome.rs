@@ -88,6 +88,9 @@ impl Welcome {
 fn below(ui: &mut Ui, recent: &[Recent]) -> Option<Action> {
     let mut chosen = None;
     ui.horizontal_wrapped(|ui| {
+        if ui.button("Empty project").clicked() {
+            chosen = Some(Command::NewEmpty.into());
+        }
         if ui.button("Open…").clicked() {
             chosen = Some(Command::Open.into());
         }

@@ -60,14 +60,7 @@ fn scene(object: Option<(String, Material, Transform)>, lights: Vec<LightDesc>, 
         std::fs::write(folder.path().join("object.obj"), obj).unwrap();
         let file = "object.obj".to_owned();
         let material = Some(material);
-        desc.meshes.push(MeshDesc {
-            name: "object".into(),
-            file,
-            material,
-            transform,
-            smooth: true,
-            priority: 0,
-        });
+        desc.meshes.push(MeshDesc { material, transform, ..MeshDesc::new("object", file) });
     }
     let assets = |name: &str, _: &str| Ok::<_, Error>(folder.path().join(name));
     Scene::load(&desc, &assets).unwrap().0
@@ -130,12 +123,9 @@ fn scene_in_the_open(material: Material, transform: Transform) -> Scene {
     desc.receiver.centre = [0.0, 100.0, 0.0];
     desc.environment = EnvironmentDesc { zenith: [1.0; 3], horizon: [1.0; 3], ground: [1.0; 3] };
     desc.meshes.push(MeshDesc {
-        name: "object".into(),
-        file: "object.obj".into(),
         material: Some(material),
         transform,
-        smooth: true,
-        priority: 0,
+        ..MeshDesc::new("object", "object.obj")
     });
     Scene::load(&desc, &|name: &str, _: &str| Ok(folder.path().join(name))).unwrap().0
 }

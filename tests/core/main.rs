@@ -19,6 +19,7 @@ mod figures;
 mod film;
 mod fit;
 mod fit_reference;
+mod gltf;
 mod layers;
 mod lines;
 mod matching;

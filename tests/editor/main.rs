@@ -8,6 +8,7 @@ mod dialogs;
 mod document;
 mod export_window;
 mod flow_view;
+mod import;
 mod palette;
 mod panels;
 mod photon_drawing;

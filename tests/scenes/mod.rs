@@ -31,14 +31,7 @@ impl Stage {
     pub fn mesh(&mut self, name: &str, obj: impl AsRef<[u8]>, material: Option<Material>) -> &mut MeshDesc {
         let file = format!("{name}.obj");
         self.file(&file, obj);
-        self.desc.meshes.push(MeshDesc {
-            name: name.into(),
-            file,
-            material,
-            transform: Default::default(),
-            smooth: true,
-            priority: 0,
-        });
+        self.desc.meshes.push(MeshDesc { material, ..MeshDesc::new(name, file) });
         self.desc.meshes.last_mut().unwrap()
     }
 

@@ -15,7 +15,7 @@ use module::Module;
 use package::Package;
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "error",
     "setting",
     "progress",
@@ -32,6 +32,7 @@ const ORDER: [&str; 18] = [
     "render",
     "export",
     "project",
+    "import",
     "engine",
     "lib",
 ];

@@ -47,9 +47,10 @@ impl Geometry {
         let mut meshes = Vec::new();
         let mut triangles = Vec::new();
         let (mut shells, mut next_shell) = (Vec::new(), 0);
+        let mut files = mesh::GltfFiles::default();
         for (index, mesh_desc) in descs.iter().enumerate() {
             let place = format!("scene.meshes[{index}]");
-            for part in mesh::load(mesh_desc, &place, assets, notes, progress)? {
+            for part in mesh::load(mesh_desc, &place, assets, &mut files, notes, progress)? {
                 let number = meshes.len() as u16;
                 shells.extend(part.shells.iter().map(|shell| next_shell + shell));
                 next_shell += part.shells.iter().max().map_or(0, |last| last + 1);

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod environment;
+pub mod gltf;
 pub mod light;
 pub mod material;
 pub mod mesh;

@@ -150,6 +150,12 @@ impl Setting {
         self.default == [1.0]
     }
 
+    /// The nearest value that is allowed; NaN becomes the lowest.
+    pub fn clamped(&self, value: f32) -> f32 {
+        let [low, high] = self.range.map(|end| end as f32);
+        if value.is_nan() { low } else { value.clamp(low, high) }
+    }
+
     /// Refuses a value out of range; `parent` is the path of what holds it, such as `flow`.
     ///
     /// # Errors

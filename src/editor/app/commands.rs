@@ -46,7 +46,9 @@ impl App {
                 self.preferences.snapping = session.snapping;
             }
             Command::New => self.windows.welcome.open = true,
+            Command::NewEmpty => self.leave(ctx, Leave::Empty),
             Command::Open => self.ask_what_to_open(ctx),
+            Command::Import => self.ask_what_to_import(ctx),
             Command::Save => self.save(ctx),
             Command::SaveAs => self.save_as(ctx),
             Command::Quit => self.leave(ctx, Leave::Quit),

@@ -42,6 +42,7 @@ pub(super) enum Leave {
     Quit,
     Open(PathBuf),
     New(usize),
+    Empty,
 }
 
 impl Files {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui;
+use lightloom_core::scene::mesh;
 
 use super::App;
 use super::file_state::{Leave, PendingQuestion};
@@ -35,6 +36,7 @@ impl App {
             let question = Question::Export { title, folder };
             self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }
+        self.imported(ctx);
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         for file in dropped {
             self.dropped(ctx, file.path().to_owned());
@@ -161,6 +163,7 @@ impl App {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
+            Leave::Empty => self.begin_empty(),
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
                     return self.show_message("The examples are missing".into(), templates::MISSING.into());
@@ -229,6 +232,7 @@ impl App {
             Purpose::SaveProject => self.save_to(path, None),
             Purpose::ExportFolder => self.windows.export.set_folder(path),
             Purpose::Frames => self.windows.player.play(ctx, &path),
+            Purpose::Import => self.dropped(ctx, path),
             Purpose::Asset(pick) => self.insert(&pick, &path),
         }
     }
@@ -239,8 +243,17 @@ impl App {
         self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
     }
 
+    /// Asks for a scene or a picture to import.
+    pub(super) fn ask_what_to_import(&mut self, ctx: &egui::Context) {
+        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
+        self.picker.ask(PickRequest::new(Purpose::Import).in_folder(folder), ctx);
+    }
+
     /// Puts a file into the project. Picking a file outside the project folder allows external files.
     fn insert(&mut self, pick: &AssetUse, file: &Path) {
+        if *pick == AssetUse::Mesh {
+            return self.import(file);
+        }
         let base = templates::file_of(&self.editor.document);
         let written = relative_path::relative(file, &base);
         self.external = true;
@@ -269,10 +282,15 @@ impl App {
             .find(|pick| ends(pick))
         {
             Some(pick) => self.insert(pick, &file),
-            None => {
-                self.editor.status =
-                    format!("'{}' is not a project, mesh, picture or point file", name(&file));
-            }
+            None => match mesh::advice(&file) {
+                Some(advice) => {
+                    self.show_message(format!("'{}' is not read", name(&file)), format!("It {advice}."));
+                }
+                None => {
+                    self.editor.status =
+                        format!("'{}' is not a project, mesh, picture or point file", name(&file));
+                }
+            },
         }
     }
 
@@ -283,6 +301,6 @@ impl App {
 }
 
 /// The name of a file without its folder.
-fn name(path: &Path) -> String {
+pub(super) fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

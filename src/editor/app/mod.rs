@@ -4,6 +4,8 @@ mod autosave;
 mod commands;
 mod file_state;
 mod files;
+mod import;
+mod importing;
 mod layout;
 mod open_windows;
 mod recents;
@@ -29,6 +31,7 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::Files;
+use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
 
@@ -46,6 +49,8 @@ pub struct App {
     windows: Windows,
     recents: Recents,
     files: Files,
+    /// The scene that is being read for the document.
+    importing: Option<Importing>,
     preferences: Preferences,
     /// The graphics device.
     gpu: Gpu,
@@ -106,6 +111,7 @@ impl App {
             windows: Windows::default(),
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
+            importing: None,
             preferences: setup.preferences,
             gpu: setup.gpu,
             external: false,
@@ -194,6 +200,7 @@ impl App {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
         self.views.forget_pictures();
+        self.importing = None;
         self.external = false;
     }
 }

@@ -9,6 +9,10 @@ use egui::Context;
 
 use crate::editor::asset::AssetUse;
 
+/// Endings of what can be imported.
+const IMPORTED: &[&str] =
+    &["glb", "gltf", "obj", "png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr", "csv", "npy"];
+
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -18,6 +22,8 @@ pub enum Purpose {
     SaveProject,
     /// The output folder for frames.
     ExportFolder,
+    /// A scene of another program, or a picture, for the project.
+    Import,
     /// A picture of a rendered sequence to play.
     Frames,
     /// A file for the project to use.
@@ -96,6 +102,7 @@ impl Purpose {
             Self::OpenProject => "Open a project",
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
+            Self::Import => "Import a scene or a picture",
             Self::Frames => "Choose a rendered frame",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
@@ -108,6 +115,7 @@ impl Purpose {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
             Self::ExportFolder => ("Folders", &[]),
+            Self::Import => ("Scenes and pictures", IMPORTED),
             Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),
             Self::Asset(pick) => pick.files(),
         }

@@ -74,12 +74,10 @@ impl SceneCase {
             let file = format!("solid{i}.obj");
             write(folder, &file, shape.obj(self.scale).as_bytes())?;
             desc.meshes.push(MeshDesc {
-                name: format!("solid {i}"),
-                file,
                 material: Some(Material::Glass(Glass { ior: *ior, ..Glass::default() })),
-                transform: Default::default(),
                 smooth: matches!(shape, Shape::Ball { .. }),
                 priority: *priority,
+                ..MeshDesc::new(format!("solid {i}"), file)
             });
         }
         let mut light = self.light.clone();

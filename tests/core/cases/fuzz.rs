@@ -59,10 +59,14 @@ const PIECES: [&str; 48] = [
 ];
 
 /// A small generator (xorshift): the same files on every machine.
-struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    fn below(&mut self, end: usize) -> usize {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub(crate) fn below(&mut self, end: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -114,7 +118,7 @@ fn damaged_meshes_and_materials_are_read_or_refused() {
     );
     let mut stage = Stage::new();
     stage.mesh("mesh", "", None);
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random::new(0x9e37_79b9_7f4a_7c15);
     let (mut read, mut slowest) = (0, (Duration::ZERO, 0));
     for round in 0..rounds {
         let seed = random.below(seeds.len());

@@ -25,6 +25,8 @@ mod points;
 mod reasons;
 mod touching;
 
+pub(crate) use fuzz::Random;
+
 /// Photons of a measured flux: its noise is below a root of their number, .8 %.
 const PHOTONS: usize = 16_384;
 

@@ -68,6 +68,17 @@ impl LightDesc {
         }
     }
 
+    /// Gives it another name.
+    pub fn rename(&mut self, name: String) {
+        match self {
+            Self::Point(light) => light.name = name,
+            Self::Spot(light) => light.name = name,
+            Self::Directional(light) => light.name = name,
+            Self::Rectangle(light) => light.name = name,
+            Self::Sphere(light) => light.name = name,
+        }
+    }
+
     /// What it does in the picture.
     pub fn role(&self) -> LightRole {
         match self {

@@ -36,7 +36,7 @@ pub enum Material {
 settings! { Material {
     /// Material of the whole mesh. Glass and mirrors cast the caustics.
     KIND = Setting::choice("scene.meshes[].material", &[
-        Choice { value: "", help: "the materials of the MTL file beside the mesh, one object for each" },
+        Choice { value: "", help: "the materials of the file (of OBJ those of the MTL file beside it), one object for each" },
         Choice { value: "diffuse", help: "matt: scatters light evenly; caustics end here" },
         Choice { value: "mirror", help: "polished metal" },
         Choice { value: "glass", help: "clear or coloured glass, water, crystal" },

@@ -15,9 +15,12 @@ use crate::{Error, Result};
 pub struct MeshDesc {
     /// Its name.
     pub name: String,
-    /// An OBJ file, relative to the project's folder.
+    /// An OBJ or glTF file, relative to the project's folder.
     pub file: String,
-    /// Material of the whole file; none: one object for each material of the file's MTL.
+    /// The object of a glTF file that is taken ([`Self::NODE`]).
+    #[serde(default)]
+    pub node: Option<String>,
+    /// Material of the whole mesh; none: one object for each material of the file.
     #[serde(default)]
     pub material: Option<Material>,
     /// Placement in the scene. Default: as in the file, in metres.
@@ -34,8 +37,10 @@ pub struct MeshDesc {
 settings! { MeshDesc {
     /// Name of the mesh in the list of caustics; each name once.
     NAME = Setting::text("scene.meshes[].name");
-    /// An OBJ file, relative to the project.
+    /// An OBJ or glTF file (`.obj`, `.glb`, `.gltf`), relative to the project.
     FILE = Setting::part("scene.meshes[].file");
+    /// The object of a glTF file that is taken, by the name of its node; none for all.
+    NODE = Setting::part("scene.meshes[].node");
     /// Smooth shading by the file's normals, or else over edges of less than 50 degrees; off for facets, as of a gem.
     SMOOTH = Setting::switch("scene.meshes[].smooth", true);
     /// Where solids of glass overlap, as wine and its glass do, the higher priority fills the place; among equals the
@@ -84,10 +89,17 @@ impl Transform {
 }
 
 impl MeshDesc {
+    /// A mesh with the materials of its file, placed as in the file.
+    pub fn new(name: impl Into<String>, file: impl Into<String>) -> Self {
+        let (name, file) = (name.into(), file.into());
+        let (node, material, transform) = (None, None, Transform::default());
+        Self { name, file, node, material, transform, smooth: smooth(), priority: Self::PRIORITY.value() }
+    }
+
     /// Refuses values out of range, naming `place.field`.
     pub fn check(&self, place: &str) -> Result<()> {
         if self.file.is_empty() {
-            return Err(Error::value(format!("{place}.file"), "is empty: name an OBJ file"));
+            return Err(Error::value(format!("{place}.file"), "is empty: name an OBJ or glTF file"));
         }
         Self::PRIORITY.check(self.priority, place)?;
         if let Some(material) = &self.material {

@@ -1,7 +1,9 @@
-//! Triangle meshes from OBJ files: reading, placement, clean-up, smooth normals.
+//! Triangle meshes from OBJ and glTF files: reading, placement, clean-up, smooth normals.
 
 mod clean;
 mod desc;
+mod foreign;
+mod gltf;
 mod library;
 mod mtl;
 mod normals;
@@ -13,11 +15,14 @@ mod text;
 use std::path::PathBuf;
 
 pub use self::desc::{MeshDesc, Transform};
+pub use self::foreign::advice;
+pub(super) use self::gltf::GltfFiles;
 
 use self::library::Owner;
-use self::obj::Group;
+use self::obj::{Group, ObjFile};
 use self::place::Placed;
 use super::accel::Triangle;
+use super::gltf::GltfFile;
 use super::material::Material;
 use crate::{Error, Progress, Result};
 
@@ -30,37 +35,39 @@ pub(super) struct Part {
     pub shells: Vec<u32>,
 }
 
-/// Reads a mesh file and splits it by material; `notes` tell what was changed.
+/// Reads a mesh file and splits it by material; `notes` tell what was changed. `files` are those that were read already.
 pub(super) fn load(
     desc: &MeshDesc,
     place: &str,
     assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
+    files: &mut GltfFiles,
     notes: &mut Vec<String>,
     progress: &Progress,
 ) -> Result<Vec<Part>> {
     progress.check()?;
     let path = assets(&desc.file, &format!("{place}.file"))?;
-    let file = obj::read(&path, &Placed::new(&desc.transform), progress)?;
-    progress.check()?;
-    let (bad, first) = file.bad_normals;
-    if bad > 0 {
-        let what =
-            format!("{bad} normals are no finite numbers (first on line {first}); theirs are computed");
-        notes.push(format!("{}: {what}", desc.name));
+    if let Some(advice) = advice(&path) {
+        return Err(Error::format(path, "", advice));
     }
-    let far = place::check(&file, desc, &path)?;
-    notes.extend(far.iter().map(|far| format!("{}: {far}", desc.name)));
-    let objects = match &desc.material {
-        Some(material) => {
-            let mut all = Group::default();
-            file.groups.into_iter().for_each(|(_, group)| all.append(group));
-            vec![(desc.name.clone(), material.clone(), all)]
-        }
-        None => {
-            let owner = Owner { name: &desc.name, written: &desc.file, path: &path, place, assets };
-            library::objects(file, &owner, notes)
-        }
+    let placed = Placed::new(&desc.transform);
+    let (objects, far) = if GltfFile::is_named(&path) {
+        let groups = files.groups(desc, &path, &placed, notes, progress)?;
+        let far = place::check(groups.iter().map(|(_, group)| group), desc, &path)?;
+        (files.objects(desc, &path, groups, notes)?, far)
+    } else {
+        let file = obj::read(&path, &placed, progress)?;
+        let far = place::check(file.groups.iter().map(|(_, group)| group), desc, &path)?;
+        (
+            of_obj(
+                file,
+                &Owner { name: &desc.name, written: &desc.file, path: &path, place, assets },
+                desc,
+                notes,
+            ),
+            far,
+        )
     };
+    notes.extend(far.iter().map(|far| format!("{}: {far}", desc.name)));
     let mut parts = Vec::new();
     for (name, material, group) in objects {
         progress.check()?;
@@ -74,4 +81,26 @@ pub(super) fn load(
         return Err(Error::format(path, "", format!("has no triangle of any size: nothing to show{far}")));
     }
     Ok(parts)
+}
+
+/// Name, material and faces of the objects of an OBJ file.
+fn of_obj(
+    file: ObjFile,
+    owner: &Owner<'_>,
+    desc: &MeshDesc,
+    notes: &mut Vec<String>,
+) -> Vec<(String, Material, Group)> {
+    let (bad, first) = file.bad_normals;
+    if bad > 0 {
+        let what =
+            format!("{bad} normals are no finite numbers (first on line {first}); theirs are computed");
+        notes.push(format!("{}: {what}", desc.name));
+    }
+    match &desc.material {
+        Some(material) => {
+            let groups = file.groups.into_iter().map(|(_, group)| group);
+            vec![(desc.name.clone(), material.clone(), Group::joined(groups))]
+        }
+        None => library::objects(file, owner, notes),
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{DMat3, DVec3, EulerRot, Vec3};
 
 use super::desc::{MeshDesc, Transform};
-use super::obj::{ObjFile, Placement};
+use super::obj::{Group, Placement};
 use crate::{Error, Result};
 
 /// Farthest from the origin (m): squares of lengths must stay within f32.
@@ -39,8 +39,12 @@ impl Placement for Placed {
 }
 
 /// Refuses a mesh beyond [`FARTHEST`]; what to do about one so far away that its shape suffers.
-pub(super) fn check(file: &ObjFile, desc: &MeshDesc, path: &Path) -> Result<Option<String>> {
-    let positions = || file.groups.iter().flat_map(|(_, group)| &group.positions);
+pub(super) fn check<'a>(
+    groups: impl Iterator<Item = &'a Group> + Clone,
+    desc: &MeshDesc,
+    path: &Path,
+) -> Result<Option<String>> {
+    let positions = || groups.clone().flat_map(|group| &group.positions);
     let far = positions().fold(0.0_f32, |far, p| far.max(p.abs().max_element()));
     if far.is_nan() || far > FARTHEST {
         let what = format!("reaches {far:e} m from the origin; the limit is {FARTHEST:e}: lower its scale");

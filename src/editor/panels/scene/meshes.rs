@@ -2,6 +2,7 @@
 
 use egui::Ui;
 use lightloom_core::project::CausticDesc;
+use lightloom_core::scene::gltf::GltfFile;
 use lightloom_core::scene::mesh::Transform;
 use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
@@ -16,6 +17,7 @@ use crate::editor::unique_name::unique_name;
 
 const NAME: Control = Control::new("Name", MeshDesc::NAME);
 const FILE: Control = Control::new("File", MeshDesc::FILE);
+const NODE: Control = Control::new("Object", MeshDesc::NODE);
 const MOVE: Control = Control::new("Place", Transform::TRANSLATE);
 const TURN: Control = Control::new("Turn", Transform::ROTATE);
 const SCALE: Control = Control::new("Scale", Transform::SCALE).log_slider(0.001, 1000.0);
@@ -23,7 +25,7 @@ const SMOOTH: Control = Control::new("Smooth", MeshDesc::SMOOTH);
 const PRIORITY: Control = Control::new("Priority", MeshDesc::PRIORITY).slider(-10.0, 10.0);
 
 /// The settings of a mesh.
-pub(super) const CONTROLS: &[Control] = &[NAME, FILE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
+pub(super) const CONTROLS: &[Control] = &[NAME, FILE, NODE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
 /// The list of meshes, and the values of the selected one. Caustics follow a renamed mesh.
 pub(super) fn show(
@@ -38,7 +40,11 @@ pub(super) fn show(
     let chosen = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        if ui.button("Add OBJ…").on_hover_text("Choose a mesh file, or drop it onto the window").clicked() {
+        if ui
+            .button("Import…")
+            .on_hover_text("Choose a glTF or OBJ file, or drop it onto the window")
+            .clicked()
+        {
             editor.ask(Action::PickFile(AssetUse::Mesh));
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
@@ -61,6 +67,11 @@ pub(super) fn show(
     }
     if shows::file(ui, &FILE, &mesh.file) {
         editor.ask(Action::PickFile(AssetUse::MeshFile(index)));
+    }
+    if (mesh.node.is_some() || GltfFile::is_named(mesh.file.as_ref()))
+        && let Some(node) = NODE.text(ui, index, mesh.node.as_deref().unwrap_or_default())
+    {
+        mesh.node = Some(node).filter(|node| !node.is_empty());
     }
     MOVE.numbers(ui, &mut mesh.transform.translate, XYZ);
     TURN.numbers(ui, &mut mesh.transform.rotate, XYZ);

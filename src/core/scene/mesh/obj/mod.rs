@@ -119,6 +119,13 @@ impl Group {
         Ok(())
     }
 
+    /// The faces of several groups as one.
+    pub(super) fn joined(groups: impl Iterator<Item = Self>) -> Self {
+        let mut all = Self::default();
+        groups.for_each(|group| all.append(group));
+        all
+    }
+
     /// Adds the faces of another group.
     pub(super) fn append(&mut self, other: Self) {
         let (vertex, normal) = (self.positions.len() as u32, self.normals.len() as u32);

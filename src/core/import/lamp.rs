@@ -1,0 +1,37 @@
+//! The lamp that is made where a file has none: a spot from behind on the left, so that the caustic falls to the front.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::{Vec3, vec3};
+
+use super::draft::Bounds;
+use crate::scene::LightDesc;
+use crate::scene::light::{Common, SpotLight};
+
+/// From the glass to the lamp.
+const TOWARDS: Vec3 = vec3(-0.62, 0.62, -0.48);
+/// Its distance in radii of the glass.
+const DISTANCE: f32 = 9.0;
+/// The cone over that in which the glass is seen.
+const WIDER: f32 = 1.2;
+/// Irradiance at the glass (W/m²): a matt table is a third as bright as white, so that caustics stand out.
+const IRRADIANCE: f32 = 2.0;
+
+/// A spot that shines on the glass, from a place or from one that is good.
+pub(super) fn aimed_at(glass: &Bounds, place: Option<Vec3>) -> LightDesc {
+    let (centre, radius) = (glass.centre(), glass.radius());
+    let place = place.filter(|place| place.distance(centre) > 1.5 * radius);
+    let position = place.unwrap_or(centre + TOWARDS.normalize() * (DISTANCE * radius));
+    let distance = position.distance(centre);
+    let half = (radius / distance).clamp(0.0, 0.95).asin() * WIDER;
+    let solid_angle = TAU * (1.0 - half.cos());
+    let watts = IRRADIANCE * distance * distance * solid_angle;
+    LightDesc::Spot(SpotLight {
+        name: "lamp".into(),
+        watts: Common::WATTS.clamped(watts),
+        position: position.to_array(),
+        target: centre.to_array(),
+        angle_deg: SpotLight::ANGLE.clamped(2.0 * half * 180.0 / PI),
+        ..SpotLight::default()
+    })
+}
