@@ -69,6 +69,7 @@ impl AssetUse {
                     material: None,
                     transform: Default::default(),
                     smooth: true,
+                    enabled: true,
                     priority: 0,
                 });
                 Some(Edit::Scene(Some(Box::new(scene))))

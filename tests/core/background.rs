@@ -66,6 +66,7 @@ fn scene(object: Option<(String, Material, Transform)>, lights: Vec<LightDesc>, 
             material,
             transform,
             smooth: true,
+            enabled: true,
             priority: 0,
         });
     }
@@ -135,6 +136,7 @@ fn scene_in_the_open(material: Material, transform: Transform) -> Scene {
         material: Some(material),
         transform,
         smooth: true,
+        enabled: true,
         priority: 0,
     });
     Scene::load(&desc, &|name: &str, _: &str| Ok(folder.path().join(name))).unwrap().0

@@ -37,6 +37,7 @@ impl Stage {
             material,
             transform: Default::default(),
             smooth: true,
+            enabled: true,
             priority: 0,
         });
         self.desc.meshes.last_mut().unwrap()

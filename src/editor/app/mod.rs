@@ -145,13 +145,20 @@ impl App {
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);
-        actions.extend(keyboard::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
+        // A transform in progress has all keys.
+        if self.editor.session.transforming.is_none() {
+            let busy = self.toolbox.tool().is_busy();
+            actions.extend(keyboard::pressed(&ctx, &tools, busy, self.views.key_place(&ctx)));
+        }
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
         for action in actions {
             self.apply(&ctx, action);
         }
-        let gesture = ctx.input(|input| input.pointer.any_down()) || ctx.text_edit_focused();
+        let gesture = ctx.input(|input| input.pointer.any_down())
+            || ctx.text_edit_focused()
+            || self.views.is_flying(&ctx)
+            || self.editor.session.transforming.is_some();
         if !gesture && !self.toolbox.tool().is_busy() {
             self.editor.document.settle();
         }

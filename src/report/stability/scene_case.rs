@@ -79,6 +79,7 @@ impl SceneCase {
                 material: Some(Material::Glass(Glass { ior: *ior, ..Glass::default() })),
                 transform: Default::default(),
                 smooth: matches!(shape, Shape::Ball { .. }),
+                enabled: true,
                 priority: *priority,
             });
         }

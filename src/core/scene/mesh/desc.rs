@@ -17,6 +17,9 @@ pub struct MeshDesc {
     pub name: String,
     /// An OBJ file, relative to the project's folder.
     pub file: String,
+    /// Whether it stands in the scene ([`Self::ENABLED`]).
+    #[serde(default = "enabled")]
+    pub enabled: bool,
     /// Material of the whole file; none: one object for each material of the file's MTL.
     #[serde(default)]
     pub material: Option<Material>,
@@ -36,12 +39,18 @@ settings! { MeshDesc {
     NAME = Setting::text("scene.meshes[].name");
     /// An OBJ file, relative to the project.
     FILE = Setting::part("scene.meshes[].file");
+    /// Off leaves the mesh in the list, but not in the scene; its file is not read.
+    ENABLED = Setting::switch("scene.meshes[].enabled", true);
     /// Smooth shading by the file's normals, or else over edges of less than 50 degrees; off for facets, as of a gem.
     SMOOTH = Setting::switch("scene.meshes[].smooth", true);
     /// Where solids of glass overlap, as wine and its glass do, the higher priority fills the place; among equals the
     /// later in the list.
     PRIORITY = Setting::whole("scene.meshes[].priority", [-1000.0, 1000.0], &[0.0]);
 } }
+
+fn enabled() -> bool {
+    MeshDesc::ENABLED.is_on()
+}
 
 fn smooth() -> bool {
     MeshDesc::SMOOTH.is_on()

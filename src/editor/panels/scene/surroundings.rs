@@ -5,6 +5,7 @@ use lightloom_core::project::PlaneSettings;
 use lightloom_core::scene::{CameraDesc, EnvironmentDesc, ReceiverDesc};
 
 use crate::editor::context::EditorContext;
+use crate::editor::look::fly;
 use crate::editor::panels::control::Control;
 use crate::editor::panels::widgets::XYZ;
 
@@ -38,12 +39,12 @@ pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDes
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
     SHIFT.numbers(ui, &mut camera.shift, ["right", "up"]);
-    ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
+    ui.add_enabled_ui(editor.session.free_camera.is_some(), |ui| {
         let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
         if take.on_disabled_hover_text("Open the orbit view first").clicked()
-            && let Some(orbit) = editor.session.orbit
+            && let Some(free) = &editor.session.free_camera
         {
-            *camera = orbit.camera(camera);
+            *camera = fly::aligned(camera, free);
         }
     });
 }
