@@ -30,9 +30,14 @@ const REPEATED: [Command; 6] = [
 
 /// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
 /// that the active tool has an unfinished gesture. Over the orbit view its keys win. A focused text field keeps all keys except shortcuts that have
-/// no meaning in text.
-pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool, place: KeyPlace) -> Vec<Action> {
-    let typing = ctx.text_edit_focused();
+/// no meaning in text, and so does the palette before its field has the focus: `typing`.
+pub fn pressed(
+    ctx: &Context,
+    tools: &[(&'static str, Key)],
+    (busy, typing): (bool, bool),
+    place: KeyPlace,
+) -> Vec<Action> {
+    let typing = typing || ctx.text_edit_focused();
     let focused = ctx.memory(|memory| memory.focused().is_some());
     if is_covered(ctx) {
         return Vec::new();
@@ -43,7 +48,15 @@ pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool, place: 
         let space = matches!(event, Event::Key { key: Key::Space, .. });
         if space { tapped(ctx, event, action) } else { action }
     };
-    events.iter().filter_map(action).collect()
+    let actions: Vec<Action> = events.iter().filter_map(action).collect();
+    let count = actions.iter().position(takes_keys).map_or(actions.len(), |at| at + 1);
+    actions.into_iter().take(count).collect()
+}
+
+/// Whether what follows is typed into something that the action opens: the palette, or a transform.
+fn takes_keys(action: &Action) -> bool {
+    use Command::{MoveObject, Palette, ScaleObject, TurnObject};
+    matches!(action, Action::Command(Palette | MoveObject | TurnObject | ScaleObject))
 }
 
 /// Whether a dialog or a menu is open that receives the keys.

@@ -40,12 +40,13 @@ pub fn with_key(entry: &CommandInfo) -> String {
 const OVER_ORBIT_VIEW: &str = "Scene (over the orbit view)";
 
 /// What else the orbit view knows.
-const TRANSFORMS: [(&str, &str); 5] = [
+const TRANSFORMS: [(&str, &str); 6] = [
     ("Select", "Click"),
-    ("Along an axis, again: free", "X, Y, Z"),
-    ("Across an axis", "Shift+X, Y, Z"),
-    ("An exact amount", "Digits, minus, point"),
-    ("Confirm or cancel", "Enter or Escape, left or right click"),
+    ("Lock to an axis", "X, Y, Z"),
+    ("Lock across an axis", "Shift+X, Y, Z"),
+    ("Type the amount", "Digits"),
+    ("Confirm", "Enter, click"),
+    ("Cancel", "Escape, right click"),
 ];
 
 /// Mouse gestures and modifier keys, which are not commands.

@@ -8,7 +8,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lightloom::editor::action::Action;
-use lightloom::editor::command::{COMMANDS, Command, CommandInfo, Menu};
+use lightloom::editor::command::{COMMANDS, Command, CommandInfo, KeyPlace, Menu};
 use lightloom::editor::document::Edit;
 use lightloom::editor::menu::Recent;
 use lightloom::editor::palette::{Palette, items};
@@ -147,7 +147,7 @@ fn space_plays_and_pauses_but_not_while_text_is_typed() {
     type State = (Editor, String);
     let mut harness = harness((busy_editor(), String::new()), |ui, (editor, text): &mut State| {
         let ctx = ui.ctx().clone();
-        let pressed = keyboard::pressed(&ctx, &tool_keys(), false);
+        let pressed = keyboard::pressed(&ctx, &tool_keys(), (false, false), KeyPlace::Everywhere);
         editor.frame(&ctx, |editor| editor.actions.extend(pressed));
         ui.text_edit_singleline(text).accessible_name("Text");
     });

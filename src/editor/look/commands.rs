@@ -47,7 +47,7 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> O
             is_listed
         }
         Command::LookThroughCamera => scene.is_some(),
-        Command::AlignCamera => scene.is_some() && session.free_camera.is_some(),
+        Command::AlignCamera => scene.is_some() && session.free_camera.is_some() && !session.through_camera,
         _ => return None,
     })
 }

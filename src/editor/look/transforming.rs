@@ -1,6 +1,6 @@
 //! A transform in progress: moved by the pointer, locked to axes and typed by keys, confirmed or cancelled.
 
-use egui::{Key, Pos2};
+use egui::{Event, Key, Pos2};
 use glam::Vec3;
 use lightloom_core::scene::SceneDesc;
 use lightloom_core::setting::format;
@@ -24,6 +24,17 @@ pub enum TransformKind {
     Turn,
     /// Scales.
     Scale,
+}
+
+impl TransformKind {
+    /// Its key.
+    pub fn key(self) -> Key {
+        match self {
+            Self::Move => Key::G,
+            Self::Turn => Key::R,
+            Self::Scale => Key::S,
+        }
+    }
 }
 
 /// The end of a transform.
@@ -93,6 +104,20 @@ impl Transforming {
         let angle = before.x * now.y - before.y * now.x;
         self.swept += angle.atan2(before.dot(now)).to_degrees();
         self.pointer = Some([from, at]);
+    }
+
+    /// Keys and text of a frame of the window, in their order.
+    pub fn take<'a>(&mut self, events: impl IntoIterator<Item = &'a Event>) -> Option<End> {
+        events.into_iter().find_map(|event| match event {
+            Event::Key { key, pressed: true, repeat, modifiers, .. } if !modifiers.command => {
+                (!repeat || *key == Key::Backspace).then(|| self.key(*key, modifiers.shift)).flatten()
+            }
+            Event::Text(text) => {
+                self.text(text);
+                None
+            }
+            _ => None,
+        })
     }
 
     /// A key: axes lock, Enter confirms, Escape cancels, Backspace takes a digit back, G, R and S change what is done.

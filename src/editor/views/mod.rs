@@ -10,6 +10,7 @@ mod wipe;
 
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
+use super::action::Action;
 use super::canvas::plane_transform::PlaneTransform;
 use super::command::KeyPlace;
 use super::look::gizmo::Handle;
@@ -94,6 +95,9 @@ impl Views {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
         self.over_orbit = false;
+        if editor.session.layout != ViewLayout::Orbit && editor.session.transforming.take().is_some() {
+            editor.ask(Action::Abort);
+        }
         let all = ui.available_rect_before_wrap();
         let veil = editor.preview.veil();
         match editor.session.layout {

@@ -1,6 +1,8 @@
 //! The orbit view: the scene through a free camera or the project's, its objects drawn over it, selected and transformed.
 
-use egui::{Color32, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{
+    Color32, Painter, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
 use glam::Vec2;
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
@@ -47,44 +49,62 @@ impl Views {
         let camera = if through { shot.clone() } else { free_camera(editor, &shot) };
         let seen = editor.preview.look();
         let shown = self.shown(ui, &seen, (&camera, frame));
-        let busy = editor.session.transforming.is_some();
-        let over = match (&project.scene, shown) {
-            (Some(scene), Some(shown)) if busy => {
-                transform::drive(ui, editor, scene, &shown);
-                None
-            }
-            (Some(scene), Some(shown)) => {
-                self.handle = point(ui, &response, editor, (scene, &shown), seen.loaded());
-                hovered(&response, (scene, &shown), seen.loaded(), editor.session.focus.object)
-            }
-            _ => None,
-        };
+        let scene = project.scene.as_ref().zip(shown.as_ref());
+        let over = self.objects(ui, &response, editor, scene, &seen);
         if editor.session.transforming.is_none() {
             self.navigate(ui, &response, editor, (&camera, through));
         }
         let camera = if through { shot } else { editor.session.free_camera.clone().unwrap_or(camera) };
         self.wanted.look = Some((camera, pixels(ui, frame)));
         self.paint(ui, view, &seen, shown.map_or(frame, |shown| shown.place), through);
-        if let (Some(scene), Some(shown)) = (&project.scene, shown) {
-            let painter = ui.painter_at(view);
-            let drawn = SceneOverlay {
-                painter: &painter,
-                view: &shown,
-                scene,
-                loaded: seen.loaded(),
-                selected: editor.session.focus.object,
-                over,
-                aspect: aspect[0] / aspect[1].max(1.0),
-                through_camera: through,
-            };
-            drawn.draw();
-            let dragged = editor.session.transforming.as_ref();
-            match gizmo((scene, &shown), seen.loaded(), editor.session.focus.object) {
-                Some(gizmo) if dragged.is_none() => gizmo.draw(&painter, self.handle),
-                _ => (),
-            }
+        if let Some((scene, shown)) = scene {
+            let aspect = aspect[0] / aspect[1].max(1.0);
+            self.draw((&ui.painter_at(view), shown), editor, scene, &seen, (over, aspect, through));
         }
         transform::words(ui, view, editor, through);
+    }
+
+    /// What the pointer does with the objects: a transform goes on, or one is selected. Returns the one under it.
+    fn objects(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        editor: &mut EditorContext,
+        scene: Option<(&SceneDesc, &Viewpoint)>,
+        seen: &Seen,
+    ) -> Option<SceneObject> {
+        let is_transforming = editor.session.transforming.is_some();
+        let Some((scene, shown)) = scene else {
+            if editor.session.transforming.take().is_some() {
+                editor.ask(Action::Abort);
+            }
+            return None;
+        };
+        if is_transforming {
+            transform::drive(ui, editor, scene, shown);
+            return None;
+        }
+        self.handle = point(ui, response, editor, (scene, shown), seen.loaded());
+        hovered(response, (scene, shown), seen.loaded(), editor.session.focus.object)
+    }
+
+    /// Draws the objects over the picture. A transform is seen before the project has it.
+    fn draw(
+        &self,
+        (painter, view): (&Painter, &Viewpoint),
+        editor: &EditorContext,
+        scene: &SceneDesc,
+        seen: &Seen,
+        (over, aspect, through_camera): (Option<SceneObject>, f32, bool),
+    ) {
+        let transforming = editor.session.transforming.as_ref();
+        let changed = transforming.and_then(|transforming| transforming.scene().ok());
+        let scene = changed.as_ref().unwrap_or(scene);
+        let (loaded, selected) = (seen.loaded(), editor.session.focus.object);
+        SceneOverlay { painter, view, scene, loaded, selected, over, aspect, through_camera }.draw();
+        if let (None, Some(gizmo)) = (transforming, gizmo((scene, view), loaded, selected)) {
+            gizmo.draw(painter, self.handle);
+        }
     }
 
     /// Whether the project's camera is being flown.

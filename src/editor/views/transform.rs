@@ -1,6 +1,6 @@
 //! The transform in progress in the orbit view: its input, and the words below.
 
-use egui::{Align2, Area, Color32, CursorIcon, Event, FontId, Id, Order, Rect, Sense, Ui};
+use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Rect, Sense, Ui};
 use lightloom_core::scene::SceneDesc;
 
 use super::orbit_view::CORNER;
@@ -22,6 +22,7 @@ pub(super) fn drive(ui: &Ui, editor: &mut EditorContext, scene: &SceneDesc, show
     match end {
         Some(End::Cancelled) => {
             editor.ask(Action::Abort);
+            ui.ctx().request_repaint();
             return;
         }
         Some(End::Confirmed) | None => {
@@ -29,12 +30,13 @@ pub(super) fn drive(ui: &Ui, editor: &mut EditorContext, scene: &SceneDesc, show
                 && changed != *scene
             {
                 editor.ask(Edit::Scene(Some(Box::new(changed))));
+                ui.ctx().request_repaint();
             }
         }
     }
     if end.is_some() {
         editor.ask(Action::Settle);
-        editor.ask(Action::Say(transforming.words()));
+        editor.ask(Action::Say(transforming.words().replace('|', "")));
     } else {
         editor.session.transforming = Some(transforming);
     }
@@ -49,27 +51,7 @@ fn cover(ui: &Ui) {
 }
 
 fn input(ui: &Ui, transforming: &mut Transforming, shown: &Viewpoint) -> Option<End> {
-    let mut end = None;
-    for event in ui.input(|input| input.events.clone()) {
-        let of_event = match event {
-            Event::PointerMoved(at) => {
-                transforming.point(shown, at);
-                None
-            }
-            Event::Key { key, pressed: true, repeat: false, modifiers, .. } if !modifiers.command => {
-                transforming.key(key, modifiers.shift)
-            }
-            Event::Key { key: egui::Key::Backspace, pressed: true, .. } => {
-                transforming.key(egui::Key::Backspace, false)
-            }
-            Event::Text(text) => {
-                transforming.text(&text);
-                None
-            }
-            _ => None,
-        };
-        end = end.or(of_event);
-    }
+    let end = ui.input(|input| transforming.take(&input.events));
     let (primary, released, secondary) = ui.input(|input| {
         let pointer = &input.pointer;
         (

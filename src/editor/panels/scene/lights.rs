@@ -13,7 +13,7 @@ use crate::editor::context::EditorContext;
 use crate::editor::look::lamp::{enabled_of, name_of, role_of};
 use crate::editor::look::object::SceneObject;
 use crate::editor::panels::control::Control;
-use crate::editor::panels::widgets::{XYZ, aside, menu, remove_button, section};
+use crate::editor::panels::widgets::{XYZ, menu, remove_button, section};
 use crate::editor::unique_name::unique_name;
 
 /// The kinds of light, each with its defaults.
@@ -100,7 +100,7 @@ pub(super) fn show(
     let light = &mut scene.lights[index];
     section(ui, light.name());
     if let Some(words) = lamp_words(editor) {
-        aside(ui, &words);
+        ui.add(egui::Label::new(egui::RichText::new(words).small()).wrap());
     }
     if let Some(name) = NAME.text(ui, index, light.name()).filter(|name| !name.is_empty()) {
         let name = unique_name(&name, |name| taken.iter().any(|other| other == name));

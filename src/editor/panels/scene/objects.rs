@@ -41,12 +41,12 @@ fn row(
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 4.0;
         let (icon, verb) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
-        if icons::button(ui, icon, &format!("{verb}: {name}"), on).clicked() {
+        if icons::button(ui, icon, &format!("{verb}: {kind} {name}"), on).clicked() {
             take(scene, arrange::switched(scene, object));
         }
         let alone = arrange::is_alone(scene, object);
         let solo = ui.add(Button::selectable(alone, "S").frame(true).min_size(vec2(SIDE, SIDE)));
-        let solo = solo.accessible_name(format!("Solo: {name}"));
+        let solo = solo.accessible_name(format!("Solo: {kind} {name}"));
         if solo.on_hover_text("Only this on, the others of the list off; again: all on").clicked() {
             take(scene, arrange::alone(scene, object));
         }
