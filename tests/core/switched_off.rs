@@ -85,21 +85,28 @@ fn the_light_of_a_lamp_is_what_the_tracer_lands() {
     stage.mesh("mirror", sphere_obj(2, Vec3::new(0.0, 0.2, 0.3), 0.05), mirror(0.8));
     let scene = stage.load();
     let progress = Progress::new();
-    let all = photons(&scene);
+    let tracer = Tracer::new(&scene, 3, &progress).unwrap();
+    let (all, _) = tracer.trace(0, 20_000, &progress).unwrap();
     for light in 0..2 {
         let of_light = all.light.iter().zip(&all.flux).filter(|(own, _)| usize::from(**own) == light);
         let landed: f64 = of_light.map(|(_, flux)| f64::from(flux.element_sum()) / 3.0).sum();
         let told = LampLight::trace(&scene, light, 5, &progress).unwrap().unwrap();
-        // About 1500 photons of each lamp, and as many plain paths that land: four standard deviations.
+        // At least 2000 photons of each lamp, and as many plain paths that land: four standard deviations.
         assert!((told.landed / landed - 1.0).abs() < 0.15, "{light}: {told:?}, {landed}");
         assert!(told.landed <= told.met && told.met < told.power.unwrap());
         assert_eq!(told, LampLight::trace(&scene, light, 5, &progress).unwrap().unwrap());
     }
-    // A ball of radius 0.08 fills the share (1 - cos) / 2 of a point 0.88 m above it; the others add a little.
-    let cosine = (1.0 - (0.08_f64 / 0.88).powi(2)).sqrt();
-    let ball = (1.0 - cosine) / 2.0;
+    // The share of all directions that a ball takes is half of one minus the cosine of its half angle.
+    let lamp = Vec3::new(-0.25, 1.0, 0.0);
+    let balls = [([-0.25, 0.12, 0.0], 0.08), ([0.25, 0.12, 0.0], 0.08), ([0.0, 0.2, 0.3], 0.05)];
+    let ball = |(centre, radius): ([f32; 3], f32)| {
+        let sine = radius / lamp.distance(centre.into());
+        f64::from((1.0 - (1.0 - sine * sine).sqrt()) / 2.0)
+    };
+    let wanted: f64 = balls.into_iter().map(ball).sum();
     let told = LampLight::trace(&scene, 0, 5, &progress).unwrap().unwrap();
     let share = told.met / told.power.unwrap();
-    assert!(share > 0.99 * ball && share < 2.0 * ball, "{share}, the ball alone {ball}");
+    // The facets of the balls lie inside of them.
+    assert!((share / wanted - 1.0).abs() < 0.03, "{share} met, {wanted} wanted");
     assert!(LampLight::trace(&scene, 2, 5, &progress).unwrap().is_none());
 }

@@ -40,6 +40,8 @@ pub(super) struct Views {
     over_orbit: bool,
     /// The handle under the pointer.
     handle: Option<Handle>,
+    /// Whether a handle was grabbed by the drag that goes on: what is left of it after Escape flies no camera.
+    grabbed: bool,
     /// When the project's camera was flown last, seconds of the window.
     flown: Option<f64>,
 }
@@ -53,6 +55,7 @@ impl Default for Views {
             places: [Rect::NOTHING; 2],
             over_orbit: false,
             handle: None,
+            grabbed: false,
             flown: None,
         }
     }

@@ -1,7 +1,7 @@
 //! The orbit view: the scene through a free camera or the project's, its objects drawn over it, selected and transformed.
 
 use egui::{
-    Color32, Painter, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Color32, Painter, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
 };
 use glam::Vec2;
 use lightloom_core::scene::{CameraDesc, SceneDesc};
@@ -51,7 +51,10 @@ impl Views {
         let shown = self.shown(ui, &seen, (&camera, frame));
         let scene = project.scene.as_ref().zip(shown.as_ref());
         let over = self.objects(ui, &response, editor, scene, &seen);
-        if editor.session.transforming.is_none() {
+        let by_handle = |transforming: &Transforming| transforming.by_handle;
+        self.grabbed |= editor.session.transforming.as_ref().is_some_and(by_handle);
+        self.grabbed &= ui.input(|input| input.pointer.any_down());
+        if editor.session.transforming.is_none() && !self.grabbed {
             self.navigate(ui, &response, editor, (&camera, through));
         }
         let camera = if through { shot } else { editor.session.free_camera.clone().unwrap_or(camera) };
@@ -246,6 +249,3 @@ fn hovered(
     let at = response.hover_pos().filter(|_| response.hovered() && !response.dragged())?;
     pick(at, shown, scene, loaded, selected)
 }
-
-/// Room for words in the corners of the view.
-pub(super) const CORNER: egui::Vec2 = vec2(12.0, 10.0);

@@ -3,13 +3,15 @@
 use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Rect, Sense, Ui};
 use lightloom_core::scene::SceneDesc;
 
-use super::orbit_view::CORNER;
 use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::look::transforming::{End, Transforming};
 use crate::editor::look::viewpoint::Viewpoint;
 use crate::editor::panels::lamp_words;
+
+/// Room for words in the corner of the view, points.
+const CORNER: egui::Vec2 = egui::vec2(12.0, 10.0);
 
 /// Passes pointer and keys to the transform, and shows the scene as it is so far.
 pub(super) fn drive(ui: &Ui, editor: &mut EditorContext, scene: &SceneDesc, shown: &Viewpoint) {
