@@ -23,12 +23,17 @@ pub(in crate::editor) use lights::lamp_words;
 pub(super) const CONTROLS: &[&[Control]] =
     &[meshes::CONTROLS, materials::CONTROLS, lights::CONTROLS, surroundings::CONTROLS];
 
+/// What cannot be keyed, and why.
+const STILL: &str =
+    "Meshes, lamps and camera stand still throughout the film; its key frames move their light.";
+
 /// The scene panel.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     let project = editor.document.project();
     let Some(before) = &project.scene else { return without_scene(ui, editor, project) };
     let mut scene = before.clone();
     let mut caustics = project.caustics.clone();
+    ui.add(egui::Label::new(egui::RichText::new(STILL).small().weak()).wrap());
     fold_open(ui, "Meshes", |ui| meshes::show(ui, editor, &mut scene, &mut caustics));
     fold_open(ui, "Lights", |ui| lights::show(ui, editor, &mut scene, &mut caustics));
     let object = editor.session.focus.object;
