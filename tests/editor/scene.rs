@@ -65,13 +65,17 @@ fn typed(
 ) -> Transforming {
     let mut transforming = Transforming::new(object, kind, scene, pivot);
     for letter in keys.chars() {
-        match letter {
-            'x' | 'y' | 'z' => {
-                drop(transforming.key([Key::X, Key::Y, Key::Z][letter as usize - 'x' as usize], false))
+        let key = match letter {
+            'x' => Key::X,
+            'y' => Key::Y,
+            'z' => Key::Z,
+            '<' => Key::Backspace,
+            _ => {
+                transforming.text(&letter.to_string());
+                continue;
             }
-            '<' => drop(transforming.key(Key::Backspace, false)),
-            _ => transforming.text(&letter.to_string()),
-        }
+        };
+        assert_eq!(transforming.key(key, false), None);
     }
     transforming
 }
@@ -278,7 +282,8 @@ fn snapping_puts_the_lowest_corner_onto_the_table() {
 #[test]
 fn aiming_duplicating_switching_and_solo() {
     let stage = stage();
-    let (scene, desc) = (stage.load(), stage.desc.clone());
+    let scene = stage.load();
+    let desc = stage.desc;
     let project = project(&desc);
     let loaded = loaded(&scene, &project);
     let aimed = arrange::aimed(&desc, SceneObject::Light(0), Aim::Glass, loaded).unwrap();

@@ -37,14 +37,15 @@ pub fn changed(
     let mut scene = scene.clone();
     match object {
         SceneObject::Mesh(index) => {
-            scene.meshes.get_mut(index).map(|mesh| placed(&mut mesh.transform, change, pivot.as_dvec3()));
+            let mesh = scene.meshes.get_mut(index).ok_or("Nothing is selected")?;
+            placed(&mut mesh.transform, change, pivot.as_dvec3());
         }
         SceneObject::Light(index) => {
-            scene.lights.get_mut(index).map_or(Ok(()), |light| of_light(light, change))?;
+            of_light(scene.lights.get_mut(index).ok_or("Nothing is selected")?, change)?;
         }
         SceneObject::LightTarget(index) => {
             let target = scene.lights.get_mut(index).and_then(lamp::target_of);
-            target.map_or(Ok(()), |target| of_target(target, change))?;
+            of_target(target.ok_or("Nothing is selected")?, change)?;
         }
         SceneObject::Camera => of_camera(&mut scene.camera, change)?,
         SceneObject::CameraTarget => of_target(&mut scene.camera.look_at, change)?,
