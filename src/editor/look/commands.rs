@@ -36,13 +36,14 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> O
     let object = session.focus.object.filter(|object| scene.is_some_and(|scene| object.is_in(scene)));
     let is_listed = object.is_some_and(|object| object.mesh().or(object.light()).is_some());
     Some(match command {
-        Command::MoveObject | Command::TurnObject | Command::ScaleObject | Command::FrameSelected => {
-            object.is_some()
-        }
-        Command::SnapToTable => object.is_some_and(|object| object.mesh().is_some()),
-        Command::AimAtGlass | Command::AimAtReceiver => {
-            object.is_some_and(|object| object.light().is_some() || object.is_camera())
-        }
+        // Where one of these cannot be done with the object, it says why.
+        Command::MoveObject
+        | Command::TurnObject
+        | Command::ScaleObject
+        | Command::FrameSelected
+        | Command::SnapToTable
+        | Command::AimAtGlass
+        | Command::AimAtReceiver => object.is_some(),
         Command::DuplicateObject | Command::DeleteObject | Command::SwitchObject | Command::SoloObject => {
             is_listed
         }

@@ -42,6 +42,8 @@ pub(super) struct Views {
     handle: Option<Handle>,
     /// Whether a handle was grabbed by the drag that goes on: what is left of it after Escape flies no camera.
     grabbed: bool,
+    /// Frames in which a transform still covers the window.
+    covered: u8,
     /// When the project's camera was flown last, seconds of the window.
     flown: Option<f64>,
 }
@@ -56,6 +58,7 @@ impl Default for Views {
             over_orbit: false,
             handle: None,
             grabbed: false,
+            covered: 0,
             flown: None,
         }
     }

@@ -42,7 +42,10 @@ impl Views {
         let shot = project.scene.as_ref().map_or_else(CameraDesc::default, |scene| scene.camera.clone());
         let response = ui.allocate_rect(view, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, ui.is_enabled(), "Orbit view"));
-        self.over_orbit = response.contains_pointer() && project.scene.is_some();
+        // What covers the window during a transform does so for a frame after its end.
+        let transforms = editor.session.transforming.is_some();
+        self.covered = if transforms { 2 } else { self.covered.saturating_sub(1) };
+        self.over_orbit = (response.contains_pointer() || self.covered > 0) && project.scene.is_some();
         let aspect = [project.render.width as f32, project.render.height as f32];
         let through = editor.session.through_camera && project.scene.is_some();
         let frame = if through { fitted(view.shrink(MARGIN), aspect) } else { view };
