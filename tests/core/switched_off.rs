@@ -6,7 +6,7 @@ use lightloom_core::Progress;
 use lightloom_core::engine::Engine;
 use lightloom_core::photon::{LampLight, Photons, Tracer};
 use lightloom_core::project::{AssetFolder, Project};
-use lightloom_core::scene::light::RectangleLight;
+use lightloom_core::scene::light::{RectangleLight, SpotLight};
 use lightloom_core::scene::{LightDesc, Ray, Scene};
 use serde_json::json;
 
@@ -50,6 +50,24 @@ fn what_is_off_is_not_there() {
     let dark = LightDesc::Rectangle(RectangleLight { position: [0.3, 1.0, 0.1], enabled: false, ..towards });
     assert!(on.intersect(&up).is_some() && dark.intersect(&up).is_none());
     assert!(on.illuminate(Vec3::ZERO, [0.5; 2]).is_some() && dark.illuminate(Vec3::ZERO, [0.5; 2]).is_none());
+}
+
+#[test]
+fn a_narrow_lamp_among_several_balls_gives_its_light_once() {
+    let mut stage = Stage::new();
+    for x in [-0.4, 0.0, 0.4] {
+        let name = format!("ball {x}");
+        stage.mesh(&name, sphere_obj(3, Vec3::new(x, 0.12, 0.0), 0.08), glass(1.5));
+    }
+    let spot = SpotLight { watts: 2.0, position: [0.0, 1.0, 0.0], angle_deg: 3.0, ..Default::default() };
+    stage.desc.lights.push(LightDesc::Spot(spot));
+    let scene = stage.load();
+    let landed = photons(&scene).total_flux().element_sum() / 3.0;
+    // Nearly all of it goes through the ball in the middle; a few per cent are reflected.
+    assert!(landed < 2.0 && landed > 1.6, "{landed} W of 2 W");
+    let told = LampLight::trace(&scene, 0, 5, &Progress::new()).unwrap().unwrap();
+    // Three standard deviations of the rejection at the soft edge are one per cent.
+    assert!((told.met / 2.0 - 1.0).abs() < 0.03, "{told:?}");
 }
 
 #[test]
