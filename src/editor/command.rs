@@ -66,6 +66,19 @@ pub enum Command {
     Larger,
     Smaller,
     NormalSize,
+    MoveObject,
+    TurnObject,
+    ScaleObject,
+    SnapToTable,
+    AimAtGlass,
+    AimAtReceiver,
+    FrameSelected,
+    DuplicateObject,
+    DeleteObject,
+    SwitchObject,
+    SoloObject,
+    LookThroughCamera,
+    AlignCamera,
 }
 
 /// A menu of the menu bar.
@@ -74,6 +87,7 @@ pub enum Command {
 pub enum Menu {
     File,
     Edit,
+    Scene,
     Play,
     View,
     Help,
@@ -90,20 +104,43 @@ pub struct CommandInfo {
     pub name: &'static str,
     /// Its shortcut.
     pub shortcut: Option<KeyboardShortcut>,
+    /// Where the shortcut counts.
+    pub keys: KeyPlace,
+}
+
+/// Where a shortcut counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyPlace {
+    /// Everywhere, but for what the orbit view takes.
+    Everywhere,
+    /// Over the orbit view.
+    OrbitView,
 }
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+const CTRL_ALT: Modifiers = Modifiers::COMMAND.plus(Modifiers::ALT);
 const ALT: Modifiers = Modifiers::ALT;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
 const fn on(command: Command, menu: Menu, name: &'static str, modifiers: Modifiers, key: Key) -> CommandInfo {
-    CommandInfo { command, menu, name, shortcut: Some(KeyboardShortcut::new(modifiers, key)) }
+    CommandInfo {
+        command,
+        menu,
+        name,
+        shortcut: Some(KeyboardShortcut::new(modifiers, key)),
+        keys: KeyPlace::Everywhere,
+    }
+}
+
+/// A command of the scene, with a key that counts over the orbit view.
+const fn scene(command: Command, name: &'static str, modifiers: Modifiers, key: Key) -> CommandInfo {
+    CommandInfo { keys: KeyPlace::OrbitView, ..on(command, Menu::Scene, name, modifiers, key) }
 }
 
 const fn off(command: Command, menu: Menu, name: &'static str) -> CommandInfo {
-    CommandInfo { command, menu, name, shortcut: None }
+    CommandInfo { command, menu, name, shortcut: None, keys: KeyPlace::Everywhere }
 }
 
 /// All commands, in the order of the menus.
@@ -131,6 +168,19 @@ pub const COMMANDS: &[CommandInfo] = &[
     on(Command::Join, Menu::Edit, "Join lines", CTRL, Key::J),
     on(Command::Split, Menu::Edit, "Split at points", CTRL_SHIFT, Key::J),
     on(Command::Snapping, Menu::Edit, "Snapping", ALT, Key::S),
+    scene(Command::MoveObject, "Move object", NONE, Key::G),
+    scene(Command::TurnObject, "Turn object", NONE, Key::R),
+    scene(Command::ScaleObject, "Scale object", NONE, Key::S),
+    scene(Command::SnapToTable, "Snap to table", NONE, Key::T),
+    scene(Command::AimAtGlass, "Aim at the glass", NONE, Key::A),
+    scene(Command::AimAtReceiver, "Aim at the receiver", SHIFT, Key::A),
+    scene(Command::DuplicateObject, "Duplicate object", CTRL, Key::D),
+    scene(Command::DeleteObject, "Delete object", NONE, Key::Delete),
+    scene(Command::SwitchObject, "Switch object on or off", NONE, Key::H),
+    scene(Command::SoloObject, "Solo object", SHIFT, Key::H),
+    scene(Command::FrameSelected, "Frame selected", NONE, Key::F),
+    scene(Command::LookThroughCamera, "Look through the camera", NONE, Key::Num0),
+    scene(Command::AlignCamera, "Align camera to view", CTRL_ALT, Key::Num0),
     on(Command::PlayPause, Menu::Play, "Play or pause", NONE, Key::Space),
     on(Command::NextFrame, Menu::Play, "Next frame", NONE, Key::Period),
     on(Command::PreviousFrame, Menu::Play, "Previous frame", NONE, Key::Comma),
@@ -185,7 +235,12 @@ mod tests {
     fn no_two_commands_share_a_key_or_a_name() {
         for (i, a) in COMMANDS.iter().enumerate() {
             for b in &COMMANDS[..i] {
-                assert!(a.shortcut.is_none() || a.shortcut != b.shortcut, "{} and {}", a.name, b.name);
+                assert!(
+                    a.shortcut.is_none() || a.shortcut != b.shortcut || a.keys != b.keys,
+                    "{} and {}",
+                    a.name,
+                    b.name
+                );
                 assert!(a.name != b.name && a.command != b.command, "{}", a.name);
             }
         }

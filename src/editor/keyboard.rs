@@ -3,7 +3,7 @@
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
 use super::action::Action;
-use super::command::{COMMANDS, Command};
+use super::command::{COMMANDS, Command, KeyPlace};
 
 /// Keys that a busy tool handles itself.
 const BUSY: [Key; 9] = [
@@ -29,21 +29,34 @@ const REPEATED: [Command; 6] = [
 ];
 
 /// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
-/// that the active tool has an unfinished gesture. A focused text field keeps all keys except shortcuts that have
-/// no meaning in text.
-pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<Action> {
-    let typing = ctx.text_edit_focused();
+/// that the active tool has an unfinished gesture. Over the orbit view its keys win. A focused text field keeps all keys except shortcuts that have
+/// no meaning in text, and so does the palette before its field has the focus: `typing`.
+pub fn pressed(
+    ctx: &Context,
+    tools: &[(&'static str, Key)],
+    (busy, typing): (bool, bool),
+    place: KeyPlace,
+) -> Vec<Action> {
+    let typing = typing || ctx.text_edit_focused();
     let focused = ctx.memory(|memory| memory.focused().is_some());
     if is_covered(ctx) {
         return Vec::new();
     }
     let events = ctx.input(|i| i.events.clone());
     let action = |event: &Event| {
-        let action = asked(event, tools, busy, typing, focused);
+        let action = asked(event, tools, busy, (typing, focused), place);
         let space = matches!(event, Event::Key { key: Key::Space, .. });
         if space { tapped(ctx, event, action) } else { action }
     };
-    events.iter().filter_map(action).collect()
+    let actions: Vec<Action> = events.iter().filter_map(action).collect();
+    let count = actions.iter().position(takes_keys).map_or(actions.len(), |at| at + 1);
+    actions.into_iter().take(count).collect()
+}
+
+/// Whether what follows is typed into something that the action opens: the palette, or a transform.
+fn takes_keys(action: &Action) -> bool {
+    use Command::{MoveObject, Palette, ScaleObject, TurnObject};
+    matches!(action, Action::Command(Palette | MoveObject | TurnObject | ScaleObject))
 }
 
 /// Whether a dialog or a menu is open that receives the keys.
@@ -69,8 +82,8 @@ fn asked(
     event: &Event,
     tools: &[(&'static str, Key)],
     busy: bool,
-    typing: bool,
-    focused: bool,
+    (typing, focused): (bool, bool),
+    place: KeyPlace,
 ) -> Option<Action> {
     match event {
         // The system turns these shortcuts into events of their own.
@@ -82,7 +95,15 @@ fn asked(
             if taken && modifiers.is_none() {
                 return None;
             }
-            if let Some(command) = command(*key, *modifiers) {
+            let of_view = || command(*key, *modifiers, KeyPlace::OrbitView);
+            if place == KeyPlace::OrbitView
+                && !typing
+                && !repeat
+                && let Some(command) = of_view()
+            {
+                return Some(command.into());
+            }
+            if let Some(command) = command(*key, *modifiers, KeyPlace::Everywhere) {
                 let kept = typing && !command.info()?.shortcut.as_ref().is_some_and(means_nothing_in_text);
                 let again = *repeat && !REPEATED.contains(&command);
                 return (!kept && !again).then(|| command.into());
@@ -95,9 +116,9 @@ fn asked(
 }
 
 /// The command of a key with modifiers; an exact match wins.
-fn command(key: Key, held: Modifiers) -> Option<Command> {
+fn command(key: Key, held: Modifiers, place: KeyPlace) -> Option<Command> {
     let fits = |exact: bool| {
-        COMMANDS.iter().find(|entry| {
+        COMMANDS.iter().filter(|entry| entry.keys == place).find(|entry| {
             entry.shortcut.as_ref().is_some_and(|shortcut| {
                 let KeyboardShortcut { modifiers, logical_key } = *shortcut;
                 let matches =
@@ -133,7 +154,7 @@ mod tests {
             let Some(shortcut) = entry.shortcut else { continue };
             let event = key(shortcut.logical_key, shortcut.modifiers);
             assert_eq!(
-                asked(&event, &TOOLS, false, false, false),
+                asked(&event, &TOOLS, false, (false, false), entry.keys),
                 Some(entry.command.into()),
                 "{}",
                 entry.name
@@ -143,19 +164,20 @@ mod tests {
 
     #[test]
     fn typing_keeps_letters_and_editing_but_saves() {
-        let typed = |k, m| asked(&key(k, m), &TOOLS, false, true, true);
+        let typed = |k, m| asked(&key(k, m), &TOOLS, false, (true, true), KeyPlace::OrbitView);
         for letter in [Key::W, Key::R, Key::Space, Key::K, Key::Period, Key::Delete] {
             assert_eq!(typed(letter, Modifiers::NONE), None, "{letter:?}");
         }
         assert_eq!(typed(Key::Z, Modifiers::COMMAND), None);
         assert_eq!(typed(Key::S, Modifiers::COMMAND), Some(Command::Save.into()));
-        assert_eq!(asked(&Event::Paste("7".into()), &TOOLS, false, true, true), None);
+        assert_eq!(asked(&Event::Paste("7".into()), &TOOLS, false, (true, true), KeyPlace::Everywhere), None);
     }
 
     #[test]
     fn a_busy_tool_keeps_what_ends_it() {
-        assert_eq!(asked(&key(Key::Delete, Modifiers::NONE), &TOOLS, true, false, false), None);
-        assert_eq!(asked(&key(Key::W, Modifiers::NONE), &TOOLS, true, false, false), Some(Action::Tool(1)));
+        let pressed = |k| asked(&key(k, Modifiers::NONE), &TOOLS, true, (false, false), KeyPlace::Everywhere);
+        assert_eq!(pressed(Key::Delete), None);
+        assert_eq!(pressed(Key::W), Some(Action::Tool(1)));
     }
 
     #[test]
@@ -167,13 +189,24 @@ mod tests {
             repeat: true,
             modifiers: Modifiers::NONE,
         };
-        assert_eq!(asked(&held(Key::Space), &TOOLS, false, false, false), None);
-        assert_eq!(asked(&held(Key::Period), &TOOLS, false, false, false), Some(Command::NextFrame.into()));
+        let pressed = |k| asked(&held(k), &TOOLS, false, (false, false), KeyPlace::Everywhere);
+        assert_eq!(pressed(Key::Space), None);
+        assert_eq!(pressed(Key::Period), Some(Command::NextFrame.into()));
     }
 
     #[test]
     fn plus_needs_shift_on_many_keyboards() {
-        assert_eq!(command(Key::Plus, Modifiers::SHIFT), Some(Command::ZoomIn));
-        assert_eq!(command(Key::S, Modifiers::SHIFT), None);
+        let pressed = |k| command(k, Modifiers::SHIFT, KeyPlace::Everywhere);
+        assert_eq!(pressed(Key::Plus), Some(Command::ZoomIn));
+        assert_eq!(pressed(Key::S), None);
+    }
+
+    #[test]
+    fn keys_of_the_orbit_view_count_over_it_alone() {
+        let pressed = |k, place| asked(&key(k, Modifiers::NONE), &TOOLS, false, (false, false), place);
+        assert_eq!(pressed(Key::G, KeyPlace::OrbitView), Some(Command::MoveObject.into()));
+        assert_eq!(pressed(Key::G, KeyPlace::Everywhere), Some(Command::ShowGrid.into()));
+        assert_eq!(pressed(Key::Space, KeyPlace::OrbitView), Some(Command::PlayPause.into()));
+        assert_eq!(pressed(Key::W, KeyPlace::OrbitView), Some(Action::Tool(1)));
     }
 }

@@ -7,16 +7,17 @@ use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
 use super::action::Action;
 use super::command::{COMMANDS, Command, CommandInfo, Menu};
 use super::document::Document;
+use super::look::commands;
 use super::session::{FieldMap, Session, ViewLayout};
 use super::shortcuts;
 use super::templates::TEMPLATES;
 use crate::editor::context::EditorContext;
 
 /// The menus in order.
-const MENUS: [Menu; 5] = [Menu::File, Menu::Edit, Menu::Play, Menu::View, Menu::Help];
+const MENUS: [Menu; 6] = [Menu::File, Menu::Edit, Menu::Scene, Menu::Play, Menu::View, Menu::Help];
 
 /// Commands that follow a separator.
-const PARTED: [Command; 14] = [
+const PARTED: [Command; 17] = [
     Command::Save,
     Command::Export,
     Command::Preferences,
@@ -24,6 +25,9 @@ const PARTED: [Command; 14] = [
     Command::SelectAll,
     Command::Reverse,
     Command::Snapping,
+    Command::SnapToTable,
+    Command::DuplicateObject,
+    Command::FrameSelected,
     Command::NextFrame,
     Command::MarkIn,
     Command::AddKey,
@@ -154,6 +158,7 @@ pub fn is_on(command: Command, session: &Session) -> Option<bool> {
         Command::ShowResidual => show.map == Some(FieldMap::Residual),
         Command::ShowTears => show.map == Some(FieldMap::Tears),
         Command::Compare => session.compare.is_some(),
+        Command::LookThroughCamera => session.layout == ViewLayout::Orbit && session.through_camera,
         _ => return None,
     })
 }
@@ -170,6 +175,6 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> b
         Command::SelectAll => !document.project().constraints.is_empty(),
         Command::ClearMarks => session.marks != [None; 2],
         Command::OrbitView => document.project().scene.is_some(),
-        _ => true,
+        _ => commands::is_enabled(command, document, session).unwrap_or(true),
     }
 }

@@ -13,6 +13,7 @@ pub mod document;
 pub mod engine;
 pub mod export;
 pub mod keyboard;
+pub mod look;
 pub mod menu;
 pub mod palette;
 pub mod panels;

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use glam::Vec2;
 use lightloom_core::flow::MotionMethod;
+use lightloom_core::scene::CameraDesc;
 
+use super::look::object::SceneObject;
+use super::look::transforming::Transforming;
 use super::selection::Selection;
 
 /// Smallest and largest zoom of the plane view and the shot view.
@@ -33,8 +36,12 @@ pub struct Session {
     pub plane: PlaneViewport,
     /// Pan and zoom of the shot view.
     pub shot: ShotViewport,
-    /// Camera of the orbit view; none until it was moved.
-    pub orbit: Option<Orbit>,
+    /// Free camera of the orbit view; none until it was moved.
+    pub free_camera: Option<CameraDesc>,
+    /// Whether the orbit view looks through the project's camera, and flies it.
+    pub through_camera: bool,
+    /// The transform in progress.
+    pub transforming: Option<Transforming>,
     /// The visible overlays.
     pub overlays: Overlays,
     /// Hidden caustics, by group.
@@ -89,19 +96,6 @@ impl Default for ShotViewport {
     fn default() -> Self {
         Self { zoom: 1.0, offset: [0.0; 2] }
     }
-}
-
-/// A camera that orbits a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orbit {
-    /// The point that it looks at, world (m).
-    pub target: glam::Vec3,
-    /// Rotation about the vertical axis, radians.
-    pub azimuth: f32,
-    /// Angle above the horizon, radians.
-    pub elevation: f32,
-    /// Distance from the target (m).
-    pub distance: f32,
 }
 
 /// The overlays over the light.
@@ -195,10 +189,8 @@ pub struct Focus {
     pub key: Option<usize>,
     /// A caustic.
     pub caustic: Option<usize>,
-    /// A mesh.
-    pub mesh: Option<usize>,
-    /// A light.
-    pub light: Option<usize>,
+    /// An object of the scene: the one selection of the orbit view and the panel.
+    pub object: Option<SceneObject>,
 }
 
 impl Default for Session {
@@ -214,7 +206,9 @@ impl Default for Session {
             layout: ViewLayout::default(),
             plane: PlaneViewport::default(),
             shot: ShotViewport::default(),
-            orbit: None,
+            free_camera: None,
+            through_camera: false,
+            transforming: None,
             overlays: Overlays::default(),
             hidden: BTreeSet::new(),
             solo: BTreeSet::new(),

@@ -36,6 +36,19 @@ pub fn with_key(entry: &CommandInfo) -> String {
         .map_or_else(|| entry.name.to_owned(), |s| format!("{} ({})", entry.name, words(s)))
 }
 
+/// The group of the keys that count over the orbit view.
+const OVER_ORBIT_VIEW: &str = "Scene (over the orbit view)";
+
+/// What else the orbit view knows.
+const TRANSFORMS: [(&str, &str); 6] = [
+    ("Select", "Click"),
+    ("Lock to an axis", "X, Y, Z"),
+    ("Lock across an axis", "Shift+X, Y, Z"),
+    ("Type the amount", "Digits"),
+    ("Confirm", "Enter, click"),
+    ("Cancel", "Escape, right click"),
+];
+
 /// Mouse gestures and modifier keys, which are not commands.
 const GESTURES: [(&str, &str); 10] = [
     ("Zoom at the pointer", "Wheel"),
@@ -59,18 +72,20 @@ pub fn lines(tools: &[(&'static str, Key)]) -> Vec<ShortcutLine> {
     };
     let command = |entry: &CommandInfo| {
         let shortcut = entry.shortcut.as_ref()?;
-        Some(ShortcutLine { group: group(entry.menu), name: entry.name.into(), key: words(shortcut) })
+        let group = if entry.menu == Menu::Scene { OVER_ORBIT_VIEW } else { group(entry.menu) };
+        Some(ShortcutLine { group, name: entry.name.into(), key: words(shortcut) })
     };
-    let gesture = |(name, key): &(&str, &str)| ShortcutLine {
-        group: "Mouse and keys",
-        name: (*name).into(),
-        key: (*key).into(),
+    let gesture = |group| {
+        move |(name, key): &(&str, &str)| ShortcutLine { group, name: (*name).into(), key: (*key).into() }
     };
+    let (scene, others): (Vec<_>, Vec<_>) = COMMANDS.iter().partition(|entry| entry.menu == Menu::Scene);
     tools
         .iter()
         .map(tool)
-        .chain(COMMANDS.iter().filter_map(command))
-        .chain(GESTURES.iter().map(gesture))
+        .chain(others.into_iter().filter_map(command))
+        .chain(GESTURES.iter().map(gesture("Mouse and keys")))
+        .chain(scene.into_iter().filter_map(command))
+        .chain(TRANSFORMS.iter().map(gesture(OVER_ORBIT_VIEW)))
         .collect()
 }
 
@@ -79,6 +94,7 @@ pub fn group(menu: Menu) -> &'static str {
     match menu {
         Menu::File => "File",
         Menu::Edit => "Edit",
+        Menu::Scene => "Scene",
         Menu::Play => "Play",
         Menu::View => "View",
         Menu::Help => "Help",

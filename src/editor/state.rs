@@ -8,6 +8,7 @@ use super::command::Command;
 use super::context::EditorContext;
 use super::document::{Document, Edit};
 use super::engine::SharedEngine;
+use super::look;
 use super::preview::LivePreview;
 use super::selection::Selection;
 use super::session::{
@@ -114,10 +115,13 @@ impl EditorState {
         }
     }
 
-    /// Drops constraints and points from the selection that no longer exist.
+    /// Drops what no longer exists from the selections: constraints, points, objects of the scene.
     fn keep_selection(&mut self) {
         let points = self.document.project().constraints.iter().map(|c| c.points().len());
         self.session.selection.keep_within(&points.collect::<Vec<_>>());
+        let scene = self.document.project().scene.as_ref();
+        let focus = &mut self.session.focus;
+        focus.object = focus.object.filter(|object| scene.is_some_and(|scene| object.is_in(scene)));
     }
 
     /// Carries out a command that needs no window; returns whether it was one.
@@ -126,6 +130,7 @@ impl EditorState {
         // Delete removes selected constraints before the key frame in focus.
         let selected = command == Command::Delete && !self.session.selection.is_empty();
         let done = !selected && timeline::carry_out(command, &mut self.context(&mut actions));
+        let done = done || look::commands::carry_out(command, &mut self.context(&mut actions));
         for action in actions {
             self.apply(action);
         }
@@ -170,7 +175,7 @@ impl EditorState {
             Command::ShotView => session.layout = ViewLayout::Shot,
             Command::OrbitView => session.layout = ViewLayout::Orbit,
             Command::FitView => {
-                (session.plane, session.shot, session.orbit) =
+                (session.plane, session.shot, session.free_camera) =
                     (PlaneViewport::default(), ShotViewport::default(), None);
             }
             Command::ZoomIn => zoom(session, ZOOM_STEP),

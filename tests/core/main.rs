@@ -43,6 +43,7 @@ mod sampling;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 mod stiff_fits;
+mod switched_off;
 mod tracks;
 mod turbulence;
 mod walls;

@@ -7,9 +7,9 @@ use lightloom_core::engine::{Engine, OrbitView, PreviewExposure, Quality};
 use lightloom_core::files::npy;
 use lightloom_core::flow::{FlowSettings, GridSize};
 use lightloom_core::project::{AssetFolder, Ease};
+use lightloom_core::render::ReceiverTexture;
 use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
-use lightloom_core::render::{MarkerKind, ReceiverTexture};
 use lightloom_core::scene::CameraDesc;
 
 #[test]
@@ -96,7 +96,7 @@ fn a_shot_takes_the_light_of_a_sketch() {
 }
 
 #[test]
-fn a_look_shows_glass_receiver_caustic_and_marks() {
+fn a_look_shows_glass_receiver_and_caustic() {
     let (_stage, project, engine) = two_balls();
     let preview = draft(&engine, &project);
     let mut exposure = PreviewExposure::default();
@@ -111,9 +111,8 @@ fn a_look_shows_glass_receiver_caustic_and_marks() {
     };
     assert!(at(&lit, Vec2::new(0.2, 0.8)) > 1.5 * at(&dark, Vec2::new(0.2, 0.8)));
     assert!(at(&dark, Vec2::new(0.5, 0.5)) > 0.0, "the receiver is seen without light");
-    let kinds: Vec<MarkerKind> = lit.marks.iter().map(|mark| mark.kind).collect();
-    assert_eq!(kinds, [MarkerKind::Light(0), MarkerKind::Light(1), MarkerKind::Camera]);
+    assert_eq!(lit.scene.meshes().iter().map(|mesh| mesh.desc).collect::<Vec<_>>(), [0, 1]);
     let (flat, engine) = example("letters_free");
     let plane = engine.orbit_view(&flat, &CameraDesc::default(), size, None, &Progress::new()).unwrap();
-    assert!(plane.marks.is_empty() && plane.image.pixels.iter().all(|p| p.is_finite()));
+    assert!(plane.image.pixels.iter().all(|p| p.is_finite()));
 }

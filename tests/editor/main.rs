@@ -13,6 +13,7 @@ mod palette;
 mod panels;
 mod photon_drawing;
 mod player;
+mod scene;
 mod shown_light;
 mod store;
 mod timeline;

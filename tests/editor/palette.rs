@@ -8,8 +8,9 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lightloom::editor::action::Action;
-use lightloom::editor::command::{COMMANDS, Command, CommandInfo, Menu};
+use lightloom::editor::command::{COMMANDS, Command, CommandInfo, KeyPlace, Menu};
 use lightloom::editor::document::Edit;
+use lightloom::editor::look::object::SceneObject;
 use lightloom::editor::menu::Recent;
 use lightloom::editor::palette::{Palette, items};
 use lightloom::editor::selection::Selection;
@@ -20,6 +21,7 @@ use lightloom::editor::welcome::Welcome;
 use lightloom::editor::{keyboard, menu, tools};
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
+use lightloom_core::scene::CameraDesc;
 
 fn tool_keys() -> Vec<(&'static str, Key)> {
     tools::all().iter().map(|tool| (tool.info().name, tool.info().key)).collect()
@@ -37,6 +39,8 @@ fn busy_editor() -> Editor {
     editor.document.undo();
     editor.session.selection = Selection::one(0);
     editor.session.marks = [Some(3), None];
+    editor.session.focus.object = Some(SceneObject::Light(0));
+    editor.session.free_camera = Some(CameraDesc::default());
     editor
 }
 
@@ -147,7 +151,7 @@ fn space_plays_and_pauses_but_not_while_text_is_typed() {
     type State = (Editor, String);
     let mut harness = harness((busy_editor(), String::new()), |ui, (editor, text): &mut State| {
         let ctx = ui.ctx().clone();
-        let pressed = keyboard::pressed(&ctx, &tool_keys(), false);
+        let pressed = keyboard::pressed(&ctx, &tool_keys(), (false, false), KeyPlace::Everywhere);
         editor.frame(&ctx, |editor| editor.actions.extend(pressed));
         ui.text_edit_singleline(text).accessible_name("Text");
     });
@@ -171,7 +175,7 @@ fn space_plays_and_pauses_but_not_while_text_is_typed() {
 #[test]
 fn no_tool_takes_the_key_of_a_command() {
     for (name, key) in tool_keys() {
-        let taken = COMMANDS.iter().find(|entry| {
+        let taken = COMMANDS.iter().filter(|entry| entry.keys == KeyPlace::Everywhere).find(|entry| {
             entry.shortcut.is_some_and(|shortcut| shortcut.logical_key == key && shortcut.modifiers.is_none())
         });
         assert!(taken.is_none(), "{name} has the key of {}", taken.unwrap().name);

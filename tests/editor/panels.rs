@@ -7,11 +7,19 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lightloom::editor::action::Action;
 use lightloom::editor::document::Edit;
-use lightloom::editor::panels::PANELS;
+use lightloom::editor::look::object::SceneObject;
+use lightloom::editor::panels::{PANELS, PanelInfo};
 use lightloom::editor::selection::Selection;
-use lightloom::editor::session::Panel;
+use lightloom::editor::session::{Focus, Panel};
 use lightloom_core::project::Project;
 use support::{PanelHarness, examples, panel_harness};
+
+/// All panels, each with what is opened in it, one after the other.
+fn focused(project: &Project) -> impl Iterator<Item = (&'static PanelInfo, Focus)> + '_ {
+    PANELS
+        .iter()
+        .flat_map(|entry| support::firsts(project, entry.panel).into_iter().map(move |focus| (entry, focus)))
+}
 
 /// The last edit that was asked for.
 fn last_edit(harness: &PanelHarness) -> Edit {
@@ -25,9 +33,9 @@ fn last_edit(harness: &PanelHarness) -> Edit {
 #[test]
 fn every_panel_shows_every_project_and_asks_for_nothing_by_itself() {
     for (name, project) in examples() {
-        for entry in PANELS {
+        for (entry, focus) in focused(&project) {
             let mut harness = panel_harness(project.clone(), entry.panel);
-            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.state_mut().session.focus = focus;
             harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
             harness.run();
             assert!(harness.state().asked.is_empty(), "{name}, {}: {:?}", entry.name, harness.state().asked);
@@ -38,9 +46,9 @@ fn every_panel_shows_every_project_and_asks_for_nothing_by_itself() {
 #[test]
 fn no_two_inputs_of_a_panel_bear_the_same_name() {
     for (project_name, project) in examples() {
-        for entry in PANELS {
+        for (entry, focus) in focused(&project) {
             let mut harness = panel_harness(project.clone(), entry.panel);
-            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.state_mut().session.focus = focus;
             harness.run();
             let mut names: Vec<(Role, String)> = harness
                 .root()
@@ -176,7 +184,7 @@ fn a_mesh_becomes_glass_in_one_click() {
     let mut project = support::example("bottles");
     project.scene.as_mut().unwrap().meshes[0].material = None;
     let mut harness = panel_harness(project, Panel::Scene);
-    harness.state_mut().session.focus.mesh = Some(0);
+    harness.state_mut().session.focus.object = Some(SceneObject::Mesh(0));
     harness.run();
     harness.get_by_label("Assign glass").click();
     harness.run();
@@ -198,9 +206,9 @@ fn a_project_keeps_one_format_at_least() {
 #[test]
 fn nothing_is_wider_than_the_panel() {
     for (name, project) in examples() {
-        for entry in PANELS {
+        for (entry, focus) in focused(&project) {
             let mut harness = panel_harness(project.clone(), entry.panel);
-            harness.state_mut().session.focus = support::first_of_everything(&project);
+            harness.state_mut().session.focus = focus;
             harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
             harness.run();
             // Tables of the tree itself stand nowhere.
@@ -222,9 +230,9 @@ fn pictures_of_every_panel() {
     for (theme, shade) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
         for name in ["bottles", "rabbit_fine", "letters"] {
             let project = support::example(name);
-            for entry in PANELS {
+            for (entry, focus) in focused(&project) {
                 let mut harness = support::panel_harness_in(project.clone(), entry.panel, theme);
-                harness.state_mut().session.focus = support::first_of_everything(&project);
+                harness.state_mut().session.focus = focus;
                 harness.state_mut().session.selection = Selection::all(0..project.constraints.len());
                 harness.run();
                 for folded in ["Advanced", "Project", "Camera", "Receiver", "Sky"] {

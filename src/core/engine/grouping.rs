@@ -65,7 +65,9 @@ impl Grouping {
                 meshes: meshes.iter().map(|mesh| of_mesh(caustic, mesh)).collect(),
             };
             require("light", i, caustic.light.as_deref(), &lights, &of.lights)?;
-            require("mesh", i, caustic.mesh.as_deref(), &meshes, &of.meshes)?;
+            if !caustic.mesh.as_deref().is_some_and(|mesh| is_off(project, mesh)) {
+                require("mesh", i, caustic.mesh.as_deref(), &meshes, &of.meshes)?;
+            }
             members.push(of);
         }
         Ok(Self { caustics, members })
@@ -126,6 +128,12 @@ impl Grouping {
         let of = |name: &str| project.keys[key].caustics.get(name).map_or(Vec3::ONE, |c| c.gain().into());
         (0..self.count()).map(|group| self.name(group).map_or(Vec3::ONE, of)).collect()
     }
+}
+
+/// Whether a name is that of a mesh that is switched off, or of a part of one: its caustic has no light, and is no mistake.
+fn is_off(project: &Project, name: &str) -> bool {
+    let mut off = project.scene.iter().flat_map(|scene| &scene.meshes).filter(|mesh| !mesh.enabled);
+    off.any(|mesh| name.strip_prefix(&mesh.name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/')))
 }
 
 /// Checks that caustic `i` has any light or mesh of the name it asks for.

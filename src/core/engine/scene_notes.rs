@@ -7,7 +7,8 @@ use crate::scene::{LightDesc, Mesh, Scene};
 /// Notes on a camera that sees no light, and on lamps around what they shall light.
 pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<String> {
     let mut notes: Vec<String> = camera_note(scene, render).into_iter().collect();
-    let lamps = scene.lights().iter().filter(|light| light.role() != LightRole::Background);
+    let casts = |light: &&LightDesc| light.is_enabled() && light.role() != LightRole::Background;
+    let lamps = scene.lights().iter().filter(casts);
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
     notes.extend(lamps.flat_map(|light| specular().filter_map(move |mesh| lamp_note(light, mesh))));
     notes

@@ -21,7 +21,8 @@ pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
     let reason = if scene.lights().is_empty() {
         "there is no light; add one".to_owned()
     } else if lights.is_empty() {
-        "all lights have the role \"background\"; give one another".to_owned()
+        "all lights are off or have the role \"background\"; switch one on, or give it another role"
+            .to_owned()
     } else if casters.is_empty() {
         format!("no mesh is of glass or a mirror: {}; give one such a material", taken(scene))
     } else {
@@ -41,13 +42,13 @@ pub(super) fn no_caustic(scene: &Scene, balances: &[FluxBalance]) -> Error {
     )
 }
 
-/// The lights that may cast caustics, by index.
+/// The lights that are on and may cast caustics, by index.
 fn casting<'a>(
     scene: &'a Scene,
     balances: &'a [FluxBalance],
 ) -> impl Iterator<Item = (usize, (&'a LightDesc, &'a FluxBalance))> {
     let all = scene.lights().iter().zip(balances).enumerate();
-    all.filter(|(_, (light, _))| light.role() != LightRole::Background)
+    all.filter(|(_, (light, _))| light.is_enabled() && light.role() != LightRole::Background)
 }
 
 /// The lights, by index, of which no trial path reached the receiver, each with a note on the reason.

@@ -2,7 +2,7 @@
 
 use crate::math::rng::Stream;
 use crate::scene::light::{Emission, LightRole, Sphere};
-use crate::scene::{Media, Ray, Scene};
+use crate::scene::{LightDesc, Media, Ray, Scene};
 
 /// Most casters with bounding spheres of their own; more of them share one.
 const MAX_CASTERS: usize = 16;
@@ -25,6 +25,8 @@ pub enum EmissionGuiding {
 pub(super) struct Domain {
     pub light: u16,
     pub emission: Emission,
+    /// The sphere of the caster; none for the rays to everywhere.
+    target: Option<Sphere>,
     /// Spheres whose rays belong to other domains.
     before: Vec<Sphere>,
     /// Whether photons may start inside glass.
@@ -35,7 +37,9 @@ impl Domain {
     /// The ray of a point of the square and the glass it starts in; none if no photon leaves there.
     pub(super) fn sample(&self, scene: &Scene, u: [f32; 2], rng: &mut Stream) -> Option<(Ray, Media)> {
         let ray = self.emission.sample(u, rng)?;
-        if self.before.iter().any(|sphere| sphere.intersects(&ray)) {
+        // A lamp's own cone, where it is the narrower one, also holds rays past the sphere: those are of other domains.
+        let is_past = self.target.is_some_and(|sphere| !sphere.intersects(&ray));
+        if is_past || self.before.iter().any(|sphere| sphere.intersects(&ray)) {
             return None;
         }
         let media = if self.in_glass { scene.media_at(ray.origin) } else { Media::default() };
@@ -61,11 +65,13 @@ pub(super) fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
     }
     let mut domains = Vec::new();
     let lights = scene.lights().iter().enumerate();
-    for (light, desc) in lights.filter(|(_, desc)| desc.role() != LightRole::Background) {
+    let casts = |desc: &LightDesc| desc.is_enabled() && desc.role() != LightRole::Background;
+    for (light, desc) in lights.filter(|(_, desc)| casts(desc)) {
         let in_glass = specular().any(|mesh| desc.overlaps_box(mesh.lower, mesh.upper));
         let domain = |target, before: &[Sphere]| Domain {
             light: light as u16,
             emission: desc.emission(target, world),
+            target,
             before: before.to_vec(),
             in_glass,
         };

@@ -4,6 +4,7 @@ mod diagnosis;
 mod domain;
 mod emission_plan;
 mod guide_learner;
+mod lamp_light;
 mod path;
 mod thinning;
 mod trace;
@@ -12,6 +13,7 @@ mod window;
 use glam::{Vec2, Vec3};
 
 pub use domain::EmissionGuiding;
+pub use lamp_light::LampLight;
 pub use path::{FluxBalance, LightPart};
 pub use trace::{EmissionGuide, TraceReport, Tracer};
 

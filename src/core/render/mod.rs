@@ -34,7 +34,7 @@ pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};
 pub use image::Image;
 pub use in_view::{ReceiverView, receiver_view};
-pub use orbit_view::{MarkerKind, OrbitLight, SceneMarker, orbit_image, scene_markers};
+pub use orbit_view::{OrbitLight, orbit_image};
 pub use plane_image::{PlaneMaterial, plane_image};
 pub use plane_view::PlaneView;
 pub use progressive::{ProgressiveRender, Workspace, first_radius};

@@ -3,7 +3,7 @@
 //! One ray per pixel passes straight through glass, shown as a tinted shape with bright rims, to the first matt surface or
 //! mirror, lit by a lamp at the camera. The receiver shows the caustic as it is.
 
-use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
+use glam::{Vec3, Vec4Swizzles, vec2};
 use rayon::prelude::*;
 
 use super::image::Image;
@@ -136,35 +136,4 @@ impl OrbitShader<'_> {
 
 fn between([from, to]: [f32; 2], x: f32) -> f32 {
     from + (to - from) * x
-}
-
-/// The position of an object without a surface in an orbit view.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneMarker {
-    /// Kind of object.
-    pub kind: MarkerKind,
-    /// Its position in pixels from the upper left corner; may lie outside the picture.
-    pub at: Vec2,
-}
-
-/// The object of a [`SceneMarker`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarkerKind {
-    /// The light of this index in the scene.
-    Light(usize),
-    /// The camera of the rendered pictures.
-    Camera,
-}
-
-/// The markers of the lights and the camera of a scene in an orbit view; none behind the view, none for directional lights.
-pub fn scene_markers(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Vec<SceneMarker> {
-    let size = vec2(size[0] as f32, size[1] as f32);
-    let lights = scene.lights().iter().enumerate();
-    let lights = lights.filter_map(|(i, light)| Some((MarkerKind::Light(i), light.position()?)));
-    let all = lights.chain([(MarkerKind::Camera, scene.camera().position)]);
-    let mark = |(kind, place)| {
-        let at = camera.project(place, size.x / size.y)?;
-        Some(SceneMarker { kind, at: (vec2(at.x, -at.y) + 1.0) * 0.5 * size })
-    };
-    all.filter_map(mark).collect()
 }

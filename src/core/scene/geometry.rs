@@ -48,13 +48,13 @@ impl Geometry {
         let mut triangles = Vec::new();
         let (mut shells, mut next_shell) = (Vec::new(), 0);
         let mut files = mesh::GltfFiles::default();
-        for (index, mesh_desc) in descs.iter().enumerate() {
+        for (index, mesh_desc) in descs.iter().enumerate().filter(|(_, desc)| desc.enabled) {
             let place = format!("scene.meshes[{index}]");
             for part in mesh::load(mesh_desc, &place, assets, &mut files, notes, progress)? {
                 let number = meshes.len() as u16;
                 shells.extend(part.shells.iter().map(|shell| next_shell + shell));
                 next_shell += part.shells.iter().max().map_or(0, |last| last + 1);
-                meshes.push(object(&part, mesh_desc.priority));
+                meshes.push(object(&part, index, mesh_desc.priority));
                 triangles.extend(part.triangles.into_iter().map(|t| Triangle { mesh: number, ..t }));
                 check::count("scene.meshes", meshes.len())?;
             }
@@ -165,13 +165,14 @@ impl Geometry {
 }
 
 /// The object of a part.
-fn object(part: &mesh::Part, priority: i32) -> Mesh {
+fn object(part: &mesh::Part, desc: usize, priority: i32) -> Mesh {
     let corners = || part.triangles.iter().flat_map(|t| t.corners);
     let lower = corners().fold(Vec3::INFINITY, Vec3::min);
     let upper = corners().fold(Vec3::NEG_INFINITY, Vec3::max);
     let middle = (lower + upper) / 2.0;
     Mesh {
         name: part.name.clone(),
+        desc,
         material: part.material.clone(),
         lower,
         upper,

@@ -10,6 +10,8 @@ use super::material::Material;
 pub struct Mesh {
     /// The name in the project; where a file was split by material, "name/material".
     pub name: String,
+    /// Index of its description in the scene.
+    pub desc: usize,
     /// Its resolved material.
     pub material: Material,
     /// Lower corner of its bounds, world (m).

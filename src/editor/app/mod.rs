@@ -155,18 +155,42 @@ impl App {
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);
-        actions.extend(keyboard::pressed(&ctx, &tools, self.toolbox.tool().is_busy()));
+        // A transform in progress has all keys.
+        let transforms = self.editor.session.transforming.is_some();
+        if !transforms {
+            let busy = (self.toolbox.tool().is_busy(), self.windows.palette.is_open());
+            actions.extend(keyboard::pressed(&ctx, &tools, busy, self.views.key_place(&ctx)));
+        }
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
         for action in actions {
             self.apply(&ctx, action);
         }
-        let gesture = ctx.input(|input| input.pointer.any_down()) || ctx.text_edit_focused();
+        self.type_on(&ctx, transforms);
+        let gesture = ctx.input(|input| input.pointer.any_down())
+            || ctx.text_edit_focused()
+            || self.views.is_flying(&ctx)
+            || self.editor.session.transforming.is_some();
         if !gesture && !self.toolbox.tool().is_busy() {
             self.editor.document.settle();
         }
         self.autosave(&ctx);
         self.follow();
+    }
+
+    /// Passes the keys to a transform that were pressed in the frame that began it, after the key that did.
+    fn type_on(&mut self, ctx: &egui::Context, transformed: bool) {
+        let Some(begun) = self.editor.session.transforming.as_mut().filter(|_| !transformed) else { return };
+        ctx.input(|input| {
+            let is_first = |event: &&egui::Event| match event {
+                egui::Event::Key { key, pressed: true, .. } => begun.kind.key() == *key,
+                _ => false,
+            };
+            let after = input.events.iter().skip_while(|event| !is_first(event)).skip(1);
+            // An Enter or Escape so early is no more than a wish: the next frame reads on.
+            let _ = begun.take(&after.cloned().collect::<Vec<_>>());
+        });
+        ctx.request_repaint();
     }
 
     /// Moves the playhead by the time that passed.

@@ -23,6 +23,7 @@ pub(crate) use drawn::row::title;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
 pub(in crate::editor) use render::layer_boxes;
+pub(in crate::editor) use scene::lamp_words;
 
 use super::context::EditorContext;
 use super::session::Panel;

@@ -3,6 +3,7 @@
 mod lights;
 mod materials;
 mod meshes;
+mod objects;
 mod surroundings;
 
 use egui::Ui;
@@ -13,10 +14,18 @@ use super::control::Control;
 use super::widgets::fold;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::look::object::SceneObject;
+use crate::editor::theme;
+
+pub(in crate::editor) use lights::lamp_words;
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[&[Control]] =
     &[meshes::CONTROLS, materials::CONTROLS, lights::CONTROLS, surroundings::CONTROLS];
+
+/// What cannot be keyed, and why.
+const STILL: &str =
+    "Meshes, lamps and camera stand still throughout the film; its key frames move their light.";
 
 /// The scene panel.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
@@ -24,10 +33,14 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     let Some(before) = &project.scene else { return without_scene(ui, editor, project) };
     let mut scene = before.clone();
     let mut caustics = project.caustics.clone();
+    ui.add(egui::Label::new(egui::RichText::new(STILL).small().weak()).wrap());
     fold_open(ui, "Meshes", |ui| meshes::show(ui, editor, &mut scene, &mut caustics));
     fold_open(ui, "Lights", |ui| lights::show(ui, editor, &mut scene, &mut caustics));
-    fold(ui, "Camera", |ui| surroundings::camera(ui, editor, &mut scene.camera));
-    fold(ui, "Receiver", |ui| surroundings::receiver(ui, &mut scene.receiver));
+    let object = editor.session.focus.object;
+    let is_camera = object.is_some_and(SceneObject::is_camera);
+    fold_of(ui, "Camera", is_camera, |ui| surroundings::camera(ui, editor, &mut scene.camera));
+    let is_receiver = object == Some(SceneObject::Receiver);
+    fold_of(ui, "Receiver", is_receiver, |ui| surroundings::receiver(ui, &mut scene.receiver));
     fold(ui, "Sky", |ui| surroundings::sky(ui, &mut scene.environment));
     if scene != *before {
         editor.ask(Edit::Scene(Some(Box::new(scene))));
@@ -51,6 +64,17 @@ fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
         let scene = SceneDesc { lights: vec![lights::first()], ..SceneDesc::default() };
         editor.ask(Edit::Scene(Some(Box::new(scene))));
     }
+}
+
+/// A collapsible part that opens when its object is selected.
+fn fold_of(ui: &mut Ui, name: &str, selected: bool, add: impl FnOnce(&mut Ui)) {
+    ui.add_space(4.0);
+    let id = ui.scope_id().with((name, "was selected"));
+    let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), selected));
+    let heading = egui::RichText::new(name);
+    let heading = if selected { heading.color(theme::ACCENT) } else { heading };
+    let open = (selected && !was).then_some(true);
+    egui::CollapsingHeader::new(heading).id_salt(name).open(open).show_unindented(ui, add);
 }
 
 /// A collapsible part that is open at first.

@@ -67,23 +67,3 @@ pub(super) fn menu<'a>(
 
 /// Names of the components of a position.
 pub(super) const XYZ: [&str; 3] = ["x", "y", "z"];
-
-/// A list with one selected name; a click on it clears the selection.
-pub(super) fn list<'a>(
-    ui: &mut Ui,
-    kind: &str,
-    names: impl Iterator<Item = (&'a str, &'a str)>,
-    chosen: &mut Option<usize>,
-) {
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        for (i, (name, aside)) in names.enumerate() {
-            let size = egui::vec2(ui.available_width(), 22.0);
-            let button = egui::Button::selectable(*chosen == Some(i), name);
-            let button = button.right_text(egui::RichText::new(aside).weak()).truncate();
-            if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
-                *chosen = if *chosen == Some(i) { None } else { Some(i) };
-            }
-        }
-    });
-}

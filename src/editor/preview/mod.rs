@@ -5,6 +5,7 @@ mod coverage;
 mod figures;
 mod flow;
 pub mod gpu;
+mod lamp_worker;
 mod orbit_worker;
 mod picture_worker;
 mod preview_worker;
@@ -19,6 +20,7 @@ use std::sync::Arc;
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
 use lightloom_core::engine::{Client, Preview, SegmentContinuity, Shot};
+use lightloom_core::photon::LampLight;
 use lightloom_core::project::Project;
 pub use orbit_worker::Seen;
 pub use picture_worker::{Painted, Plane};
@@ -27,11 +29,13 @@ pub use subject::Subject;
 pub use target::TargetPicture;
 
 use super::engine::SharedEngine;
-use super::session::{Comparison, Panel, Session};
+use super::look::object::SceneObject;
+use super::session::{Comparison, Panel, Session, ViewLayout};
 use super::target_image::TargetImage;
 use background_worker::BackgroundWorker;
 use figures::FigureTaker;
 use flow::FlowViewer;
+use lamp_worker::LampWorker;
 use orbit_worker::OrbitWorker;
 use picture_worker::PictureWorker;
 use preview_worker::{Found, PreviewWorker};
@@ -48,6 +52,7 @@ pub struct LivePreview {
     pictures: PictureWorker,
     background: BackgroundWorker,
     orbit: OrbitWorker,
+    lamps: LampWorker,
     targets: Targets,
     flow: FlowViewer,
     figures: FigureTaker,
@@ -82,7 +87,8 @@ impl LivePreview {
             compared: None,
             pictures: PictureWorker::new(wake.clone()),
             background: BackgroundWorker::new(engine.clone(), wake.clone()),
-            orbit: OrbitWorker::new(engine, wake.clone()),
+            orbit: OrbitWorker::new(engine.clone(), wake.clone()),
+            lamps: LampWorker::new(engine, wake.clone()),
             targets: Targets::new(wake.clone()),
             flow: FlowViewer::new(wake.clone()),
             figures: FigureTaker::new(wake),
@@ -128,6 +134,8 @@ impl LivePreview {
         let preview = self.preview().cloned();
         self.flow.follow(preview.as_ref(), &subject.project, session);
         self.figures.follow(preview.as_ref(), session.panel == Panel::Numbers);
+        let shown = session.panel == Panel::Scene || session.layout == ViewLayout::Orbit;
+        self.lamps.follow(subject, session.focus.object.filter(|_| shown).and_then(SceneObject::light));
         self.request(subject, session, wanted);
     }
 
@@ -173,6 +181,7 @@ impl LivePreview {
             self.pictures.panicked(),
             self.background.panicked(),
             self.orbit.panicked(),
+            self.lamps.panicked(),
             self.other.panicked(),
             self.flow.panicked(),
             self.figures.panicked(),
@@ -232,6 +241,11 @@ impl LivePreview {
     /// The last picture of the orbit view.
     pub fn look(&self) -> Seen {
         self.orbit.seen()
+    }
+
+    /// Where the light of the selected lamp goes; none while it is not known.
+    pub fn lamp(&self, lamp: usize) -> Option<LampLight> {
+        self.lamps.found(self.subject.as_ref()?, lamp)
     }
 
     /// The shot's camera with the picture without caustics, as far as it is worked out.

@@ -5,13 +5,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::ColorImage;
 use lightloom_core::Result;
 use lightloom_core::engine::{OrbitView, Preview, PreviewExposure};
-use lightloom_core::render::{PlaneView, SceneMarker, ViewSettings};
-use lightloom_core::scene::CameraDesc;
+use lightloom_core::project::Project;
+use lightloom_core::render::{PlaneView, ViewSettings};
+use lightloom_core::scene::{CameraDesc, Scene};
 
 use super::picture_worker::{Moment, shown};
 use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
 use crate::editor::engine::SharedEngine;
+use crate::editor::look::bounds::Loaded;
 
 /// Texels of the light along the receiver's longer side.
 const TEXELS: usize = 512;
@@ -37,10 +39,19 @@ pub struct Seen {
     pub picture: Option<Arc<ColorImage>>,
     /// The light on its receiver.
     pub light: Option<Arc<Preview>>,
-    /// Lights and camera in it.
-    pub marks: Vec<SceneMarker>,
+    /// The camera it was seen through.
+    pub camera: Option<CameraDesc>,
+    /// The scene in it, and the project it was loaded from.
+    pub scene: Option<(Arc<Scene>, Arc<Project>)>,
     /// Where plane points are in it.
     pub plane: Option<PlaneView>,
+}
+
+impl Seen {
+    /// The last scene that was loaded.
+    pub fn loaded(&self) -> Option<Loaded<'_>> {
+        self.scene.as_ref().map(|(scene, project)| Loaded { scene, project })
+    }
 }
 
 /// Looks from the newest place.
@@ -66,7 +77,9 @@ impl OrbitWorker {
                 let number = seen.number + 1;
                 let picture = Some(Arc::new(shown(&look.image, &request.view.view())));
                 let light = request.moment.map(|moment| moment.preview);
-                *seen = Seen { number, picture, light, marks: look.marks, plane: Some(look.plane) };
+                let scene = Some((look.scene, request.subject.project));
+                let (camera, plane) = (Some(request.camera), Some(look.plane));
+                *seen = Seen { number, picture, light, camera, scene, plane };
                 drop(seen);
                 tell();
             }

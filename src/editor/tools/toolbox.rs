@@ -81,7 +81,7 @@ mod tests {
     use egui::Key;
 
     use super::*;
-    use crate::editor::command::COMMANDS;
+    use crate::editor::command::{COMMANDS, KeyPlace};
 
     #[test]
     fn no_tool_shares_its_key_or_name() {
@@ -90,6 +90,7 @@ mod tests {
             let taken = |key: Key| {
                 COMMANDS
                     .iter()
+                    .filter(|entry| entry.keys == KeyPlace::Everywhere)
                     .filter_map(|entry| entry.shortcut)
                     .any(|s| s.modifiers.is_none() && s.logical_key == key)
             };

@@ -1,16 +1,19 @@
 //! The views: plane, shot and orbit view, side by side or alone.
 
 mod fit;
-mod orbit_camera;
 mod orbit_view;
 mod pictures;
 mod plane;
 mod shot;
+mod transform;
 mod wipe;
 
 use egui::{Rect, Sense, Ui, UiBuilder, pos2};
 
+use super::action::Action;
 use super::canvas::plane_transform::PlaneTransform;
+use super::command::KeyPlace;
+use super::look::gizmo::Handle;
 use super::preview::{Plane, Wanted};
 use super::session::{Session, ShotViewport, ViewLayout};
 use super::tools::Toolbox;
@@ -33,6 +36,16 @@ pub(super) struct Views {
     wanted: Wanted,
     /// Rectangles of the plane view and the shot view when last shown.
     places: [Rect; 2],
+    /// Whether the pointer was over the orbit view when that was last shown.
+    over_orbit: bool,
+    /// The handle under the pointer.
+    handle: Option<Handle>,
+    /// Whether a handle was grabbed by the drag that goes on: what is left of it after Escape flies no camera.
+    grabbed: bool,
+    /// Frames in which a transform still covers the window.
+    covered: u8,
+    /// When the project's camera was flown last, seconds of the window.
+    flown: Option<f64>,
 }
 
 impl Default for Views {
@@ -42,6 +55,11 @@ impl Default for Views {
             split: 0.5,
             wanted: Wanted::default(),
             places: [Rect::NOTHING; 2],
+            over_orbit: false,
+            handle: None,
+            grabbed: false,
+            covered: 0,
+            flown: None,
         }
     }
 }
@@ -55,6 +73,12 @@ impl Views {
     /// Forgets all pictures: those of another project are not shown.
     pub(super) fn forget_pictures(&mut self) {
         self.pictures = Pictures::default();
+    }
+
+    /// Whose keys count: those of the orbit view while the pointer is over it.
+    pub(super) fn key_place(&self, ctx: &egui::Context) -> KeyPlace {
+        let is_over = self.over_orbit && !ctx.input(|input| input.pointer.any_down());
+        if is_over { KeyPlace::OrbitView } else { KeyPlace::Everywhere }
     }
 
     /// Rectangle of the plane view.
@@ -76,6 +100,10 @@ impl Views {
     pub(super) fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
+        self.over_orbit = false;
+        if editor.session.layout != ViewLayout::Orbit && editor.session.transforming.take().is_some() {
+            editor.ask(Action::Abort);
+        }
         let all = ui.available_rect_before_wrap();
         let veil = editor.preview.veil();
         match editor.session.layout {

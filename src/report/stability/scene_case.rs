@@ -76,6 +76,7 @@ impl SceneCase {
             desc.meshes.push(MeshDesc {
                 material: Some(Material::Glass(Glass { ior: *ior, ..Glass::default() })),
                 smooth: matches!(shape, Shape::Ball { .. }),
+                enabled: true,
                 priority: *priority,
                 ..MeshDesc::new(format!("solid {i}"), file)
             });

@@ -6,6 +6,7 @@ use egui::accesskit::Role;
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use lightloom::editor::look::object::SceneObject;
 use lightloom::editor::panels;
 use lightloom::editor::session::{Focus, Panel};
 use lightloom::editor::theme;
@@ -36,15 +37,20 @@ pub(crate) fn examples() -> Vec<(String, Project)> {
     names.into_iter().map(|name| (name.clone(), example(&name))).collect()
 }
 
-/// Every list opened at its first element.
-pub(crate) fn first_of_everything(project: &Project) -> Focus {
+/// Every list opened at its first element; of the scene one object after the other.
+pub(crate) fn firsts(project: &Project, panel: Panel) -> Vec<Focus> {
     let scene = project.scene.as_ref();
-    Focus {
-        key: Some(0),
-        caustic: (!project.caustics.is_empty()).then_some(0),
-        mesh: scene.filter(|scene| !scene.meshes.is_empty()).map(|_| 0),
-        light: scene.filter(|scene| !scene.lights.is_empty()).map(|_| 0),
+    let objects = [SceneObject::Mesh(0), SceneObject::Light(0), SceneObject::Camera, SceneObject::Receiver];
+    let mut there: Vec<Option<SceneObject>> = objects
+        .into_iter()
+        .filter(|object| scene.is_some_and(|scene| object.is_in(scene)))
+        .map(Some)
+        .collect();
+    if panel != Panel::Scene || there.is_empty() {
+        there = vec![None];
     }
+    let focus = |object| Focus { key: Some(0), caustic: (!project.caustics.is_empty()).then_some(0), object };
+    there.into_iter().map(focus).collect()
 }
 
 /// Width of the panels, points.

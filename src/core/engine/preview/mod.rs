@@ -4,6 +4,7 @@ mod continuity;
 mod field;
 mod frames;
 mod growing;
+mod lamp;
 mod light;
 mod orbit;
 mod positions;

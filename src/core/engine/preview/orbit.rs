@@ -1,9 +1,11 @@
 //! The orbit view: the scene through any camera, lit by a lamp at the eye.
 
+use std::sync::Arc;
+
 use crate::engine::Engine;
 use crate::project::Project;
-use crate::render::{Image, OrbitLight, PlaneView, ReceiverTexture, SceneMarker, orbit_image, scene_markers};
-use crate::scene::{CameraDesc, ReceiverDesc, SceneDesc};
+use crate::render::{Image, OrbitLight, PlaneView, ReceiverTexture, orbit_image};
+use crate::scene::{CameraDesc, ReceiverDesc, Scene, SceneDesc};
 use crate::{Progress, Result};
 
 /// A picture of the scene through any camera.
@@ -11,8 +13,8 @@ use crate::{Progress, Result};
 pub struct OrbitView {
     /// Linear light, to be shown at the project's exposure.
     pub image: Image,
-    /// The lights and the project's camera.
-    pub marks: Vec<SceneMarker>,
+    /// The scene in it, for ray queries.
+    pub scene: Arc<Scene>,
     /// Projection of plane points to pixels.
     pub plane: PlaneView,
 }
@@ -45,10 +47,6 @@ impl Engine {
         let ((scene, _), _) = self.stages.scene(self.client, desc, progress)?;
         let lamp = (-project.render.view.exposure).exp2();
         let image = orbit_image(&scene, &camera, size, OrbitLight { caustic: light, lamp }, progress)?;
-        let marks = match &project.scene {
-            Some(_) => scene_markers(&scene, &camera, size),
-            None => Vec::new(),
-        };
-        Ok(OrbitView { image, marks, plane: PlaneView::through(camera, scene.receiver().clone()) })
+        Ok(OrbitView { image, plane: PlaneView::through(camera, scene.receiver().clone()), scene })
     }
 }

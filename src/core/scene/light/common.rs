@@ -33,6 +33,8 @@ impl Common {
 settings! { Common {
     /// Name of the light in the list of caustics; each name once.
     NAME = Setting::text("scene.lights[].name");
+    /// Off leaves the light in the list, but it emits nothing.
+    ENABLED = Setting::switch("scene.lights[].enabled", true);
     /// Power of the whole light. A narrower cone of the same power is brighter.
     WATTS = Setting::real("scene.lights[].watts", [0.0, 1e9], &[10.0]).unit("W");
     /// Factor on the power, linear Rec.709.

@@ -20,6 +20,8 @@ pub struct DirectionalLight {
     pub name: String,
     /// What it does in the picture.
     pub role: LightRole,
+    /// Whether it shines ([`Common::ENABLED`]).
+    pub enabled: bool,
     /// Irradiance on a surface that faces it [W/m^2].
     pub irradiance: f32,
     /// Factor on the irradiance, linear Rec.709.
@@ -44,6 +46,7 @@ impl Default for DirectionalLight {
         Self {
             name: Common::DEFAULT_NAME.into(),
             role: LightRole::default(),
+            enabled: Common::ENABLED.is_on(),
             irradiance: Self::IRRADIANCE.value(),
             colour: Common::COLOUR.value(),
             direction: Self::DIRECTION.value(),

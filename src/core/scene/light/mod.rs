@@ -90,6 +90,17 @@ impl LightDesc {
         }
     }
 
+    /// Whether it shines.
+    pub fn is_enabled(&self) -> bool {
+        match self {
+            Self::Point(light) => light.enabled,
+            Self::Spot(light) => light.enabled,
+            Self::Directional(light) => light.enabled,
+            Self::Rectangle(light) => light.enabled,
+            Self::Sphere(light) => light.enabled,
+        }
+    }
+
     /// Its position, world (m); none for a directional one.
     pub fn position(&self) -> Option<Vec3> {
         match self {
@@ -112,15 +123,17 @@ impl LightDesc {
         }
     }
 
-    /// Its emission: of photons that may hit the sphere `target`, or of all. `world` encloses the scene.
+    /// Its emission: of photons that may hit the sphere `target`, or of all. `world` encloses the scene. One that is off has no
+    /// flux.
     pub fn emission(&self, target: Option<Sphere>, world: Sphere) -> Emission {
-        match self {
+        let emission = match self {
             Self::Point(light) => light.emission(target),
             Self::Spot(light) => light.emission(target),
             Self::Directional(light) => light.emission(target, world),
             Self::Rectangle(light) => light.emission(target),
             Self::Sphere(light) => light.emission(target),
-        }
+        };
+        if self.is_enabled() { emission } else { Emission { flux: Vec3::ZERO, ..emission } }
     }
 
     /// Whether photons may start in the box between two corners.
@@ -146,6 +159,7 @@ impl LightDesc {
     /// None where it emits nothing.
     pub fn illuminate(&self, point: Vec3, u: [f32; 2]) -> Option<Illumination> {
         match self {
+            _ if !self.is_enabled() => None,
             Self::Point(light) => light.illuminate(point),
             Self::Spot(light) => light.illuminate(point),
             Self::Directional(light) => light.illuminate(u),
@@ -154,9 +168,10 @@ impl LightDesc {
         }
     }
 
-    /// Distance and radiance [W/(sr m^2)] where a ray hits the light itself; area lights only.
+    /// Distance and radiance [W/(sr m^2)] where a ray hits the light itself; area lights that are on, only.
     pub fn intersect(&self, ray: &super::Ray) -> Option<(f32, Vec3)> {
         match self {
+            _ if !self.is_enabled() => None,
             Self::Point(_) | Self::Spot(_) | Self::Directional(_) => None,
             Self::Rectangle(light) => light.intersect(ray),
             Self::Sphere(light) => light.intersect(ray),

@@ -20,6 +20,8 @@ pub struct PointLight {
     pub name: String,
     /// What it does in the picture.
     pub role: LightRole,
+    /// Whether it shines ([`Common::ENABLED`]).
+    pub enabled: bool,
     /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -33,6 +35,7 @@ impl Default for PointLight {
         Self {
             name: Common::DEFAULT_NAME.into(),
             role: LightRole::default(),
+            enabled: Common::ENABLED.is_on(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

@@ -22,6 +22,8 @@ pub struct RectangleLight {
     pub name: String,
     /// What it does in the picture.
     pub role: LightRole,
+    /// Whether it shines ([`Common::ENABLED`]).
+    pub enabled: bool,
     /// Power of the whole panel (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -44,6 +46,7 @@ impl Default for RectangleLight {
         Self {
             name: Common::DEFAULT_NAME.into(),
             role: LightRole::default(),
+            enabled: Common::ENABLED.is_on(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),
@@ -66,6 +69,13 @@ impl RectangleLight {
         let x = normal.cross(Vec3::Y).try_normalize().unwrap_or_else(|| frame(normal).0);
         let y = x.cross(normal);
         (normal, x * (self.size[0] / 2.0), y * (self.size[1] / 2.0))
+    }
+
+    /// Its corners, one after the other, world (m).
+    pub fn corners(&self) -> [Vec3; 4] {
+        let (_, x, y) = self.axes();
+        let centre = Vec3::from(self.position);
+        [centre - x - y, centre + x - y, centre + x + y, centre - x + y]
     }
 
     /// Its bounding sphere.

@@ -22,6 +22,8 @@ pub struct SphereLight {
     pub name: String,
     /// What it does in the picture.
     pub role: LightRole,
+    /// Whether it shines ([`Common::ENABLED`]).
+    pub enabled: bool,
     /// Power to all sides together (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -42,6 +44,7 @@ impl Default for SphereLight {
         Self {
             name: Common::DEFAULT_NAME.into(),
             role: LightRole::default(),
+            enabled: Common::ENABLED.is_on(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

@@ -19,6 +19,8 @@ pub struct SpotLight {
     pub name: String,
     /// What it does in the picture.
     pub role: LightRole,
+    /// Whether it shines ([`Common::ENABLED`]).
+    pub enabled: bool,
     /// Power of the whole cone (W).
     pub watts: f32,
     /// Factor on the power, linear Rec.709.
@@ -45,6 +47,7 @@ impl Default for SpotLight {
         Self {
             name: Common::DEFAULT_NAME.into(),
             role: LightRole::default(),
+            enabled: Common::ENABLED.is_on(),
             watts: Common::WATTS.value(),
             colour: Common::COLOUR.value(),
             position: Common::POSITION.value(),

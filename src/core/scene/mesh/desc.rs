@@ -20,6 +20,9 @@ pub struct MeshDesc {
     /// The object of a glTF file that is taken ([`Self::NODE`]).
     #[serde(default)]
     pub node: Option<String>,
+    /// Whether it stands in the scene ([`Self::ENABLED`]).
+    #[serde(default = "enabled")]
+    pub enabled: bool,
     /// Material of the whole mesh; none: one object for each material of the file.
     #[serde(default)]
     pub material: Option<Material>,
@@ -41,12 +44,18 @@ settings! { MeshDesc {
     FILE = Setting::part("scene.meshes[].file");
     /// The object of a glTF file that is taken, by the name of its node; none for all.
     NODE = Setting::part("scene.meshes[].node");
+    /// Off leaves the mesh in the list, but not in the scene; its file is not read.
+    ENABLED = Setting::switch("scene.meshes[].enabled", true);
     /// Smooth shading by the file's normals, or else over edges of less than 50 degrees; off for facets, as of a gem.
     SMOOTH = Setting::switch("scene.meshes[].smooth", true);
     /// Where solids of glass overlap, as wine and its glass do, the higher priority fills the place; among equals the
     /// later in the list.
     PRIORITY = Setting::whole("scene.meshes[].priority", [-1000.0, 1000.0], &[0.0]);
 } }
+
+fn enabled() -> bool {
+    MeshDesc::ENABLED.is_on()
+}
 
 fn smooth() -> bool {
     MeshDesc::SMOOTH.is_on()
@@ -93,7 +102,8 @@ impl MeshDesc {
     pub fn new(name: impl Into<String>, file: impl Into<String>) -> Self {
         let (name, file) = (name.into(), file.into());
         let (node, material, transform) = (None, None, Transform::default());
-        Self { name, file, node, material, transform, smooth: smooth(), priority: Self::PRIORITY.value() }
+        let (enabled, smooth, priority) = (enabled(), smooth(), Self::PRIORITY.value());
+        Self { name, file, node, enabled, material, transform, smooth, priority }
     }
 
     /// Refuses values out of range, naming `place.field`.

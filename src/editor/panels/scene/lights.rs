@@ -6,10 +6,14 @@ use lightloom_core::scene::light::{
     Common, DirectionalLight, LightRole, PointLight, RectangleLight, SphereLight, SpotLight,
 };
 use lightloom_core::scene::{LightDesc, SceneDesc};
+use lightloom_core::setting::format::number;
 
+use super::objects;
 use crate::editor::context::EditorContext;
+use crate::editor::look::lamp::{enabled_of, name_of, role_of};
+use crate::editor::look::object::SceneObject;
 use crate::editor::panels::control::Control;
-use crate::editor::panels::widgets::{XYZ, list, menu, remove_button, section};
+use crate::editor::panels::widgets::{XYZ, menu, remove_button, section};
 use crate::editor::unique_name::unique_name;
 
 /// The kinds of light, each with its defaults.
@@ -25,6 +29,7 @@ const KIND: Control =
     Control::new("Kind", LightDesc::KIND).labels(&["Point", "Spot", "Directional", "Rectangle", "Sphere"]);
 const NAME: Control = Control::new("Name", Common::NAME);
 const ROLE: Control = Control::new("Role", Common::ROLE).labels(&["All", "Caustics", "Background"]);
+const ENABLED: Control = Control::new("On", Common::ENABLED);
 const WATTS: Control = Control::new("Power", Common::WATTS).log_slider(0.0, 1000.0);
 const COLOUR: Control = Control::new("Colour", Common::COLOUR);
 const POSITION: Control = Control::new("Position", Common::POSITION);
@@ -40,7 +45,7 @@ const RADIUS: Control = Control::new("Radius", SphereLight::RADIUS).log_slider(0
 /// The settings of lights.
 #[rustfmt::skip]
 pub(super) const CONTROLS: &[Control] = &[
-    KIND, NAME, ROLE, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, DISK, SIZE, RADIUS,
+    KIND, NAME, ENABLED, ROLE, WATTS, COLOUR, POSITION, TARGET, ANGLE, EDGE, IRRADIANCE, DIRECTION, DISK, SIZE, RADIUS,
 ];
 
 /// The light of a new scene.
@@ -66,8 +71,10 @@ pub(super) fn show(
     caustics: &mut [CausticDesc],
 ) {
     let names = scene.lights.iter().map(|light| (light.name(), KIND.labels[kind(light)]));
-    list(ui, "Light", names, &mut editor.session.focus.light);
-    let chosen = editor.session.focus.light.filter(|index| *index < scene.lights.len());
+    let names = names.map(|(name, kind)| (name.to_owned(), kind)).collect::<Vec<_>>();
+    objects::list(ui, editor, scene, "Light", &names, SceneObject::Light);
+    let is_there = |index: &usize| *index < scene.lights.len();
+    let chosen = editor.session.focus.object.and_then(SceneObject::light).filter(is_there);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let kinds = KIND.labels.iter().zip(KIND.setting.choices).map(|(label, choice)| (*label, choice.help));
@@ -75,7 +82,7 @@ pub(super) fn show(
             let mut light = make();
             let name = unique_name("light", |name| scene.lights.iter().any(|other| other.name() == name));
             *name_of(&mut light) = name;
-            editor.session.focus.light = Some(scene.lights.len());
+            editor.session.focus.object = Some(SceneObject::Light(scene.lights.len()));
             scene.lights.push(light);
         }
         ui.add_enabled_ui(chosen.is_some(), |ui| {
@@ -83,14 +90,18 @@ pub(super) fn show(
                 && let Some(index) = chosen
             {
                 scene.lights.remove(index);
-                editor.session.focus.light = None;
+                editor.session.focus.object = None;
             }
         });
     });
-    let Some(index) = editor.session.focus.light.filter(|index| *index < scene.lights.len()) else { return };
+    let chosen = editor.session.focus.object.and_then(SceneObject::light);
+    let Some(index) = chosen.filter(|index| *index < scene.lights.len()) else { return };
     let taken: Vec<String> = scene.lights.iter().map(|light| light.name().to_owned()).collect();
     let light = &mut scene.lights[index];
     section(ui, light.name());
+    if let Some(words) = lamp_words(editor) {
+        ui.add(egui::Label::new(egui::RichText::new(words).small()).wrap());
+    }
     if let Some(name) = NAME.text(ui, index, light.name()).filter(|name| !name.is_empty()) {
         let name = unique_name(&name, |name| taken.iter().any(|other| other == name));
         let of_light = caustics.iter_mut().filter_map(|caustic| caustic.light.as_mut());
@@ -100,28 +111,9 @@ pub(super) fn show(
     if let Some(make) = KIND.pick_another(ui, kind(light)).and_then(|new| KINDS.get(new)) {
         *light = changed(light, make());
     }
+    ENABLED.toggle(ui, enabled_of(light));
     ROLE.choose(ui, role_of(light), &[LightRole::All, LightRole::Caustics, LightRole::Background]);
     values(ui, light);
-}
-
-fn role_of(light: &mut LightDesc) -> &mut LightRole {
-    match light {
-        LightDesc::Point(light) => &mut light.role,
-        LightDesc::Spot(light) => &mut light.role,
-        LightDesc::Directional(light) => &mut light.role,
-        LightDesc::Rectangle(light) => &mut light.role,
-        LightDesc::Sphere(light) => &mut light.role,
-    }
-}
-
-fn name_of(light: &mut LightDesc) -> &mut String {
-    match light {
-        LightDesc::Point(light) => &mut light.name,
-        LightDesc::Spot(light) => &mut light.name,
-        LightDesc::Directional(light) => &mut light.name,
-        LightDesc::Rectangle(light) => &mut light.name,
-        LightDesc::Sphere(light) => &mut light.name,
-    }
 }
 
 /// The light `new` with the values of `old` that both kinds have. Angles differ in meaning: a cone is no disk.
@@ -137,6 +129,24 @@ fn changed(old: &LightDesc, new: LightDesc) -> LightDesc {
         }
     }
     serde_json::from_value(values).unwrap_or(new)
+}
+
+/// Where the light of the selected lamp goes, in words: "key: 12 % of its light meets glass, 0.8 W reach the receiver".
+pub(in crate::editor) fn lamp_words(editor: &EditorContext) -> Option<String> {
+    let index = editor.session.focus.object?.light()?;
+    let scene = editor.document.project().scene.as_ref()?;
+    let name = scene.lights.get(index)?.name();
+    let light = editor.preview.lamp(index)?;
+    let short = |watts: f64| {
+        let watts = format!("{watts:.1e}").parse().unwrap_or(watts);
+        number(watts, false)
+    };
+    let met = match light.power {
+        Some(power) if power > 0.0 => format!("{} % of its light meets", short(100.0 * light.met / power)),
+        Some(_) => return Some(format!("{name}: gives no light")),
+        None => format!("{} W meet", short(light.met)),
+    };
+    Some(format!("{name}: {met} glass or mirrors, {} W reach the receiver through them", short(light.landed)))
 }
 
 fn values(ui: &mut Ui, light: &mut LightDesc) {

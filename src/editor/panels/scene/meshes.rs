@@ -6,18 +6,20 @@ use lightloom_core::scene::gltf::GltfFile;
 use lightloom_core::scene::mesh::Transform;
 use lightloom_core::scene::{Material, MeshDesc, SceneDesc};
 
-use super::materials;
+use super::{materials, objects};
 use crate::editor::action::Action;
 use crate::editor::asset::AssetUse;
 use crate::editor::context::EditorContext;
+use crate::editor::look::object::SceneObject;
 use crate::editor::panels::control::Control;
 use crate::editor::panels::shows;
-use crate::editor::panels::widgets::{XYZ, list, remove_button, section};
+use crate::editor::panels::widgets::{XYZ, remove_button, section};
 use crate::editor::unique_name::unique_name;
 
 const NAME: Control = Control::new("Name", MeshDesc::NAME);
 const FILE: Control = Control::new("File", MeshDesc::FILE);
 const NODE: Control = Control::new("Object", MeshDesc::NODE);
+const ENABLED: Control = Control::new("On", MeshDesc::ENABLED);
 const MOVE: Control = Control::new("Place", Transform::TRANSLATE);
 const TURN: Control = Control::new("Turn", Transform::ROTATE);
 const SCALE: Control = Control::new("Scale", Transform::SCALE).log_slider(0.001, 1000.0);
@@ -25,7 +27,7 @@ const SMOOTH: Control = Control::new("Smooth", MeshDesc::SMOOTH);
 const PRIORITY: Control = Control::new("Priority", MeshDesc::PRIORITY).slider(-10.0, 10.0);
 
 /// The settings of a mesh.
-pub(super) const CONTROLS: &[Control] = &[NAME, FILE, NODE, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
+pub(super) const CONTROLS: &[Control] = &[NAME, FILE, NODE, ENABLED, MOVE, TURN, SCALE, SMOOTH, PRIORITY];
 
 /// The list of meshes, and the values of the selected one. Caustics follow a renamed mesh.
 pub(super) fn show(
@@ -35,9 +37,10 @@ pub(super) fn show(
     caustics: &mut [CausticDesc],
 ) {
     let kind = |mesh: &MeshDesc| mesh.material.as_ref().map_or("as file", materials::name);
-    let names = scene.meshes.iter().map(|mesh| (mesh.name.as_str(), kind(mesh)));
-    list(ui, "Mesh", names, &mut editor.session.focus.mesh);
-    let chosen = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len());
+    let names = scene.meshes.iter().map(|mesh| (mesh.name.clone(), kind(mesh))).collect::<Vec<_>>();
+    objects::list(ui, editor, scene, "Mesh", &names, SceneObject::Mesh);
+    let is_there = |index: &usize| *index < scene.meshes.len();
+    let chosen = editor.session.focus.object.and_then(SceneObject::mesh).filter(is_there);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         if ui
@@ -52,11 +55,12 @@ pub(super) fn show(
                 && let Some(index) = chosen
             {
                 scene.meshes.remove(index);
-                editor.session.focus.mesh = None;
+                editor.session.focus.object = None;
             }
         });
     });
-    let Some(index) = editor.session.focus.mesh.filter(|index| *index < scene.meshes.len()) else { return };
+    let chosen = editor.session.focus.object.and_then(SceneObject::mesh);
+    let Some(index) = chosen.filter(|index| *index < scene.meshes.len()) else { return };
     let taken: Vec<String> = scene.meshes.iter().map(|mesh| mesh.name.clone()).collect();
     let mesh = &mut scene.meshes[index];
     section(ui, &mesh.name);
@@ -73,6 +77,7 @@ pub(super) fn show(
     {
         mesh.node = Some(node).filter(|node| !node.is_empty());
     }
+    ENABLED.toggle(ui, &mut mesh.enabled);
     MOVE.numbers(ui, &mut mesh.transform.translate, XYZ);
     TURN.numbers(ui, &mut mesh.transform.rotate, XYZ);
     SCALE.number(ui, &mut mesh.transform.scale);

@@ -4,9 +4,12 @@ use egui::Ui;
 use lightloom_core::project::PlaneSettings;
 use lightloom_core::scene::{CameraDesc, EnvironmentDesc, ReceiverDesc};
 
+use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
+use crate::editor::look::fly;
 use crate::editor::panels::control::Control;
 use crate::editor::panels::widgets::XYZ;
+use crate::editor::session::ViewLayout;
 
 const POSITION: Control = Control::new("Position", CameraDesc::POSITION);
 const LOOK_AT: Control = Control::new("Looks at", CameraDesc::LOOK_AT);
@@ -18,7 +21,7 @@ const SIZE: Control = Control::new("Size", ReceiverDesc::SIZE);
 const TURN: Control = Control::new("Turn", ReceiverDesc::ROTATE);
 const ALBEDO: Control = Control::new("Albedo", ReceiverDesc::ALBEDO);
 const SURROUND: Control = Control::new("Surround", ReceiverDesc::SURROUND).log_slider(0.0, 100.0);
-const BORDER: Control = Control::new("Soft border", ReceiverDesc::BORDER).slider(0.0, 0.5);
+const BORDER: Control = Control::new("Soft border", ReceiverDesc::BORDER).slider(0.0, 0.5).without_suffix();
 const ZENITH: Control = Control::new("Zenith", EnvironmentDesc::ZENITH);
 const HORIZON: Control = Control::new("Horizon", EnvironmentDesc::HORIZON);
 const GROUND: Control = Control::new("Ground", EnvironmentDesc::GROUND);
@@ -32,18 +35,26 @@ pub(super) const CONTROLS: &[Control] = &[
 ];
 
 /// The camera.
-pub(super) fn camera(ui: &mut Ui, editor: &EditorContext, camera: &mut CameraDesc) {
+pub(super) fn camera(ui: &mut Ui, editor: &mut EditorContext, camera: &mut CameraDesc) {
     POSITION.numbers(ui, &mut camera.position, XYZ);
     LOOK_AT.numbers(ui, &mut camera.look_at, XYZ);
     UP.numbers(ui, &mut camera.up, XYZ);
     FOV.number(ui, &mut camera.fov_deg);
     SHIFT.numbers(ui, &mut camera.shift, ["right", "up"]);
-    ui.add_enabled_ui(editor.session.orbit.is_some(), |ui| {
+    let through = editor.session.layout == ViewLayout::Orbit && editor.session.through_camera;
+    let look = ui.add(egui::Button::selectable(through, "Look through and fly").frame(true));
+    if look
+        .on_hover_text("The orbit view through this camera: a drag orbits it, Shift pans, the wheel dollies")
+        .clicked()
+    {
+        editor.ask(Command::LookThroughCamera);
+    }
+    ui.add_enabled_ui(editor.session.free_camera.is_some() && !through, |ui| {
         let take = ui.button("Align camera to view").on_hover_text("Moves the camera to the orbit view");
         if take.on_disabled_hover_text("Open the orbit view first").clicked()
-            && let Some(orbit) = editor.session.orbit
+            && let Some(free) = &editor.session.free_camera
         {
-            *camera = orbit.camera(camera);
+            *camera = fly::aligned(camera, free);
         }
     });
 }
