@@ -2,6 +2,7 @@
 
 pub(crate) mod args;
 mod check;
+mod collect;
 mod compare;
 mod exit_code;
 mod figures;
@@ -41,6 +42,7 @@ pub fn main() -> ExitCode {
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Collect(args)) => collect::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Schema) => schema(),
     };

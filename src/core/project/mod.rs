@@ -11,11 +11,13 @@
 mod asset_path;
 mod caustic;
 mod check;
+mod collect;
 mod file;
 pub mod frames;
 mod keyframe;
 mod load;
 mod output;
+mod relative_path;
 mod schema_docs;
 mod settings;
 mod shows;
@@ -27,12 +29,14 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use asset_path::AssetFolder;
+pub use asset_path::{Admitted, AssetFolder};
 pub(crate) use caustic::unknown_name;
 pub use caustic::{CausticDesc, CausticKey};
+pub use collect::{Collect, Collection, Missing, collect_into};
 pub use file::ProjectFile;
 pub use keyframe::{Ease, KeyFrame, SegmentTime, segment_time};
 pub use output::OutputSettings;
+pub use relative_path::{moved, relative};
 pub use settings::settings;
 pub use shows::Shows;
 

@@ -6,6 +6,7 @@ mod file_state;
 mod files;
 mod layout;
 mod open_windows;
+mod outside;
 mod recents;
 mod windows;
 
@@ -47,8 +48,6 @@ pub struct App {
     preferences: Preferences,
     /// The graphics device.
     gpu: Gpu,
-    /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
-    external: bool,
     /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
 }
@@ -104,7 +103,6 @@ impl App {
             files: Files::start(setup.folders, wake()),
             preferences: setup.preferences,
             gpu: setup.gpu,
-            external: false,
             asked: Vec::new(),
         };
         app.editor.session.snapping = app.preferences.snapping;
@@ -112,6 +110,7 @@ impl App {
             app.editor.session.playing = true;
             app.windows.tour.begin(app.editor.document.project());
         }
+        app.attach();
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
         }
@@ -181,7 +180,7 @@ impl App {
         Subject {
             project: self.editor.document.project().clone(),
             base: templates::file_of(&self.editor.document),
-            external: self.external,
+            access: self.files.access(),
         }
     }
 
@@ -190,7 +189,8 @@ impl App {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
         self.views.forget_pictures();
-        self.external = false;
+        self.files.forget_admitted();
+        self.attach();
     }
 }
 

@@ -20,7 +20,7 @@ impl App {
     ) {
         let mut editor = self.editor.context(actions);
         let windows = &mut self.windows;
-        windows.export.external = self.external;
+        windows.export.access = self.files.access();
         windows.export.show(ctx, &mut editor, &mut self.exports, &mut self.picker);
         windows.player.show(ctx, &mut self.picker);
         let flow = &editor.document.project().flow;

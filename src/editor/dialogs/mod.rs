@@ -6,8 +6,12 @@ mod browser;
 mod modal;
 mod native;
 mod picker;
+#[cfg(all(unix, not(target_os = "macos")))]
+mod portal;
 mod question;
 mod request;
+#[cfg(any(windows, target_os = "macos"))]
+mod system;
 
 pub(super) use modal::modal;
 pub use native::Native;

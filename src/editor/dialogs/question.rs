@@ -27,6 +27,15 @@ pub enum Question {
         /// Whether the document has unsaved changes too.
         unsaved: bool,
     },
+    /// Files lie outside of the project's folder: picked ones, or those that an opened project names.
+    Outside {
+        /// What lies outside.
+        title: String,
+        /// The files, a line each; empty where the title names the only one.
+        files: String,
+        /// Label of the answer that leaves them out.
+        no: &'static str,
+    },
     /// A message.
     Message {
         /// Title.
@@ -39,9 +48,9 @@ pub enum Question {
 /// The answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save the changes; recover the work; reload the file.
+    /// Save the changes; recover the work; reload the file; copy the files.
     Yes,
-    /// Discard the changes; delete the recovered work; keep the document.
+    /// Discard the changes; delete the recovered work; keep the document; trust the files.
     No,
     /// Change nothing; close a message; offer the recovered work again at the next start.
     Cancel,
@@ -82,6 +91,15 @@ impl Question {
                     "Reload it, or keep the open version.".into()
                 },
                 labels: ["Reload", "Keep open version", ""],
+            },
+            Self::Outside { title, files, no } => Words {
+                title: title.clone(),
+                text: format!(
+                    "{files}A copy beside the project is made when it is saved: then it opens on every machine. Or trust the \
+                     file for good: it stays where it is, and projects on this machine may read it, in the window and \
+                     from the command line."
+                ),
+                labels: ["Copy beside the project", "Trust for good", no],
             },
             Self::Message { title, text } => {
                 Words { title: title.clone(), text: text.clone(), labels: ["", "", "Close"] }

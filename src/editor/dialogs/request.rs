@@ -18,6 +18,8 @@ pub enum Purpose {
     SaveProject,
     /// The output folder for frames.
     ExportFolder,
+    /// The folder to collect the project into.
+    CollectFolder,
     /// A picture of a rendered sequence to play.
     Frames,
     /// A file for the project to use.
@@ -96,6 +98,7 @@ impl Purpose {
             Self::OpenProject => "Open a project",
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
+            Self::CollectFolder => "Folder for the project and all its files",
             Self::Frames => "Choose a rendered frame",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
@@ -107,7 +110,7 @@ impl Purpose {
     pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
-            Self::ExportFolder => ("Folders", &[]),
+            Self::ExportFolder | Self::CollectFolder => ("Folders", &[]),
             Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),
             Self::Asset(pick) => pick.files(),
         }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! every change ──► Journal ──► <state folder>/recovery/<id>.json    at most a second later
-//! open, save   ──► Saver   ──► the user's file, its previous version as <state folder>/backups/….bak
+//! open, save   ──► Saver   ──► the user's file, its last three versions as <state folder>/backups/….bak1 to 3
 //! next start   ──► recoverable ──► what a crash left there, to be recovered or discarded
 //! ```
 //!
@@ -13,8 +13,13 @@ pub mod journal;
 pub mod preferences;
 pub mod recovery;
 pub mod saver;
+pub mod trust;
 
+mod attached;
+mod backups;
 mod disk;
+mod lock;
+mod save;
 mod record;
 mod slot;
 
@@ -23,4 +28,8 @@ pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
-pub use saver::{Opened, SaveRequest, Saved, Saver, StoreReply, StoreRequest};
+pub use trust::trusted;
+pub use attached::Hold;
+pub use backups::Backup;
+pub use save::{Origin, SaveRequest, Saved};
+pub use saver::{CollectRequest, Opened, Saver, StoreReply, StoreRequest};

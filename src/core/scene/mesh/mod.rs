@@ -1,6 +1,7 @@
 //! Triangle meshes from OBJ files: reading, placement, clean-up, smooth normals.
 
 mod clean;
+mod companions;
 mod desc;
 mod library;
 mod mtl;
@@ -12,7 +13,9 @@ mod text;
 
 use std::path::PathBuf;
 
+pub use self::companions::{MaterialFile, material_files};
 pub use self::desc::{MeshDesc, Transform};
+pub use self::library::Assets;
 
 use self::library::Owner;
 use self::obj::Group;
