@@ -32,7 +32,8 @@ impl SharedEngine {
     /// The folder of the project cannot be found.
     pub fn of(&self, file: &Path, access: &Access) -> Result<Engine> {
         let mut engines = self.engines.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = engines.iter().position(|known| known.file == file && known.admitted.is(access.admitted()));
+        let known =
+            engines.iter().position(|known| known.file == file && known.admitted.is(access.admitted()));
         let known = match known {
             Some(known) => engines.remove(known),
             None => {

@@ -28,6 +28,10 @@ const REPEATED: [Command; 6] = [
     Command::ZoomOut,
 ];
 
+/// Commands that open a dialog.
+const OPENERS: [Command; 5] =
+    [Command::Open, Command::SaveAs, Command::Collect, Command::New, Command::Palette];
+
 /// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
 /// that the active tool has an unfinished gesture. A focused text field keeps all keys except shortcuts that have
 /// no meaning in text.
@@ -43,12 +47,29 @@ pub fn pressed(ctx: &Context, tools: &[(&'static str, Key)], busy: bool) -> Vec<
         let space = matches!(event, Event::Key { key: Key::Space, .. });
         if space { tapped(ctx, event, action) } else { action }
     };
-    events.iter().filter_map(action).collect()
+    let mut actions = Vec::new();
+    for event in &events {
+        let Some(action) = action(event) else { continue };
+        let opens = matches!(action, Action::Command(command) if OPENERS.contains(&command));
+        actions.push(action);
+        if opens {
+            // What follows in the same frame is typed for the dialog.
+            break;
+        }
+    }
+    actions
+}
+
+/// Tells in each frame whether a dialog or a question of the program takes the keys.
+pub(super) fn set_covered(ctx: &Context, covered: bool) {
+    ctx.data_mut(|data| data.insert_temp(egui::Id::unique("covered"), covered));
 }
 
 /// Whether a dialog or a menu is open that receives the keys.
 pub(super) fn is_covered(ctx: &Context) -> bool {
-    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
+    // A modal window counts from the frame after its first.
+    let told = ctx.data(|data| data.get_temp(egui::Id::unique("covered")).unwrap_or(false));
+    told || egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 /// The action of the space bar on release: held while the pointer drags, it pans the view instead.

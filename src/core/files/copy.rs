@@ -39,7 +39,8 @@ pub(crate) fn copy_new(from: &Path, to: &Path, progress: &Progress) -> Result<u6
 /// # Errors
 /// `Io` where the system refuses.
 pub(crate) fn is_same_content(a: &Path, b: &Path) -> Result<bool> {
-    let size = |path: &Path| std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|file| file.len());
+    let size =
+        |path: &Path| std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file).map(|file| file.len());
     let (Some(of_a), Some(of_b)) = (size(a), size(b)) else { return Ok(false) };
     if of_a != of_b {
         return Ok(false);
@@ -48,7 +49,9 @@ pub(crate) fn is_same_content(a: &Path, b: &Path) -> Result<bool> {
     let (mut here, mut there) = (vec![0; CHUNK], vec![0; CHUNK]);
     loop {
         let count = fill(&mut left, &mut here).map_err(Error::io("read", a))?;
-        if count != fill(&mut right, &mut there).map_err(Error::io("read", b))? || here[..count] != there[..count] {
+        if count != fill(&mut right, &mut there).map_err(Error::io("read", b))?
+            || here[..count] != there[..count]
+        {
             return Ok(false);
         }
         if count == 0 {

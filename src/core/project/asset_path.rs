@@ -52,10 +52,12 @@ impl Admitted {
     /// Whether a file may be read; `real` is canonical.
     fn holds(&self, real: &Path) -> bool {
         let files = self.0.read().unwrap_or_else(PoisonError::into_inner);
-        let ends = |path: &Path, ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+        let ends =
+            |path: &Path, ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
         let beside = |mesh: &PathBuf| {
             let folder = mesh.parent();
-            ends(mesh, "obj") && folder.and_then(Path::parent).or(folder).is_some_and(|above| real.starts_with(above))
+            ends(mesh, "obj")
+                && folder.and_then(Path::parent).or(folder).is_some_and(|above| real.starts_with(above))
         };
         files.contains(real) || (ends(real, "mtl") && files.iter().any(beside))
     }
@@ -128,7 +130,10 @@ impl AssetFolder {
         let found = path.canonicalize();
         if !self.anywhere && !normalise(&path).starts_with(&self.root) {
             // Whether there is such a file is told only of those that may be read.
-            return found.ok().filter(|real| self.admitted.holds(real)).ok_or_else(|| outside(&shown, place, &self.root));
+            return found
+                .ok()
+                .filter(|real| self.admitted.holds(real))
+                .ok_or_else(|| outside(&shown, place, &self.root));
         }
         let real = found.map_err(|e| {
             wrong(&format!(

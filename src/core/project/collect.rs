@@ -163,7 +163,13 @@ impl Collect<'_> {
     }
 
     /// A file with those that it names.
-    fn bundle(&self, written: &str, real: &Path, done: &mut Collection, progress: &Progress) -> Result<Bundle> {
+    fn bundle(
+        &self,
+        written: &str,
+        real: &Path,
+        done: &mut Collection,
+        progress: &Progress,
+    ) -> Result<Bundle> {
         let mut others = Vec::new();
         if real.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
             let find = |written: &str, place: &str| self.assets.resolve(written, place);
@@ -207,7 +213,11 @@ impl Collect<'_> {
             }
             return Ok(pairs.into_iter().next().map(|(_, place)| place).unwrap_or_default());
         }
-        let what = format!("all names like '{}' are taken in '{}'; clear the folder", wanted.display(), folder.display());
+        let what = format!(
+            "all names like '{}' are taken in '{}'; clear the folder",
+            wanted.display(),
+            folder.display()
+        );
         Err(Error::value(bundle.main.display().to_string(), what))
     }
 }
@@ -219,10 +229,8 @@ fn exists(path: &Path) -> bool {
 
 /// The path in the new folder that is tried first.
 fn wanted(written: &str, real: &Path, assets: &AssetFolder) -> PathBuf {
-    let plain: PathBuf = normalise(Path::new(written))
-        .components()
-        .skip_while(|part| *part == Component::ParentDir)
-        .collect();
+    let plain: PathBuf =
+        normalise(Path::new(written)).components().skip_while(|part| *part == Component::ParentDir).collect();
     let inside = assets.is_inside(real) && !super::asset_path::is_absolute(written);
     if inside && plain.components().all(|part| matches!(part, Component::Normal(_))) {
         return plain;
@@ -275,7 +283,8 @@ struct Made {
 impl Made {
     fn copy(&mut self, source: &Path, place: &Path, progress: &Progress) -> Result<()> {
         let folder = place.parent().unwrap_or(Path::new(""));
-        let missing: Vec<_> = folder.ancestors().take_while(|folder| !folder.exists()).map(Path::to_owned).collect();
+        let missing: Vec<_> =
+            folder.ancestors().take_while(|folder| !folder.exists()).map(Path::to_owned).collect();
         std::fs::create_dir_all(folder).map_err(Error::io("create the folder", folder))?;
         self.folders.extend(missing.into_iter().rev());
         self.bytes += copy_new(source, place, progress)?;

@@ -62,6 +62,10 @@ pub struct Project {
     pub schema: Option<String>,
     /// Version of the format: 1.
     pub lightloom: u32,
+    /// The oldest version of the format whose programs read this file right, although they do not know all of it. Default: its
+    /// own version.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minimum_reader: Option<u32>,
     /// The project's name.
     #[serde(default)]
     pub name: String,
@@ -177,6 +181,11 @@ impl Project {
         // Pairs that are given cannot be made at a meeting: such photons are guided, whichever of the two is named.
         let unable = [MotionMethod::Guided, MotionMethod::Stylized];
         MotionMethod::ALL.into_iter().filter(move |method| !given || !unable.contains(method))
+    }
+
+    /// The version of a file that a newer program wrote, and this one reads: what it does not know of it is not used.
+    pub fn newer(&self) -> Option<u32> {
+        Some(self.lightloom).filter(|version| *version > VERSION)
     }
 
     /// The paths of all files of the project, as written.

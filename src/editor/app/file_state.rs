@@ -126,6 +126,12 @@ impl Files {
         self.backups.clear();
     }
 
+    /// Nothing is trusted any more; what the open project reads stays allowed until it is closed.
+    pub(super) fn forget_trusted(&mut self) {
+        self.trusted = Admitted::default();
+        self.request(StoreRequest::ForgetTrusted);
+    }
+
     /// Asks a question now, or after the open one.
     pub(super) fn ask(&mut self, question: Question, pending: PendingQuestion) {
         match self.question {

@@ -50,7 +50,8 @@ impl App {
     fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {
         match answer {
             StoreReply::Opened(path, Ok(opened)) => {
-                let opening = self.files.opening.take().filter(|(of, _)| *of == path).map(|(_, opening)| opening);
+                let opening =
+                    self.files.opening.take().filter(|(of, _)| *of == path).map(|(_, opening)| opening);
                 let at = match &opening {
                     None => Some((path.clone(), opened.seen)),
                     Some(Opening::Backup(of, seen)) => Some((of.clone(), *seen)),
@@ -227,6 +228,17 @@ impl App {
 
     /// Holds and watches the file of the document that was opened, and looks for files outside of its folder.
     pub(super) fn attach(&mut self) {
+        if let Some(version) = self.editor.document.project().newer() {
+            let text = format!(
+                "It is of version {version} of the format. What this program does not know of it is not shown, and kept. It is \
+                 opened read-only: Save asks for another name."
+            );
+            self.editor.document.protect("a newer Lightloom wrote it".into());
+            self.show_message(
+                format!("'{}' was written by a newer Lightloom", self.editor.document.title()),
+                text,
+            );
+        }
         let document = &self.editor.document;
         let file = document.path().map(Path::to_owned).zip(document.seen());
         self.files.request(StoreRequest::Attach(file));
@@ -239,7 +251,9 @@ impl App {
         }
         self.files.backups = backups;
         match hold {
-            Hold::Here(notice) => self.editor.status = notice.unwrap_or_else(|| std::mem::take(&mut self.editor.status)),
+            Hold::Here(notice) => {
+                self.editor.status = notice.unwrap_or_else(|| std::mem::take(&mut self.editor.status))
+            }
             Hold::Elsewhere(who) => {
                 let title = format!("'{}' is open in {who}", name(path));
                 let text = "It is opened read-only here: Save asks for another name.".to_owned();
@@ -285,11 +299,19 @@ impl App {
     /// Asks for a file to save to.
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
         let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
-        let name = match self.editor.document.path() {
-            Some(path) => name(path),
-            None => format!("{}.json", self.editor.document.title().to_lowercase().replace([' ', ','], "_")),
-        };
+        let name = self.file_name();
         self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
+    }
+
+    /// The name of the document's file, or one made of its title.
+    pub(super) fn file_name(&self) -> String {
+        match self.editor.document.path() {
+            Some(path) => name(path),
+            None => format!(
+                "{}.json",
+                self.editor.document.title().to_lowercase().replace([' ', ',', '/', '\\'], "_")
+            ),
+        }
     }
 
     fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {

@@ -111,6 +111,9 @@ impl App {
             app.windows.tour.begin(app.editor.document.project());
         }
         app.attach();
+        let folders: Vec<_> =
+            app.preferences.recent.iter().rev().filter_map(|file| file.parent()).map(Into::into).collect();
+        folders.iter().for_each(|folder: &std::path::PathBuf| app.picker.remember(folder));
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
         }
@@ -141,6 +144,7 @@ impl App {
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
+        keyboard::set_covered(&ctx, self.picker.is_open() || self.files.question.is_some());
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);

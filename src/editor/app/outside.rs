@@ -95,7 +95,8 @@ impl App {
             1 => format!("'{}' reads a file outside of its folder", self.editor.document.title()),
             count => format!("'{}' reads {count} files outside of its folder", self.editor.document.title()),
         };
-        let mut list: String = files.iter().take(LISTED).map(|file| format!("{}\n", file.display())).collect();
+        let mut list: String =
+            files.iter().take(LISTED).map(|file| format!("{}\n", file.display())).collect();
         if files.len() > LISTED {
             list += &format!("and {} more\n", files.len() - LISTED);
         }
@@ -123,7 +124,10 @@ impl App {
 
     /// Copies the project as it is now, with all its files, into a folder.
     pub(super) fn collect(&mut self, folder: PathBuf) {
-        let origin = self.origin();
+        let mut origin = self.origin();
+        if self.editor.document.path().is_none() {
+            origin.file.set_file_name(self.file_name());
+        }
         match self.editor.document.file() {
             Ok(file) => {
                 let project = self.editor.document.project().clone();
@@ -139,7 +143,8 @@ impl App {
             Ok((path, collection)) => {
                 let count = collection.copied.len();
                 let megabytes = collection.bytes as f64 / 1e6;
-                self.editor.status = format!("Collected as '{}': {count} files, {megabytes:.1} MB", path.display());
+                self.editor.status =
+                    format!("Collected as '{}': {count} files, {megabytes:.1} MB", path.display());
                 if !collection.notes.is_empty() {
                     self.show_message("The project was collected, but".into(), collection.notes.join("\n"));
                 }

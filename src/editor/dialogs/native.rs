@@ -5,11 +5,11 @@ use std::thread;
 
 use egui::Context;
 
+#[cfg(all(unix, not(target_os = "macos")))]
+use super::portal::begin;
 use super::request::{Dialogs, PickRequest, PickResult};
 #[cfg(any(windows, target_os = "macos"))]
 use super::system::begin;
-#[cfg(all(unix, not(target_os = "macos")))]
-use super::portal::begin;
 
 /// The desktop portal's dialogs, or the system's on macOS and Windows.
 #[derive(Clone, Copy, Debug, Default)]

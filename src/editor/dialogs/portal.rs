@@ -17,7 +17,9 @@ pub(super) fn begin(request: &PickRequest) -> Answer {
     let request = request.clone();
     Box::pin(async move {
         match ask(&request).await {
-            Ok(files) => files.uris().first().and_then(file_of).map_or(PickResult::Unavailable, PickResult::Picked),
+            Ok(files) => {
+                files.uris().first().and_then(file_of).map_or(PickResult::Unavailable, PickResult::Picked)
+            }
             Err(Error::Response(ResponseError::Cancelled)) => PickResult::Cancelled,
             Err(_) => PickResult::Unavailable,
         }

@@ -24,9 +24,7 @@ pub struct Subject {
 impl Subject {
     /// Whether nothing differs; projects are compared by pointer.
     pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.project, &other.project)
-            && self.base == other.base
-            && self.access == other.access
+        Arc::ptr_eq(&self.project, &other.project) && self.base == other.base && self.access == other.access
     }
 
     /// The engine that works on the subject.

@@ -74,7 +74,8 @@ mod tests {
         for version in [1, 2, 3, 3, 4, 5, 5_u8] {
             keep(&folders, &path, &[version], 9).unwrap();
         }
-        let kept: Vec<_> = of(&folders, &path).iter().map(|backup| std::fs::read(&backup.path).unwrap()).collect();
+        let kept: Vec<_> =
+            of(&folders, &path).iter().map(|backup| std::fs::read(&backup.path).unwrap()).collect();
         assert_eq!(kept, [[5], [4], [3]]);
         assert!(of(&folders, &folder.path().join("other.json")).is_empty());
     }

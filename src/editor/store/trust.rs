@@ -33,7 +33,11 @@ pub(super) fn trust(folders: &Folders, files: &[PathBuf]) -> Result<()> {
         let real = file.canonicalize().map_err(Error::io("find", file))?;
         // JSON cannot hold another path.
         if real.to_str().is_none() {
-            return Err(Error::format(file, "", "has a name that is not UTF-8; rename it, or copy it beside the project"));
+            return Err(Error::format(
+                file,
+                "",
+                "has a name that is not UTF-8; rename it, or copy it beside the project",
+            ));
         }
         if !list.files.contains(&real) {
             list.files.push(real);
@@ -55,7 +59,9 @@ fn read(folders: &Folders) -> Result<TrustList> {
     match files::read_regular_file(&path, MOST_BYTES) {
         Ok(bytes) => serde_json::from_slice(&bytes)
             .map_err(|e| Error::format(&path, "", format!("is no trust list: {e}; delete it"))),
-        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => Ok(TrustList::default()),
+        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+            Ok(TrustList::default())
+        }
         Err(error) => Err(error),
     }
 }

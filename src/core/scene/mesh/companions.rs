@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::library::{Assets, MOST_FILES, Owner};
-use super::text::{self, Lines};
 use super::obj;
+use super::text::{self, Lines};
 use crate::files::read_regular_file;
 use crate::{Progress, Result};
 
@@ -45,7 +45,9 @@ pub fn material_files(
                     files.push(MaterialFile { written: found.written, path: found.path });
                 }
                 Ok(_) => (),
-                Err(error) => notes.push(format!("{written}: its material file '{name}' was not found: {error}")),
+                Err(error) => {
+                    notes.push(format!("{written}: its material file '{name}' was not found: {error}"))
+                }
             }
         }
     }
