@@ -19,7 +19,7 @@ use lightloom_core::project::{AssetFolder, Project};
 /// Lets the window run until a widget of this label is there.
 fn until_seen(harness: &mut Harness<App>, label: &str) {
     for _ in 0..20_000 {
-        if harness.query_by_label_contains(label).is_some() {
+        if harness.query_all_by_label_contains(label).next().is_some() {
             return;
         }
         harness.step();

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError, RwLock};
 
-use super::relative_path::normalise;
+use super::relative_path::{is_absolute, normalise};
 use crate::{Error, Result};
 
 /// The limit of most systems, bytes.
@@ -143,11 +143,6 @@ impl AssetFolder {
         })?;
         if self.allows(&real) { Ok(real) } else { Err(outside(&shown, place, &self.root)) }
     }
-}
-
-/// Whether a path as written names a place of one machine, on any system.
-pub(super) fn is_absolute(written: &str) -> bool {
-    Path::new(written).is_absolute() || written.as_bytes().get(1) == Some(&b':')
 }
 
 fn outside(written: &str, place: &str, root: &Path) -> Error {

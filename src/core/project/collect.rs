@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
-use super::relative_path::{moved, normalise, relative};
+use super::relative_path::{is_absolute, moved, normalise, relative};
 use super::{AssetFolder, Project, ProjectFile};
 use crate::files::{copy_new, is_same_content};
 use crate::scene::mesh::material_files;
@@ -178,7 +178,7 @@ impl Collect<'_> {
             others.extend(files.into_iter().map(|file| {
                 let path = Path::new(&file.written);
                 // A mesh that names a place of one machine finds the file beside itself on another.
-                let inside = if super::asset_path::is_absolute(&file.written) {
+                let inside = if is_absolute(&file.written) {
                     file.path.file_name().map_or_else(|| path.to_owned(), PathBuf::from)
                 } else {
                     normalise(path)
@@ -231,7 +231,7 @@ fn exists(path: &Path) -> bool {
 fn wanted(written: &str, real: &Path, assets: &AssetFolder) -> PathBuf {
     let plain: PathBuf =
         normalise(Path::new(written)).components().skip_while(|part| *part == Component::ParentDir).collect();
-    let inside = assets.is_inside(real) && !super::asset_path::is_absolute(written);
+    let inside = assets.is_inside(real) && !is_absolute(written);
     if inside && plain.components().all(|part| matches!(part, Component::Normal(_))) {
         return plain;
     }

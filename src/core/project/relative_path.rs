@@ -3,7 +3,6 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::Project;
-use super::asset_path::is_absolute;
 
 /// Path of `file` relative to the project file `project`; both absolute. On another drive the path stays absolute.
 pub fn relative(file: &Path, project: &Path) -> String {
@@ -33,6 +32,11 @@ impl Project {
         project.rename_files(|file| moved(file, from, to));
         project
     }
+}
+
+/// Whether a path as written names a place of one machine, on any system.
+pub(super) fn is_absolute(written: &str) -> bool {
+    Path::new(written).is_absolute() || written.as_bytes().get(1) == Some(&b':')
 }
 
 /// The path without `.`, and with `..` resolved where possible; the file system is not asked.

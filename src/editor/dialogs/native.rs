@@ -15,9 +15,6 @@ use super::system::begin;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Native;
 
-/// What a dialog will answer.
-pub(super) type Answer = std::pin::Pin<Box<dyn Future<Output = PickResult> + Send>>;
-
 impl Dialogs for Native {
     fn pick(&self, request: &PickRequest, wake: Context) -> Receiver<PickResult> {
         let (sender, receiver) = channel();

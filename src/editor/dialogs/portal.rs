@@ -9,8 +9,7 @@ use ashpd::desktop::ResponseError;
 use ashpd::desktop::file_chooser::{FileFilter, SelectedFiles};
 use ashpd::{Error, Uri};
 
-use super::native::Answer;
-use super::request::{PickRequest, PickResult};
+use super::request::{Answer, PickRequest, PickResult};
 
 /// Begins a dialog.
 pub(super) fn begin(request: &PickRequest) -> Answer {

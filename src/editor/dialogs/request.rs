@@ -48,6 +48,9 @@ pub enum PickResult {
     Unavailable,
 }
 
+/// What a dialog of the system will answer.
+pub(super) type Answer = std::pin::Pin<Box<dyn Future<Output = PickResult> + Send>>;
+
 /// A source of file dialogs.
 pub trait Dialogs: Send + Sync {
     /// Opens a dialog; the result arrives when the user has answered.

@@ -2,8 +2,7 @@
 
 use rfd::AsyncFileDialog;
 
-use super::native::Answer;
-use super::request::{PickRequest, PickResult};
+use super::request::{Answer, PickRequest, PickResult};
 
 /// Begins a dialog.
 pub(super) fn begin(request: &PickRequest) -> Answer {

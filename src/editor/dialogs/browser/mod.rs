@@ -249,18 +249,36 @@ impl Browser {
     /// The field of the name or path; returns whether Enter was pressed in it.
     fn field(&mut self, ui: &mut Ui, hint: &str) -> bool {
         let id = Id::unique("name in the file dialog");
-        let takes_keys = std::mem::take(&mut self.takes_keys);
-        if takes_keys {
-            ui.memory_mut(|memory| memory.request_focus(id));
+        // A window that is new takes no focus in its first frames: what is typed then is kept all the same.
+        let idle = ui.memory(|memory| memory.focused().is_none());
+        if idle && ui.ctx().current_pass_index() == 0 {
+            self.listen(ui);
         }
         let field = TextEdit::singleline(&mut self.typed).id(id).hint_text(hint).desired_width(f32::INFINITY);
         let mut shown = field.show(ui);
         let response = shown.response.response.accessible_name("Path");
+        if std::mem::take(&mut self.takes_keys) | idle {
+            ui.memory_mut(|memory| memory.request_focus(id));
+        }
         if let Some(range) = self.selects.take() {
             shown.state.cursor.set_char_range(Some(range));
             shown.state.store(ui.ctx(), id);
         }
         response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))
+    }
+
+    /// Takes what was typed before the field could.
+    fn listen(&mut self, ui: &Ui) {
+        let events = ui.input(|input| input.events.clone());
+        for event in events {
+            if let egui::Event::Text(text) = event {
+                if self.selects.take().is_some_and(|range| !range.is_empty()) {
+                    self.typed.clear();
+                }
+                self.typed += &text;
+                self.selects = Some(CCursorRange::one(CCursor::new(self.typed.chars().count())));
+            }
+        }
     }
 
     fn ask_again(&mut self, ui: &mut Ui, path: PathBuf) -> Option<Option<PathBuf>> {
