@@ -160,7 +160,7 @@ impl SegmentPhotons {
             let mut rest = &mut *positions;
             for (count, trajectories) in &mut groups {
                 let (own, others) = std::mem::take(&mut rest).split_at_mut(*count);
-                trajectories.positions_at(time, own, &progress.inner())?;
+                trajectories.light_at(time, own, &progress.inner())?;
                 rest = others;
             }
             show(&layer.groups, i, &positions);

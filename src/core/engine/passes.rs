@@ -98,7 +98,7 @@ impl<'a> Exposures<'a> {
         for (slot, time) in moments {
             self.expose((slot, rows), kernel, between(requested, time), |positions, flux| {
                 trajectories.flux_at(time, flux);
-                trajectories.positions_at(time, positions, &progress.inner())
+                trajectories.light_at(time, positions, &progress.inner())
             })?;
             progress.advance(1);
             progress.check()?;

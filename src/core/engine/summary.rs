@@ -191,8 +191,10 @@ impl Summary {
         if let Some(FlowNumbers { flow, .. }) = self.flow.as_ref().filter(|_| self.walled) {
             let _ = writeln!(
                 text,
-                "  walls: {} crossings, {} photons shut off",
-                flow.wall_crossings, flow.unreachable
+                "  walls: {} crossings, {} photons shut off, {:.2} % on detours",
+                flow.wall_crossings,
+                flow.unreachable,
+                100.0 * flow.detours
             );
         }
         if let Some(ClampedLight { pixels, share }) = &self.clamped {

@@ -54,6 +54,24 @@ impl<'a> SegmentTrajectories<'a> {
         self.groups.last().map_or(0, |group| group.rows.end)
     }
 
+    /// Where all photons carry their light at time `t`, 0..=1; otherwise as [`Self::positions_at`].
+    ///
+    /// # Errors
+    /// As [`Self::positions_at`].
+    ///
+    /// # Panics
+    /// As [`Self::positions_at`].
+    pub(super) fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+        for Group { from, to, rows, trajectories } in &mut self.groups {
+            let out = &mut out[rows.clone()];
+            match trajectories {
+                Some(trajectories) => trajectories.light_at(t, out, progress)?,
+                None => straight(&from.positions, &to.positions, t as f32, out),
+            }
+        }
+        Ok(())
+    }
+
     /// Positions of all photons at time `t`, 0..=1; ascending times cost one way through the fields in all.
     ///
     /// # Errors

@@ -45,6 +45,9 @@ pub struct FlowReport {
     pub wander: f64,
     /// Root mean square gap between the two ends of a photon where the key frames meet, plane units; 0 where they do not.
     pub gap: f64,
+    /// Share of the photons whose way to their partner at the meeting is blocked: they leave the flow for the shortest path
+    /// around the walls.
+    pub detours: f64,
     /// max |c(1) - b| in plane units.
     pub endpoint_error: f64,
     /// Wall crossings of photons that have a path around, over all steps.
@@ -78,6 +81,7 @@ impl FlowReport {
             field_share: a.field_share.min(b.field_share),
             wander: a.wander.max(b.wander),
             gap: a.gap.max(b.gap),
+            detours: a.detours.max(b.detours),
             endpoint_error: a.endpoint_error.max(b.endpoint_error),
             wall_crossings: a.wall_crossings + b.wall_crossings,
             unreachable: a.unreachable.max(b.unreachable),

@@ -60,7 +60,7 @@ impl Growing<'_> {
                 job.progress.begin("carry", slots.len() as u64);
                 for (&slot, &time) in slots.iter().zip(&input.times) {
                     let mut positions = vec![Vec2::ZERO; trajectories.len()];
-                    trajectories.positions_at(time, &mut positions, &job.progress.inner())?;
+                    trajectories.light_at(time, &mut positions, &job.progress.inner())?;
                     let positions = Arc::from(positions);
                     self.add(slot, &positions);
                     frames.push(positions);

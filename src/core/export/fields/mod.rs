@@ -130,7 +130,7 @@ fn write_guided<W: Write>(npz: &mut NpzWriter<W>, suffix: &str, fields: &Fields)
 }
 
 fn write_meeting<W: Write>(npz: &mut NpzWriter<W>, suffix: &str, fields: &MeetingFields) -> io::Result<()> {
-    npz.array(&format!("meeting_{suffix}"), &[2], [fields.steps() as f32, fields.mean_way()])
+    npz.array(&format!("meeting_{suffix}"), &[3], [fields.steps() as f32, fields.mean_way(), fields.hold()])
 }
 
 /// Writes noises of several times, one array for each grid.

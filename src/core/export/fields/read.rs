@@ -59,10 +59,11 @@ impl FieldsFile<'_> {
         let nodes = nodes.map(|(psi, phi)| Field::from_potentials(grid, psi, phi)).collect();
         let meeting = name("meeting");
         if self.npz.names().any(|own| own == meeting) {
-            let [steps, mean_way] = self.numbers(&meeting)?;
+            let [steps, mean_way, hold] = self.numbers(&meeting)?;
             let fields = MeetingFields::from_nodes(nodes, steps as usize, mean_way);
             let fields = fields.ok_or_else(|| self.wrong(&meeting, "asks for other fits than there are"))?;
-            return Ok(SegmentFlow::Meeting(fields.with_turbulence(self.turbulence(suffix)?)));
+            let fields = fields.with_hold(hold).with_turbulence(self.turbulence(suffix)?);
+            return Ok(SegmentFlow::Meeting(fields));
         }
         let steps = self.numbers(&name("steps"))?.map(|n| n as usize);
         let [mean_straight] = self.numbers(&name("mean_straight"))?;

@@ -77,6 +77,11 @@ impl Detours {
         Ok(Some(all))
     }
 
+    /// Photons that leave the flow.
+    pub(super) fn count(&self) -> usize {
+        self.detours.len()
+    }
+
     /// Photons that no path brings together: they go straight, through the walls.
     pub(super) fn violations(&self) -> WallViolations {
         self.violations

@@ -22,6 +22,7 @@ pub struct MeetingFields {
     planned: [Vec<(CellVelocities, f32)>; 2],
     steps: usize,
     mean_way: f32,
+    hold: f32,
     turbulence: Option<Turbulence>,
     obstacles: Option<Arc<Obstacles>>,
 }
@@ -39,6 +40,7 @@ impl MeetingFields {
             planned: Default::default(),
             steps,
             mean_way,
+            hold: 0.0,
             turbulence,
             obstacles,
         }
@@ -59,6 +61,17 @@ impl MeetingFields {
     #[must_use]
     pub fn with_turbulence(self, turbulence: Option<Turbulence>) -> Self {
         Self { turbulence, ..self }
+    }
+
+    /// The same fields of light whose pieces of about this size, plane units, hold together; 0 until set: no diffusion.
+    #[must_use]
+    pub fn with_hold(self, hold: f32) -> Self {
+        Self { hold, ..self }
+    }
+
+    /// Size of the pieces of light that hold together, plane units.
+    pub fn hold(&self) -> f32 {
+        self.hold
     }
 
     /// Appends the next field of a half, with the planned velocities where walls stand.

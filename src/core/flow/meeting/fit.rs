@@ -78,7 +78,7 @@ pub fn fit_meeting_with(
     let (obstacles, steps) = Obstacles::new(walls, (even, SUBSTEPS), extent, &progress.inner())?;
     let obstacles = obstacles.map(Arc::new);
     let turbulence = settings.turbulence.as_ref().and_then(|noise| Turbulence::new(noise, extent, number));
-    let fields = MeetingFields::new(steps, 0.0, turbulence, obstacles.clone());
+    let fields = MeetingFields::new(steps, 0.0, turbulence, obstacles.clone()).with_hold(settings.hold);
     let standing = obstacles.as_deref().map_or_else(Vec::new, standing);
     let fitter = MeetingFitter::new(segment, (fields, &standing), guides, refine)?;
     fitter.run(segment, progress)

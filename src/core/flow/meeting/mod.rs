@@ -7,6 +7,7 @@
 //! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]).
 
 mod detours;
+mod diffusion;
 mod fields;
 mod fit;
 mod leading_fit;

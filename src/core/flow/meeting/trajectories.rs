@@ -6,6 +6,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::detours::Detours;
+use super::diffusion::Diffusion;
 use super::fields::MeetingFields;
 use super::tracks::HalfTracks;
 use super::wall_motion::WallMotion;
@@ -29,6 +30,8 @@ pub struct MeetingTrajectories<'a> {
     halves: Option<[Cow<'a, HalfTracks>; 2]>,
     /// Known with the tracks; none where no wall stands.
     detours: Option<Option<Detours>>,
+    /// Made when it is first asked for.
+    diffusion: Option<Diffusion>,
 }
 
 impl<'a> MeetingTrajectories<'a> {
@@ -38,7 +41,7 @@ impl<'a> MeetingTrajectories<'a> {
     /// When the columns differ in length.
     pub fn new(fields: &'a MeetingFields, source: &'a [Vec2], targets: &'a [Vec2]) -> Self {
         assert_eq!(source.len(), targets.len(), "each photon has one target");
-        Self { fields, source, targets, halves: None, detours: None }
+        Self { fields, source, targets, halves: None, detours: None, diffusion: None }
     }
 
     /// As [`Self::new`], with known tracks from both key frames, row by row.
@@ -91,6 +94,12 @@ impl<'a> MeetingTrajectories<'a> {
             at.copy_from_slice(&next);
         }
         Ok(count)
+    }
+
+    /// Share of the photons that leave the flow for a path around walls; 0 before the tracks are known.
+    fn detours(&self) -> f64 {
+        let count: usize = self.detours.iter().flatten().map(Detours::count).sum();
+        count as f64 / self.source.len().max(1) as f64
     }
 
     /// Root mean square gap at the meeting, plane units; 0 before the tracks are known.
@@ -182,6 +191,16 @@ impl Trajectories for MeetingTrajectories<'_> {
         Ok(())
     }
 
+    fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+        self.positions_at(t, out, progress)?;
+        let Self { fields, source, targets, .. } = *self;
+        if let Some([forward, _]) = &self.halves {
+            let new = || Diffusion::new(fields.hold(), (source, targets), forward.end());
+            self.diffusion.get_or_insert_with(new).displace(fields, t, out);
+        }
+        Ok(())
+    }
+
     fn wall_violations(&self) -> WallViolations {
         self.detours.iter().flatten().map(Detours::violations).next().unwrap_or_default()
     }
@@ -249,5 +268,5 @@ pub fn meeting_report(
     let crossings = photons.crossings(progress)?;
     let violations = WallViolations { crossings, ..photons.wall_violations() };
     let report = observer.finish(&targets, fields.turbulence(), violations, fits.clone());
-    Ok(FlowReport { gap: photons.gap(), field_share: 1.0, ..report })
+    Ok(FlowReport { gap: photons.gap(), detours: photons.detours(), field_share: 1.0, ..report })
 }

@@ -24,6 +24,12 @@ impl Clearance {
         Self { cells, extent, distances }
     }
 
+    /// A distance within which no wall is, whatever lies between the centres of cells; 0 next to one.
+    pub(crate) fn at_least(&self, p: Vec2) -> f32 {
+        // Distances change by no more than the way: between two centres by half the diagonal.
+        (self.at(p) - std::f32::consts::FRAC_1_SQRT_2 * self.cells.side).max(0.0)
+    }
+
     /// The distance from `p` to the nearest wall, plane units; beyond the plane a lower bound.
     pub(crate) fn at(&self, p: Vec2) -> f32 {
         let within = p.clamp(Vec2::ZERO, self.extent);
