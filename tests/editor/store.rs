@@ -314,8 +314,7 @@ fn what_another_program_changes_is_told_once_and_what_this_one_saves_is_not() {
     let opened = waiting.open(&fixture);
     waiting.attach(&fixture.path());
     let project = with_seed(&opened.file, 2);
-    let save =
-        SaveRequest { path: fixture.path(), file: opened.file.clone(), project, origin: None, seen: None };
+    let save = SaveRequest { path: fixture.path(), file: opened.file, project, origin: None, seen: None };
     assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(..)));
     std::fs::write(fixture.path(), b"another's work").unwrap();
     waiting.woken.recv_timeout(PATIENCE).unwrap();

@@ -252,7 +252,7 @@ impl App {
         self.files.backups = backups;
         match hold {
             Hold::Here(notice) => {
-                self.editor.status = notice.unwrap_or_else(|| std::mem::take(&mut self.editor.status))
+                self.editor.status = notice.unwrap_or_else(|| std::mem::take(&mut self.editor.status));
             }
             Hold::Elsewhere(who) => {
                 let title = format!("'{}' is open in {who}", name(path));

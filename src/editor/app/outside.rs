@@ -138,9 +138,10 @@ impl App {
     }
 
     /// The project was collected, or not.
-    pub(super) fn collected(&mut self, result: Result<(PathBuf, Collection)>) {
+    pub(super) fn collected(&mut self, result: Result<Box<(PathBuf, Collection)>>) {
         match result {
-            Ok((path, collection)) => {
+            Ok(collected) => {
+                let (path, collection) = *collected;
                 let count = collection.copied.len();
                 let megabytes = collection.bytes as f64 / 1e6;
                 self.editor.status =

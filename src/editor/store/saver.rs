@@ -70,7 +70,7 @@ pub enum StoreReply {
     /// none, the request overwrites it.
     ChangedOnDisk(SaveRequest),
     /// A project was collected into this file, or why not.
-    Collected(Result<(PathBuf, Collection)>),
+    Collected(Result<Box<(PathBuf, Collection)>>),
     /// The file of the open document: whether it may be saved there, and its backups, newest first.
     Attached(PathBuf, Hold, Vec<Backup>),
     /// Another program changed the file of the open document; its new fingerprint.
@@ -183,7 +183,7 @@ impl Server {
                 Some(StoreReply::Opened(path, opened))
             }
             StoreRequest::Save(request) => Some(self.save(request)),
-            StoreRequest::Collect(request) => Some(StoreReply::Collected(collect(&request))),
+            StoreRequest::Collect(request) => Some(StoreReply::Collected(collect(&request).map(Box::new))),
             StoreRequest::Attach(None) => {
                 self.attached = None;
                 None

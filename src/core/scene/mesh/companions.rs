@@ -46,7 +46,7 @@ pub fn material_files(
                 }
                 Ok(_) => (),
                 Err(error) => {
-                    notes.push(format!("{written}: its material file '{name}' was not found: {error}"))
+                    notes.push(format!("{written}: its material file '{name}' was not found: {error}"));
                 }
             }
         }

@@ -156,8 +156,10 @@ impl Browser {
                     ui.weak("Recent");
                 }
                 for folder in self.recent.iter().take(7) {
-                    let name = folder.file_name().map_or_else(|| "/".into(), |name| name.to_string_lossy());
-                    let button = Button::new(name.as_ref()).frame(false).truncate().right_text("");
+                    let last: Vec<_> =
+                        folder.iter().rev().take(2).map(|part| part.to_string_lossy()).collect();
+                    let name = last.into_iter().rev().collect::<Vec<_>>().join("/");
+                    let button = Button::new(name).frame(false).truncate().right_text("");
                     if ui.add(button).on_hover_text(folder.to_string_lossy()).clicked() {
                         wanted = Some(folder.clone());
                     }
@@ -173,33 +175,39 @@ impl Browser {
             egui::Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4.0).corner_radius(4.0);
         frame.show(ui, |ui| {
             ui.set_width(LIST.x);
-            let area =
-                ScrollArea::vertical().auto_shrink(false).max_height(LIST.y).min_scrolled_height(LIST.y);
-            let Listing::Read(read) = &self.listing else {
-                area.show(ui, |ui| ui.weak("Reading…"));
-                return;
-            };
-            area.show(ui, |ui| {
-                if let Some(problem) = &read.problem {
-                    ui.colored_label(theme::BAD, problem);
-                }
-                ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
-                    for entry in &read.entries {
-                        let response =
-                            row(ui, entry, self.typed == entry.name, (&self.folder, &mut self.thumbnails));
-                        if response.clicked() && entry.is_file {
-                            chosen = Some((entry.name.clone(), false));
-                        } else if response.clicked() {
-                            wanted = Some(self.folder.join(&entry.name));
+            ui.vertical(|ui| {
+                let area =
+                    ScrollArea::vertical().auto_shrink(false).max_height(LIST.y).min_scrolled_height(LIST.y);
+                let Listing::Read(read) = &self.listing else {
+                    area.show(ui, |ui| ui.weak("Reading…"));
+                    return;
+                };
+                area.show(ui, |ui| {
+                    if let Some(problem) = &read.problem {
+                        ui.add(egui::Label::new(RichText::new(problem).color(theme::BAD)).wrap());
+                    }
+                    ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
+                        for entry in &read.entries {
+                            let response = row(
+                                ui,
+                                entry,
+                                self.typed == entry.name,
+                                (&self.folder, &mut self.thumbnails),
+                            );
+                            if response.clicked() && entry.is_file {
+                                chosen = Some((entry.name.clone(), false));
+                            } else if response.clicked() {
+                                wanted = Some(self.folder.join(&entry.name));
+                            }
+                            if response.double_clicked() && entry.is_file {
+                                chosen = Some((entry.name.clone(), true));
+                            }
                         }
-                        if response.double_clicked() && entry.is_file {
-                            chosen = Some((entry.name.clone(), true));
-                        }
+                    });
+                    if read.entries.is_empty() && read.problem.is_none() {
+                        ui.weak(format!("No folders or matching files here ({}).", self.purpose.files().0));
                     }
                 });
-                if read.entries.is_empty() && read.problem.is_none() {
-                    ui.weak(format!("No folders or matching files here ({}).", self.purpose.files().0));
-                }
             });
         });
         self.go(wanted);
