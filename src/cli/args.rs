@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lightloom_core::engine::Quality;
 use lightloom_core::export::{FrameFormat, FrameLayer};
-use lightloom_core::project::{Project, frames};
+use lightloom_core::project::{AssetFolder, Project, frames};
 use lightloom_core::{Error, Result};
 
 use super::progress::Manner;
+use crate::editor::store::{Folders, trusted};
 
 /// Paint where caustics shall flow, and export the animation. Without a command, the editor opens.
 #[derive(Parser)]
@@ -46,6 +47,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Make a project of a scene from another program: glTF (.glb, .gltf) with its lamps, cameras and glass, or OBJ.
     Import(ImportArgs),
+    /// Copy a project with all its files into one folder, to hand on or to render elsewhere.
+    Collect(CollectArgs),
     /// Measure what a project's settings buy and cost: a page with plots, tables and pictures.
     Report(ReportArgs),
     /// Print the JSON schema of project files.
@@ -221,6 +224,23 @@ pub(crate) struct CheckArgs {
     pub(crate) project: ProjectArgs,
 }
 
+#[derive(Args)]
+pub(crate) struct CollectArgs {
+    /// The project file.
+    #[arg(value_name = "PROJECT")]
+    pub(crate) path: PathBuf,
+    /// Folder for the project file, its meshes with their material files, pictures and points; made if it is not there. What
+    /// stands there is not overwritten.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) into: PathBuf,
+    /// Let the project read meshes and pictures from anywhere, not only from its own folder.
+    #[arg(long)]
+    pub(crate) allow_external: bool,
+    /// Print the result as JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
 /// The project, and what differs from it in this run.
 #[derive(Args)]
 pub(crate) struct ProjectArgs {
@@ -345,7 +365,17 @@ impl ProjectArgs {
     }
 }
 
+/// Finds the files of the project at `path`: in its folder, those that the user trusts, or anywhere.
+pub(crate) fn assets(path: &Path, allow_external: bool) -> Result<AssetFolder> {
+    Ok(AssetFolder::new(path, allow_external)?.admitting(trusted(Folders::of_user().as_ref())))
+}
+
 impl CommonArgs {
+    /// Finds the files of the project at `path`.
+    pub(crate) fn assets(&self, path: &Path) -> Result<AssetFolder> {
+        assets(path, self.allow_external)
+    }
+
     /// The project of a file at the quality and with the seed of this run.
     pub(crate) fn load(&self, path: &Path) -> Result<Project> {
         let quality = match self.quality {

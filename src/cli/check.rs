@@ -2,7 +2,6 @@
 
 use lightloom_core::Result;
 use lightloom_core::engine::Engine;
-use lightloom_core::project::AssetFolder;
 
 use super::args::CheckArgs;
 use super::progress::Lines;
@@ -10,7 +9,7 @@ use super::progress::Lines;
 pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     args.project.common.set_threads()?;
     let project = args.project.load()?;
-    let assets = AssetFolder::new(args.project.path()?, args.project.common.allow_external)?;
+    let assets = args.project.common.assets(args.project.path()?)?;
     let report = Engine::new(assets).check(&project)?;
     let shown = if args.project.common.json { report.to_json() } else { report.to_text() };
     Lines::Out.print(shown.trim_end())?;

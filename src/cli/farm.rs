@@ -5,11 +5,10 @@
 use std::path::{Path, PathBuf};
 
 use lightloom_core::engine::{Engine, prepare_folder, write_report};
-use lightloom_core::project::AssetFolder;
 use lightloom_core::{Error, Result};
 use serde_json::{Value, json};
 
-use super::args::{FarmArgs, FarmKind};
+use super::args::{self, FarmArgs, FarmKind};
 use super::progress::Lines;
 
 /// Least seconds of a task: starting one takes a second or two.
@@ -31,7 +30,7 @@ struct FarmJob {
 pub(super) fn run(args: &FarmArgs) -> Result<u8> {
     let (path, project) = (args.project.path()?, args.project.load()?);
     prepare_folder(&args.out, path, &project, "--out")?;
-    let assets = AssetFolder::new(path, args.project.common.allow_external)?;
+    let assets = args::assets(path, args.project.common.allow_external)?;
     let report = Engine::new(assets).check(&project)?;
     let frames = project.frames()?;
     let chunk = match args.chunk {

@@ -5,7 +5,7 @@ use std::path::Path;
 use lightloom_core::continuity::{Row, Table};
 use lightloom_core::engine::{Engine, SegmentContinuity};
 use lightloom_core::flow::MotionMethod;
-use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::project::Project;
 use lightloom_core::{Error, Progress, Result};
 
 use super::args::FiguresArgs;
@@ -36,7 +36,7 @@ pub(super) fn run(args: &FiguresArgs) -> Result<u8> {
 /// A project by all methods and values of gamma that were asked for.
 fn variants_of(path: &Path, args: &FiguresArgs) -> Result<Vec<Variant>> {
     let project = args.common.load(path)?;
-    let engine = Engine::new(AssetFolder::new(path, args.common.allow_external)?);
+    let engine = Engine::new(args.common.assets(path)?);
     let methods = match &args.method[..] {
         [] => vec![(project.method, String::new())],
         names => names

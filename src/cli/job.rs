@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lightloom_core::engine::{Comparison, Engine, Summary, prepare_folder, write_report};
 use lightloom_core::flow::MotionMethod;
-use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::project::Project;
 use lightloom_core::{Progress, Result};
 use lightloom_report::{Report, Stability};
 
@@ -90,7 +90,7 @@ pub(super) fn run<T: Outcome>(
 ) -> Result<T> {
     args.common.set_threads()?;
     let (path, project) = (args.path()?, args.load()?);
-    let assets = AssetFolder::new(path, args.common.allow_external)?;
+    let assets = args.common.assets(path)?;
     prepare_folder(out, path, &project, "--out")?;
     for folder in T::folders() {
         prepare_folder(&out.join(folder), path, &project, "--out")?;

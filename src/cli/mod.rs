@@ -2,6 +2,7 @@
 
 pub(crate) mod args;
 mod check;
+mod collect;
 mod compare;
 mod exit_code;
 mod farm;
@@ -45,6 +46,7 @@ pub fn main() -> ExitCode {
         Some(Command::Figures(args)) => figures::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Import(args)) => import::run(args),
+        Some(Command::Collect(args)) => collect::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Farm(args)) => farm::run(args),
         Some(Command::Verify(args)) => frames::verify(args),

@@ -36,6 +36,8 @@ pub enum Action {
     Probe(Option<usize>),
     /// Opens a project file.
     Open(PathBuf),
+    /// Opens a backup of the document's file.
+    OpenBackup(PathBuf),
     /// Plays the rendered frames of a folder, or those that a picture belongs to.
     PlayFrames(PathBuf),
     /// Starts a project from a template, by index.

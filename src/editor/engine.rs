@@ -5,7 +5,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lightloom_core::Result;
 use lightloom_core::engine::Engine;
-use lightloom_core::project::AssetFolder;
+use lightloom_core::project::Admitted;
+
+use super::access::Access;
 
 /// Documents whose engines are kept: the open one, and one that an export may still render.
 const KEPT: usize = 2;
@@ -19,23 +21,24 @@ pub struct SharedEngine {
 
 struct OfDocument {
     file: PathBuf,
-    external: bool,
+    admitted: Admitted,
     engine: Engine,
 }
 
 impl SharedEngine {
-    /// The engine that finds files beside the project file `file`; anywhere if `external`.
+    /// The engine that finds files beside the project file `file`; others where admitted.
     ///
     /// # Errors
     /// The folder of the project cannot be found.
-    pub fn of(&self, file: &Path, external: bool) -> Result<Engine> {
+    pub fn of(&self, file: &Path, access: &Access) -> Result<Engine> {
         let mut engines = self.engines.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = engines.iter().position(|known| known.file == file && known.external == external);
+        let known =
+            engines.iter().position(|known| known.file == file && known.admitted.is(access.admitted()));
         let known = match known {
             Some(known) => engines.remove(known),
             None => {
-                let engine = Engine::new(AssetFolder::new(file, external)?);
-                OfDocument { file: file.to_owned(), external, engine }
+                let engine = Engine::new(access.assets(file)?);
+                OfDocument { file: file.to_owned(), admitted: access.admitted().clone(), engine }
             }
         };
         let engine = known.engine.clone();

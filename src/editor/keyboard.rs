@@ -28,6 +28,19 @@ const REPEATED: [Command; 6] = [
     Command::ZoomOut,
 ];
 
+/// Commands that open something to type into: a dialog, the palette, a transform.
+const OPENERS: [Command; 9] = [
+    Command::Open,
+    Command::Import,
+    Command::SaveAs,
+    Command::Collect,
+    Command::New,
+    Command::Palette,
+    Command::MoveObject,
+    Command::TurnObject,
+    Command::ScaleObject,
+];
+
 /// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
 /// that the active tool has an unfinished gesture. Over the orbit view its keys win. A focused text field keeps all keys except shortcuts that have
 /// no meaning in text, and so does the palette before its field has the focus: `typing`.
@@ -53,15 +66,21 @@ pub fn pressed(
     actions.into_iter().take(count).collect()
 }
 
-/// Whether what follows is typed into something that the action opens: the palette, or a transform.
+/// Whether what follows in the same frame is typed into something that the action opens: a dialog, the palette, or a transform.
 fn takes_keys(action: &Action) -> bool {
-    use Command::{MoveObject, Palette, ScaleObject, TurnObject};
-    matches!(action, Action::Command(Palette | MoveObject | TurnObject | ScaleObject))
+    matches!(action, Action::Command(command) if OPENERS.contains(command))
+}
+
+/// Tells in each frame whether a dialog or a question of the program takes the keys.
+pub(super) fn set_covered(ctx: &Context, covered: bool) {
+    ctx.data_mut(|data| data.insert_temp(egui::Id::unique("covered"), covered));
 }
 
 /// Whether a dialog or a menu is open that receives the keys.
 pub(super) fn is_covered(ctx: &Context) -> bool {
-    egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
+    // A modal window counts from the frame after its first.
+    let told = ctx.data(|data| data.get_temp(egui::Id::unique("covered")).unwrap_or(false));
+    told || egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
 }
 
 /// The action of the space bar on release: held while the pointer drags, it pans the view instead.

@@ -1,6 +1,7 @@
 //! The menu bar: all commands, from one list.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
 
@@ -10,6 +11,7 @@ use super::document::Document;
 use super::look::commands;
 use super::session::{FieldMap, Session, ViewLayout};
 use super::shortcuts;
+use super::store::Backup;
 use super::templates::TEMPLATES;
 use crate::editor::context::EditorContext;
 
@@ -47,7 +49,7 @@ pub struct Recent {
 }
 
 /// Shows the menu bar and asks for the chosen command.
-pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
+pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent], kept: &[Backup]) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS {
             ui.menu_button(shortcuts::group(menu), |ui| {
@@ -59,7 +61,10 @@ pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
                     item(ui, editor, entry);
                     match entry.command {
                         Command::New => templates(ui, editor),
-                        Command::Open => recents(ui, editor, recent),
+                        Command::Open => {
+                            recents(ui, editor, recent);
+                            backups(ui, editor, kept);
+                        }
                         _ => (),
                     }
                 }
@@ -135,6 +140,31 @@ fn recents(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent]) {
         }
     };
     ui.add_enabled_ui(!recent.is_empty(), |ui| ui.menu_button("      Open recent", list));
+}
+
+/// The last versions of the document's file.
+fn backups(ui: &mut Ui, editor: &mut EditorContext, kept: &[Backup]) {
+    let list = |ui: &mut Ui| {
+        for Backup { path, replaced } in kept {
+            let age = ago(replaced.elapsed().unwrap_or_default());
+            if ui.button(format!("Replaced {age}")).on_hover_text(path.to_string_lossy()).clicked() {
+                editor.ask(Action::OpenBackup(path.clone()));
+                ui.close();
+            }
+        }
+    };
+    ui.add_enabled_ui(!kept.is_empty(), |ui| ui.menu_button("      Open backup", list));
+}
+
+/// A time that has passed, in words.
+pub fn ago(age: Duration) -> String {
+    match age.as_secs() / 60 {
+        0 => "less than a minute ago".to_owned(),
+        1 => "a minute ago".to_owned(),
+        minutes @ 2..120 => format!("{minutes} minutes ago"),
+        minutes @ 120..2880 => format!("{} hours ago", minutes / 60),
+        minutes => format!("{} days ago", minutes / 1440),
+    }
 }
 
 /// The state of a toggle command; none for other commands.

@@ -1,6 +1,7 @@
 //! The editor: draw, tune, scrub, compare, export, save. It shows and edits a project and calls the core;
 //! no algorithm of light lives here.
 
+pub mod access;
 pub mod action;
 mod app;
 pub mod asset;
@@ -21,7 +22,6 @@ pub mod playback;
 pub mod player;
 pub mod preferences;
 pub mod preview;
-mod relative_path;
 mod reset_label;
 pub mod selection;
 pub mod session;

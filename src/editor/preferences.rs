@@ -19,9 +19,9 @@ const RENDERERS: [(PhotonRenderer, &str, &str); 3] = [
 /// Step of the interface scale.
 const STEP: f32 = 0.1;
 
-/// Shows the window if it is open; returns whether something changed. Changes apply at once.
-pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bool {
-    let before = preferences.clone();
+/// Shows the window if it is open. Changes apply at once. Returns whether the files that are trusted, so many, shall be forgotten.
+pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trusted: usize) -> bool {
+    let mut forgets = false;
     let window = egui::Window::new("Preferences").open(open).collapsible(false).resizable(false);
     window.default_pos(ctx.content_rect().center() - egui::vec2(210.0, 160.0)).show(ctx, |ui| {
         ui.set_width(400.0);
@@ -81,9 +81,12 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences) -> bo
             if ui.button("Clear recent files").clicked() {
                 preferences.recent.clear();
             }
+            let tip = "Files outside of their projects' folders that you trusted for good.";
+            let forget = egui::Button::new(format!("Forget {trusted} trusted files"));
+            forgets = ui.add_enabled(trusted > 0, forget).on_hover_text(tip).clicked();
         });
     });
-    *preferences != before
+    forgets
 }
 
 /// Applies theme and interface scale to a context.

@@ -86,7 +86,11 @@ impl EditorState {
             },
             Action::Command(command) if !self.command(command) => return Some(action),
             Action::Command(_) => (),
-            Action::Open(_) | Action::PlayFrames(_) | Action::New(_) | Action::PickFile(_) => {
+            Action::Open(_)
+            | Action::OpenBackup(_)
+            | Action::PlayFrames(_)
+            | Action::New(_)
+            | Action::PickFile(_) => {
                 return Some(action);
             }
         }

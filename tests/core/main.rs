@@ -8,6 +8,7 @@ mod background;
 mod camera;
 mod cases;
 mod caustics;
+mod collect;
 mod constraints;
 mod continuity;
 mod crossing;

@@ -413,3 +413,85 @@ proptest! {
         let _ = ProjectFile::parse(&text, Path::new("shot.json"));
     }
 }
+
+#[test]
+fn a_file_of_version_1_and_one_of_a_later_program_that_says_so_are_read() {
+    let (first, notes) = read(include_str!("cases/version_1.json"));
+    assert!(notes.is_empty() && first.project().newer().is_none());
+
+    // What a later program wrote for readers of version 1 is read by both ways, and all of it is written again.
+    let later = STRANGE.replacen("\"lightloom\": 1,", "\"lightloom\": 3, \"minimum_reader\": 1,", 1);
+    let project = Project::parse(later.as_bytes(), Path::new("shot.json")).unwrap();
+    assert_eq!(project.newer(), Some(3));
+    let (file, notes) = read(&later);
+    assert_eq!((file.project(), notes.len()), (&project, strangers_of(STRANGE).len()));
+    let written = after(&later, |project| project.flow.gamma = 0.75);
+    assert_eq!(strangers_of(&written), strangers_of(STRANGE));
+    assert!(written.contains("\"lightloom\": 3") && written.contains("\"minimum_reader\": 1"), "{written}");
+
+    for text in [
+        later.replace("\"minimum_reader\": 1", "\"minimum_reader\": 2"),
+        later.replace(", \"minimum_reader\": 1", ""),
+    ] {
+        for message in [
+            Project::parse(text.as_bytes(), Path::new("shot.json")).unwrap_err().to_string(),
+            ProjectFile::parse(text.as_bytes(), Path::new("shot.json")).unwrap_err().to_string(),
+        ] {
+            assert!(message.contains("version 3") && message.contains("newer"), "{message}");
+        }
+    }
+}
+
+/// A number beyond all ranges, in place of each number of a project with every kind of object: it is refused, or kept finite.
+#[test]
+fn no_number_of_a_file_becomes_one_that_is_not_finite() {
+    fn numbers(value: &mut Value, at: &mut usize, change: usize) {
+        match value {
+            Value::Number(_) => {
+                if *at == change {
+                    *value = serde_json::json!(1e300);
+                }
+                *at += 1;
+            }
+            Value::Array(items) => items.iter_mut().for_each(|item| numbers(item, at, change)),
+            Value::Object(members) => members.values_mut().for_each(|member| numbers(member, at, change)),
+            _ => (),
+        }
+    }
+    let (file, _) = read(STRANGE);
+    let full = serde_json::to_value(file.project()).unwrap();
+    let mut count = 0;
+    numbers(&mut full.clone(), &mut count, usize::MAX);
+    assert!(count > 100, "{count}");
+    for change in 0..count {
+        let mut changed = full.clone();
+        numbers(&mut changed, &mut 0, change);
+        let text = changed.to_string();
+        if let Ok((file, _)) = ProjectFile::parse(text.as_bytes(), Path::new("shot.json")) {
+            // What is not finite is null in JSON, and would not come back.
+            let written = file.text_of(&Project { seed: 7, ..file.project().clone() }).unwrap();
+            let again = read(&written).0.project().clone();
+            assert_eq!(Project { seed: 7, ..file.project().clone() }, again, "{text}");
+        }
+    }
+}
+
+/// A writer that fails at any byte leaves the old file, and nothing else.
+#[test]
+fn a_save_that_fails_at_any_byte_leaves_the_old_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shot.json");
+    let text = std::fs::read_to_string(crate::root().join("projects/letters.json")).unwrap();
+    std::fs::write(&path, "the old file").unwrap();
+    for most in 0..text.len() {
+        let failed = lightloom_core::files::write_atomic(&path, |file| {
+            use std::io::Write as _;
+            file.write_all(&text.as_bytes()[..most])?;
+            file.flush()?;
+            Err(std::io::Error::other("disk full"))
+        });
+        assert!(failed.is_err());
+    }
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "the old file");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no temporary file is left");
+}

@@ -9,6 +9,7 @@ use crate::window::Editor;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use lightloom::editor::access::Access;
 use lightloom::editor::dialogs::{Picker, Scripted};
 use lightloom::editor::document::Document;
 use lightloom::editor::engine::SharedEngine;
@@ -56,7 +57,7 @@ impl Place {
         ExportSettings {
             project: Arc::new(Project::load(&self.file()).unwrap()),
             file: self.file(),
-            external: false,
+            access: Access::default(),
             folder: self.path("frames"),
             film: None,
             limit: None,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{Vec2, vec2};
+use lightloom::editor::access::Access;
 use lightloom::editor::engine::SharedEngine;
 use lightloom::editor::preview::{FlowPicture, LivePreview, Subject, Wanted};
 use lightloom::editor::session::{FieldMap, Session};
@@ -41,7 +42,7 @@ fn disc(matching: &str, gamma: f32) -> (TempDir, Subject) {
     );
     let project: Project = serde_json::from_str(&text).unwrap();
     let base = folder.path().join("project.json");
-    (folder, Subject { project: Arc::new(project), base, external: false })
+    (folder, Subject { project: Arc::new(project), base, access: Access::default() })
 }
 
 /// What is seen once the workers are done.

@@ -7,6 +7,7 @@ mod crash;
 mod dialogs;
 mod document;
 mod export_window;
+mod files;
 mod flow_view;
 mod import;
 mod palette;

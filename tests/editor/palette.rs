@@ -102,7 +102,7 @@ fn every_command_is_in_its_menu_and_can_be_called_there() {
         let recent = recent.clone();
         let mut harness = harness(busy_editor(), move |ui, editor: &mut Editor| {
             let ctx = ui.ctx().clone();
-            editor.frame(&ctx, |editor| menu::show(ui, editor, &recent));
+            editor.frame(&ctx, |editor| menu::show(ui, editor, &recent, &[]));
         });
         harness.get_by_role_and_label(Role::Button, shortcuts::group(*menu)).click();
         harness.run_ok();

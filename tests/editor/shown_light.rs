@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use lightloom::editor::access::Access;
 use lightloom::editor::action::Action;
 use lightloom::editor::command::Command;
 use lightloom::editor::document::{Document, Edit};
@@ -106,7 +107,7 @@ fn check(editor: &mut EditorState, folder: &Path) {
     let subject = Subject {
         project: editor.document.project().clone(),
         base: folder.join("project.json"),
-        external: false,
+        access: Access::default(),
     };
     let wanted = Wanted { plane: Plane::Picture(64), ..Wanted::default() };
     editor.preview.follow(&subject, &editor.session, &wanted);

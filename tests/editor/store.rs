@@ -6,10 +6,11 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use lightloom::editor::store::{
-    Fingerprint, Folders, Journal, Note, Opened, Preferences, SaveRequest, Saver, StoreReply, StoreRequest,
-    recoverable,
+    Fingerprint, Folders, Hold, Journal, Note, Opened, Origin, Preferences, SaveRequest, Saver, StoreReply,
+    StoreRequest, recoverable, trusted,
 };
-use lightloom_core::project::{Project, ProjectFile};
+use lightloom_core::project::{Admitted, AssetFolder, Project, ProjectFile, Shows, relative};
+use lightloom_core::targets::ImageTarget;
 
 /// Only a store that hangs takes so long.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -79,6 +80,11 @@ impl Waiting {
         self.saver.ask(request);
         self.woken.recv_timeout(PATIENCE).unwrap();
         self.saver.answer().unwrap()
+    }
+
+    fn attach(&self, path: &Path) -> StoreReply {
+        let seen = Fingerprint::of(&std::fs::read(path).unwrap());
+        self.ask(StoreRequest::Attach(Some((path.to_owned(), seen))))
     }
 
     fn open(&self, fixture: &Fixture) -> Opened {
@@ -231,7 +237,13 @@ fn opening_and_saving_gives_the_same_bytes_and_no_backup() {
     let waiting = Waiting::new(&fixture);
     let opened = waiting.open(&fixture);
     let project = Arc::new(opened.file.project().clone());
-    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let save = SaveRequest {
+        path: fixture.path(),
+        file: opened.file,
+        project,
+        origin: None,
+        seen: Some(opened.seen),
+    };
     assert!(
         matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(saved)) if saved.seen == opened.seen)
     );
@@ -240,27 +252,119 @@ fn opening_and_saving_gives_the_same_bytes_and_no_backup() {
 }
 
 #[test]
-fn the_last_version_is_kept_aside() {
+fn the_last_three_versions_are_kept_aside() {
     let fixture = Fixture::new();
-    let first = std::fs::read(fixture.path()).unwrap();
     let waiting = Waiting::new(&fixture);
     let opened = waiting.open(&fixture);
     let mut seen = Some(opened.seen);
-    let mut versions = vec![first];
-    for seed in [2, 3] {
+    let mut versions = vec![std::fs::read(fixture.path()).unwrap()];
+    for seed in 2..7 {
         let project = with_seed(&opened.file, seed);
-        let save = SaveRequest { path: fixture.path(), file: opened.file.clone(), project, seen };
+        let save =
+            SaveRequest { path: fixture.path(), file: opened.file.clone(), project, origin: None, seen };
         let StoreReply::Saved(_, Ok(saved)) = waiting.ask(StoreRequest::Save(save)) else {
             panic!("not saved")
         };
         assert_eq!(saved.note, None);
         seen = Some(saved.seen);
-        let backups: Vec<_> = std::fs::read_dir(fixture.folders().backups()).unwrap().collect();
-        let [Ok(backup)] = &backups[..] else { panic!("{backups:?}") };
-        assert!(backup.file_name().to_str().unwrap().starts_with("shot.json."));
-        assert_eq!(std::fs::read(backup.path()).unwrap(), *versions.last().unwrap());
+        let StoreReply::Attached(_, Hold::Here(None), backups) = waiting.attach(&fixture.path()) else {
+            panic!("not held")
+        };
+        let kept: Vec<_> = backups.iter().map(|backup| std::fs::read(&backup.path).unwrap()).collect();
+        let wanted: Vec<_> = versions.iter().rev().take(3).cloned().collect();
+        assert_eq!(kept, wanted);
         versions.push(std::fs::read(fixture.path()).unwrap());
     }
+}
+
+#[test]
+fn a_second_editor_neither_holds_nor_overwrites_the_file() {
+    let fixture = Fixture::new();
+    let (first, second) = (Waiting::new(&fixture), Waiting::new(&fixture));
+    let opened = first.open(&fixture);
+    assert!(matches!(first.attach(&fixture.path()), StoreReply::Attached(_, Hold::Here(None), _)));
+    let StoreReply::Attached(_, Hold::Elsewhere(who), _) = second.attach(&fixture.path()) else {
+        panic!("held twice")
+    };
+    assert!(who.contains(&std::process::id().to_string()), "{who}");
+    let save = || SaveRequest {
+        path: fixture.path(),
+        file: opened.file.clone(),
+        project: with_seed(&opened.file, 2),
+        origin: None,
+        seen: None,
+    };
+    let StoreReply::Saved(_, Err(error)) = second.ask(StoreRequest::Save(save())) else {
+        panic!("overwritten")
+    };
+    assert!(error.to_string().contains("another name"), "{error}");
+    assert!(matches!(first.ask(StoreRequest::Save(save())), StoreReply::Saved(_, Ok(_))));
+    drop(first);
+    assert!(matches!(second.attach(&fixture.path()), StoreReply::Attached(_, Hold::Here(None), _)));
+    drop(second);
+    let left: Vec<_> =
+        std::fs::read_dir(fixture.folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".lock")), "{left:?}");
+}
+
+#[test]
+fn what_another_program_changes_is_told_once_and_what_this_one_saves_is_not() {
+    let fixture = Fixture::new();
+    let waiting = Waiting::new(&fixture);
+    let opened = waiting.open(&fixture);
+    waiting.attach(&fixture.path());
+    let project = with_seed(&opened.file, 2);
+    let save = SaveRequest { path: fixture.path(), file: opened.file, project, origin: None, seen: None };
+    assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(..)));
+    std::fs::write(fixture.path(), b"another's work").unwrap();
+    waiting.woken.recv_timeout(PATIENCE).unwrap();
+    let Some(StoreReply::ChangedMeanwhile(path, seen)) = waiting.saver.answer() else { panic!("not told") };
+    assert_eq!((path, seen), (fixture.path(), Fingerprint::of(b"another's work")));
+    assert!(waiting.saver.answer().is_none());
+}
+
+#[test]
+fn files_from_elsewhere_are_copied_beside_the_project_or_trusted_for_good() {
+    let fixture = Fixture::new();
+    let far = tempfile::tempdir().unwrap();
+    let at = |name: &str| far.path().canonicalize().unwrap().join(name);
+    for name in ["picked.png", "trusted.png", "refused.png"] {
+        std::fs::write(at(name), name).unwrap();
+    }
+    let waiting = Waiting::new(&fixture);
+    let file = fixture.file();
+    let mut project = file.project().clone();
+    let name = |name: &str| relative(&at(name), &fixture.path());
+    project.keys[0].shows = Shows::Image(ImageTarget::new(name("picked.png")));
+    project.keys[1].shows = Shows::Image(ImageTarget::new(name("trusted.png")));
+    let project = Arc::new(project);
+    waiting.saver.ask(StoreRequest::Trust(vec![at("trusted.png")]));
+    let origin =
+        |admitted| Origin { file: fixture.path(), admitted, trusted: trusted(Some(&fixture.folders())) };
+    let find = StoreRequest::FindOutside(project.clone(), origin(Admitted::default()));
+    let StoreReply::Outside(_, outside) = waiting.ask(find) else { panic!("no answer") };
+    assert_eq!(outside, [at("picked.png"), at("trusted.png")]);
+    assert_eq!(trusted(Some(&fixture.folders())).files(), [at("trusted.png")]);
+
+    let admitted = Admitted::new([at("picked.png"), at("trusted.png")]);
+    let save =
+        SaveRequest { path: fixture.path(), file, project, origin: Some(origin(admitted)), seen: None };
+    let StoreReply::Saved(_, Ok(saved)) = waiting.ask(StoreRequest::Save(save)) else { panic!("not saved") };
+    assert_eq!(saved.copied, 1);
+    let read = Project::load(&fixture.path()).unwrap();
+    assert_eq!(read, *saved.project);
+    assert_eq!(read.files(), ["assets/picked.png", &*name("trusted.png")]);
+    assert_eq!(std::fs::read(fixture.folder.path().join("assets/picked.png")).unwrap(), b"picked.png");
+    // What reads the trust list finds both.
+    let assets =
+        AssetFolder::new(&fixture.path(), false).unwrap().admitting(trusted(Some(&fixture.folders())));
+    for file in read.files() {
+        assets.resolve(file, "file").unwrap();
+    }
+    assert!(assets.resolve(&name("refused.png"), "file").is_err());
+    waiting.saver.ask(StoreRequest::ForgetTrusted);
+    drop(waiting);
+    assert!(trusted(Some(&fixture.folders())).files().is_empty());
 }
 
 #[test]
@@ -270,7 +374,13 @@ fn a_file_that_another_program_changed_is_replaced_only_when_asked() {
     let opened = waiting.open(&fixture);
     std::fs::write(fixture.path(), b"somebody else's work").unwrap();
     let project = with_seed(&opened.file, 2);
-    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let save = SaveRequest {
+        path: fixture.path(),
+        file: opened.file,
+        project,
+        origin: None,
+        seen: Some(opened.seen),
+    };
     let StoreReply::ChangedOnDisk(save) = waiting.ask(StoreRequest::Save(save)) else {
         panic!("not noticed")
     };
@@ -289,7 +399,13 @@ fn a_file_that_was_deleted_is_no_changed_one() {
     let opened = waiting.open(&fixture);
     std::fs::remove_file(fixture.path()).unwrap();
     let project = with_seed(&opened.file, 3);
-    let save = SaveRequest { path: fixture.path(), file: opened.file, project, seen: Some(opened.seen) };
+    let save = SaveRequest {
+        path: fixture.path(),
+        file: opened.file,
+        project,
+        origin: None,
+        seen: Some(opened.seen),
+    };
     assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert_eq!(fixture.file().project().seed, 3);
 }
@@ -306,7 +422,7 @@ fn what_cannot_be_opened_or_saved_is_an_answer_and_changes_nothing() {
     bad.flow.gamma = 7.0;
     let save = |path: PathBuf, project: Project| {
         let (file, project) = (opened.file.clone(), Arc::new(project));
-        match waiting.ask(StoreRequest::Save(SaveRequest { path, file, project, seen: None })) {
+        match waiting.ask(StoreRequest::Save(SaveRequest { path, file, project, origin: None, seen: None })) {
             StoreReply::Saved(_, Err(error)) => error.to_string(),
             other => panic!("{other:?}"),
         }
@@ -331,7 +447,8 @@ fn saving_through_a_link_writes_the_file_behind_it() {
     let waiting = Waiting::new(&fixture);
     let opened = waiting.open(&fixture);
     let project = with_seed(&opened.file, 2);
-    let save = SaveRequest { path: link.clone(), file: opened.file, project, seen: Some(opened.seen) };
+    let save =
+        SaveRequest { path: link.clone(), file: opened.file, project, origin: None, seen: Some(opened.seen) };
     assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert!(link.is_symlink());
     assert_eq!(fixture.file().project().seed, 2);
@@ -343,7 +460,13 @@ fn what_was_asked_for_is_done_before_the_saver_goes() {
     let waiting = Waiting::new(&fixture);
     let file = fixture.file();
     let project = with_seed(&file, 2);
-    waiting.saver.ask(StoreRequest::Save(SaveRequest { path: fixture.path(), file, project, seen: None }));
+    waiting.saver.ask(StoreRequest::Save(SaveRequest {
+        path: fixture.path(),
+        file,
+        project,
+        origin: None,
+        seen: None,
+    }));
     let mut preferences = Preferences::default();
     preferences.add_recent(&fixture.path());
     waiting.saver.ask(StoreRequest::Remember(Box::new(preferences.clone())));

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 mod cli;
+mod collect;
 mod compare;
 #[path = "../letters/mod.rs"]
 mod letters;

@@ -1,10 +1,13 @@
 //! File access: bounded reads of regular files, atomic writes; array files ([`npy`], [`npz`]).
 
+mod copy;
 pub mod npy;
 pub mod npz;
 mod space;
 
+pub(crate) use copy::{copy_new, is_same_content};
 pub use space::{free_bytes, reserve};
+
 use std::fs::File;
 use std::io::{self, BufWriter, Read as _, Write as _};
 use std::path::Path;

@@ -44,6 +44,7 @@ pub fn empty_project() -> Project {
     Project {
         schema: None,
         lightloom: VERSION,
+        minimum_reader: None,
         name: String::new(),
         seed: Project::SEED.value(),
         scene: Some(scene),

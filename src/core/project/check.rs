@@ -19,9 +19,13 @@ impl Project {
     /// # Errors
     /// The first invalid value, by its path in the project.
     pub fn check(&self) -> Result<()> {
-        if self.lightloom != VERSION {
-            let what =
-                format!("this program reads version {VERSION}, the file is of version {}", self.lightloom);
+        let reader = self.minimum_reader.unwrap_or(self.lightloom);
+        if self.lightloom < VERSION || reader > VERSION {
+            let what = format!(
+                "the file is of version {} and needs a program that reads version {reader}, this one reads up to \
+                 {VERSION}; use a newer Lightloom",
+                self.lightloom
+            );
             return Err(Error::value("lightloom", what));
         }
         Self::SEED.check_at(self.seed, || "seed".to_owned())?;

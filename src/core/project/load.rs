@@ -29,13 +29,12 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     let text = text(bytes, path)?;
     let mut json = serde_json::Deserializer::from_str(text);
     let read: Result<Project, _> = serde_path_to_error::deserialize(&mut json);
+    if let (Err(_), Some(newer)) = (&read, Newer::of(text)) {
+        newer.check(path)?;
+        // It says itself that the rest is enough.
+        return known_part(text, path).map(|(project, _)| project);
+    }
     let project = read.map_err(|error| {
-        if let Some(newer) = newer_version(text) {
-            let what = format!(
-                "the file is of version {newer}, this program reads up to {VERSION}; use a newer Lightloom"
-            );
-            return Error::format(path, "lightloom", what);
-        }
         let field = error.path().to_string();
         let inner = error.into_inner();
         let place = place(&inner, &field);
@@ -51,14 +50,20 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
 /// As [`parse`], but unknown fields are skipped; their paths are returned with the project.
 pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Vec<String>)> {
     let strict = match parse(bytes, path) {
+        Ok(project) if project.newer().is_some() => return known_part(text(bytes, path)?, path),
         Ok(project) => return Ok((project, Vec::new())),
         Err(error) => error,
     };
-    let text = text(bytes, path)?;
-    let Some((known, unknown)) = unknown::strip(text, &Project::json_schema()) else { return Err(strict) };
-    if unknown.is_empty() || newer_version(text).is_some() {
-        return Err(strict);
+    match known_part(text(bytes, path)?, path) {
+        Ok((_, unknown)) if unknown.is_empty() => Err(strict),
+        known => known,
     }
+}
+
+/// The project without unknown fields, and the paths of those.
+fn known_part(text: &str, path: &Path) -> Result<(Project, Vec<String>)> {
+    let (known, unknown) =
+        unknown::strip(text, &Project::json_schema()).unwrap_or_else(|| (text.to_owned(), Vec::new()));
     let read: Result<Project, _> =
         serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(&known));
     let project = read.map_err(|error| {
@@ -70,10 +75,30 @@ pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Ve
     Ok((project, unknown))
 }
 
-/// The version of a file that a later program wrote.
-fn newer_version(text: &str) -> Option<u64> {
-    let file: serde_json::Value = serde_json::from_str(text).ok()?;
-    file.get("lightloom")?.as_u64().filter(|version| *version > VERSION.into())
+/// What a file that a later program wrote says of its version.
+#[derive(serde::Deserialize)]
+struct Newer {
+    lightloom: u64,
+    minimum_reader: Option<u64>,
+}
+
+impl Newer {
+    fn of(text: &str) -> Option<Self> {
+        serde_json::from_str::<Self>(text).ok().filter(|newer| newer.lightloom > VERSION.into())
+    }
+
+    fn check(&self, path: &Path) -> Result<()> {
+        let reader = self.minimum_reader.unwrap_or(self.lightloom);
+        if reader <= VERSION.into() {
+            return Ok(());
+        }
+        let what = format!(
+            "the file is of version {} and needs a program that reads version {reader}, this one reads up to {VERSION}; use a \
+             newer Lightloom",
+            self.lightloom
+        );
+        Err(Error::format(path, "lightloom", what))
+    }
 }
 
 /// The bytes as UTF-8 text without byte order mark.

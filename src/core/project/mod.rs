@@ -11,11 +11,13 @@
 mod asset_path;
 mod caustic;
 mod check;
+mod collect;
 mod file;
 pub mod frames;
 mod keyframe;
 mod load;
 mod output;
+mod relative_path;
 mod schema_docs;
 mod settings;
 mod shows;
@@ -27,12 +29,14 @@ use glam::Vec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use asset_path::AssetFolder;
+pub use asset_path::{Admitted, AssetFolder};
 pub(crate) use caustic::unknown_name;
 pub use caustic::{CausticDesc, CausticKey};
+pub use collect::{Collect, Collection, Missing, collect_into};
 pub use file::ProjectFile;
 pub use keyframe::{Ease, KeyFrame, SegmentTime, segment_time};
 pub use output::OutputSettings;
+pub use relative_path::{moved, relative};
 pub use settings::settings;
 pub use shows::Shows;
 
@@ -58,6 +62,10 @@ pub struct Project {
     pub schema: Option<String>,
     /// Version of the format: 1.
     pub lightloom: u32,
+    /// The oldest version of the format whose programs read this file right, although they do not know all of it. Default: its
+    /// own version.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minimum_reader: Option<u32>,
     /// The project's name.
     #[serde(default)]
     pub name: String,
@@ -173,6 +181,11 @@ impl Project {
         // Pairs that are given cannot be made at a meeting: such photons are guided, whichever of the two is named.
         let unable = [MotionMethod::Guided, MotionMethod::Stylized];
         MotionMethod::ALL.into_iter().filter(move |method| !given || !unable.contains(method))
+    }
+
+    /// The version of a file that a newer program wrote, and this one reads: what it does not know of it is not used.
+    pub fn newer(&self) -> Option<u32> {
+        Some(self.lightloom).filter(|version| *version > VERSION)
     }
 
     /// The paths of all files of the project, as written.

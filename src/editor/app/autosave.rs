@@ -22,9 +22,10 @@ impl App {
             }
         }
         let title = format!(
-            "{}{} – Lightloom",
+            "{}{}{} – Lightloom",
             if self.editor.document.is_unsaved() { "● " } else { "" },
-            self.editor.document.title()
+            self.editor.document.title(),
+            if self.editor.document.read_only().is_some() { " (read-only)" } else { "" }
         );
         if self.files.title != title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));

@@ -4,15 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui;
-use lightloom_core::scene::mesh;
+use lightloom_core::project::{Project, ProjectFile, moved};
 
 use super::App;
-use super::file_state::{Leave, PendingQuestion};
-use crate::editor::asset::{AssetUse, TargetSlot};
+use super::file_state::{Leave, Opening, PendingQuestion};
 use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
 use crate::editor::document::Document;
-use crate::editor::relative_path;
-use crate::editor::store::{Fingerprint, Journal, Recovery, SaveRequest, Saver, StoreReply, StoreRequest};
+use crate::editor::menu::ago;
+use crate::editor::store::{
+    Backup, Fingerprint, Hold, Journal, Origin, Recovery, SaveRequest, Saved, Saver, StoreReply, StoreRequest,
+};
 use crate::editor::templates::{self, TEMPLATES};
 
 impl App {
@@ -28,6 +29,8 @@ impl App {
             if let Some(answer) = question.show(ctx) {
                 self.decided(ctx, answer);
             }
+        } else if !self.files.waiting.is_empty() {
+            self.files.question = Some(self.files.waiting.remove(0));
         } else if let Some(recovery) = self.files.lost.pop() {
             self.offer(recovery);
         } else if let Some(export) = self.interrupted.pop() {
@@ -37,6 +40,9 @@ impl App {
             self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }
         self.imported(ctx);
+        if std::mem::take(&mut self.files.asks_outside) {
+            self.find_outside();
+        }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         for file in dropped {
             self.dropped(ctx, file.path().to_owned());
@@ -50,28 +56,30 @@ impl App {
     fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {
         match answer {
             StoreReply::Opened(path, Ok(opened)) => {
-                let template = self.files.template.take().is_some_and(|template| template == path);
-                let document =
-                    Document::opened(opened.file, (!template).then_some((path.clone(), opened.seen)));
-                self.replace(document);
-                if !template {
-                    self.preferences.add_recent(&path);
+                let opening =
+                    self.files.opening.take().filter(|(of, _)| *of == path).map(|(_, opening)| opening);
+                let at = match &opening {
+                    None => Some((path.clone(), opened.seen)),
+                    Some(Opening::Backup(of, seen)) => Some((of.clone(), *seen)),
+                    Some(Opening::Template) => None,
+                };
+                let mut document = Document::opened(opened.file, at);
+                match opening {
+                    None => self.preferences.add_recent(&path),
+                    Some(Opening::Backup(..)) => document.mark_unsaved(),
+                    Some(Opening::Template) => (),
                 }
+                self.replace(document);
                 if !opened.notes.is_empty() {
                     self.editor.status = opened.notes.join("; ");
                 }
             }
             StoreReply::Opened(path, Err(error)) => {
-                self.files.template = None;
+                self.files.opening = None;
                 self.show_message(format!("'{}' cannot be opened", name(&path)), error.to_string());
             }
             StoreReply::Saved(save, Ok(saved)) => {
-                self.place(&save.path);
-                self.editor.document.mark_saved(save.project, save.path.clone(), saved.seen);
-                let subject = self.subject();
-                self.editor.preview.relocated(&subject);
-                self.preferences.add_recent(&save.path);
-                self.editor.status = saved.note.unwrap_or_else(|| format!("Saved '{}'", name(&save.path)));
+                self.saved(&save, saved);
                 if let Some(leave) = self.files.after_save.take() {
                     self.leave(ctx, leave);
                 }
@@ -82,8 +90,13 @@ impl App {
             }
             StoreReply::ChangedOnDisk(save) => {
                 let question = Question::Changed { title: name(&save.path), unsaved: true };
-                self.files.question = Some((question, PendingQuestion::Changed(Box::new(save))));
+                self.files.ask(question, PendingQuestion::Changed(Box::new(save)));
             }
+            StoreReply::Attached(path, hold, backups) => self.attached(&path, hold, backups),
+            StoreReply::ChangedMeanwhile(path, seen) => self.changed_meanwhile(path, seen),
+            StoreReply::Collected(result) => self.collected(result),
+            StoreReply::Outside(_, files) => self.ask_outside(files),
+            StoreReply::Located(path, outside) => self.located(&path, outside),
             StoreReply::Lost(lost) => self.files.lost = lost,
             StoreReply::Failed(why) => self.editor.status = why,
         }
@@ -104,6 +117,14 @@ impl App {
             (PendingQuestion::Changed(save), dialogs::Answer::Yes) => {
                 self.request(StoreRequest::Open(save.path));
             }
+            (PendingQuestion::ChangedMeanwhile(path, _), dialogs::Answer::Yes) => {
+                self.request(StoreRequest::Open(path));
+            }
+            (PendingQuestion::ChangedMeanwhile(_, seen), dialogs::Answer::No) => {
+                self.editor.document.keep_over(seen);
+            }
+            (PendingQuestion::Pick(path, pick), answer) => self.decide_pick(&pick, &path, answer),
+            (PendingQuestion::Outside(files), answer) => self.decide_outside(files, answer),
             (PendingQuestion::Changed(save), dialogs::Answer::No) => {
                 self.request(StoreRequest::Save(SaveRequest { seen: None, ..*save }));
             }
@@ -132,22 +153,17 @@ impl App {
     }
 
     fn offer(&mut self, recovery: Recovery) {
-        let minutes = recovery.age.as_secs() / 60;
-        let when = match minutes {
-            0 => "less than a minute ago".to_owned(),
-            1..120 => format!("{minutes} minutes ago"),
-            _ => format!("{} hours ago", minutes / 60),
-        };
+        let when = ago(recovery.age);
         let (title, file_changed) = (recovery.title.clone(), recovery.file_changed);
         let question = Question::Recover { title, when, file_changed };
-        self.files.question = Some((question, PendingQuestion::Recover(Box::new(recovery))));
+        self.files.ask(question, PendingQuestion::Recover(Box::new(recovery)));
     }
 
     /// Leaves the document, after a question where it has unsaved changes.
     pub(super) fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
         if self.editor.document.is_unsaved() {
             let question = Question::Unsaved { title: self.editor.document.title() };
-            self.files.question = Some((question, PendingQuestion::Leave(leave)));
+            self.files.ask(question, PendingQuestion::Leave(leave));
         } else {
             self.go(ctx, leave);
         }
@@ -164,22 +180,116 @@ impl App {
             }
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
             Leave::Empty => self.begin_empty(),
+            Leave::Backup(backup) => {
+                let document = &self.editor.document;
+                if let Some((path, seen)) = document.path().map(Path::to_owned).zip(document.seen()) {
+                    self.files.opening = Some((backup.clone(), Opening::Backup(path, seen)));
+                    self.request(StoreRequest::Open(backup));
+                }
+            }
             Leave::New(template) => {
                 let Some(folder) = templates::folder() else {
                     return self.show_message("The examples are missing".into(), templates::MISSING.into());
                 };
                 let path = folder.join(TEMPLATES[template.min(TEMPLATES.len() - 1)].file);
-                self.files.template = Some(path.clone());
+                self.files.opening = Some((path.clone(), Opening::Template));
                 self.request(StoreRequest::Open(path));
             }
         }
     }
 
-    /// Names the project's files from the folder of `path`, where it is saved now.
-    fn place(&mut self, path: &Path) {
-        let from = templates::file_of(&self.editor.document);
-        if from.parent() != path.parent() {
-            self.editor.document.relocate(|project| relative_path::relocated(project, &from, path));
+    /// The document was written: it and its history name files as they are called there.
+    fn saved(&mut self, save: &SaveRequest, saved: Saved) {
+        let (from, to) = (templates::file_of(&self.editor.document), save.path.clone());
+        let [old_name, new_name] = [&self.editor.document.project().output.name, &saved.project.output.name];
+        let (old_name, new_name) = (old_name.clone(), new_name.clone());
+        let moves = from.parent() != to.parent() || saved.renamed.iter().any(|(old, new)| old != new);
+        if moves || old_name != new_name {
+            let admitted = self.files.admitted.clone();
+            let folder = from.parent().map(Path::to_owned).unwrap_or_default();
+            self.editor.document.relocate(|project| {
+                let mut project = project.clone();
+                project.rename_files(|file| {
+                    saved.renamed.get(file).cloned().unwrap_or_else(|| {
+                        // Only the history names it: it is copied should it come back.
+                        admitted.add(&folder.join(file));
+                        moved(file, &from, &to)
+                    })
+                });
+                if project.output.name == old_name {
+                    project.output.name.clone_from(&new_name);
+                }
+                project
+            });
+        }
+        let new = self.editor.document.path() != Some(&to);
+        self.editor.document.mark_saved(saved.project, to.clone(), saved.seen);
+        let subject = self.subject();
+        self.editor.preview.relocated(&subject);
+        self.preferences.add_recent(&to);
+        let copied = match saved.copied {
+            0 => String::new(),
+            1 => "; 1 file was copied beside it".to_owned(),
+            count => format!("; {count} files were copied beside it"),
+        };
+        self.editor.status = saved.note.unwrap_or_else(|| format!("Saved '{}'{copied}", name(&to)));
+        if new {
+            self.files.backups.clear();
+        }
+        self.request(StoreRequest::Attach(Some((to, saved.seen))));
+    }
+
+    /// Holds and watches the file of the document that was opened, and looks for files outside of its folder.
+    pub(super) fn attach(&mut self) {
+        if let Some(version) = self.editor.document.project().newer() {
+            let text = format!(
+                "It is of version {version} of the format. What this program does not know of it is not shown, and kept. It is \
+                 opened read-only: Save asks for another name."
+            );
+            self.editor.document.protect("a newer Lightloom wrote it".into());
+            self.show_message(
+                format!("'{}' was written by a newer Lightloom", self.editor.document.title()),
+                text,
+            );
+        }
+        let document = &self.editor.document;
+        let file = document.path().map(Path::to_owned).zip(document.seen());
+        self.files.request(StoreRequest::Attach(file));
+        self.find_outside();
+    }
+
+    fn attached(&mut self, path: &Path, hold: Hold, backups: Vec<Backup>) {
+        if self.editor.document.path() != Some(path) {
+            return;
+        }
+        self.files.backups = backups;
+        match hold {
+            Hold::Here(notice) => {
+                self.editor.status = notice.unwrap_or_else(|| std::mem::take(&mut self.editor.status));
+            }
+            Hold::Elsewhere(who) => {
+                let title = format!("'{}' is open in {who}", name(path));
+                let text = "It is opened read-only here: Save asks for another name.".to_owned();
+                self.editor.document.protect(format!("it is open in {who}"));
+                self.show_message(title, text);
+            }
+        }
+    }
+
+    fn changed_meanwhile(&mut self, path: PathBuf, seen: Fingerprint) {
+        let document = &self.editor.document;
+        if document.path() == Some(&path) && document.seen() != Some(seen) {
+            let question = Question::Changed { title: name(&path), unsaved: document.is_unsaved() };
+            self.files.ask(question, PendingQuestion::ChangedMeanwhile(path, seen));
+        }
+    }
+
+    /// Where the paths of the open project hold, and what it may read.
+    pub(super) fn origin(&self) -> Origin {
+        Origin {
+            file: templates::file_of(&self.editor.document),
+            admitted: self.files.admitted.clone(),
+            trusted: self.files.trusted.clone(),
         }
     }
 
@@ -192,34 +302,47 @@ impl App {
     /// Saves to the document's file, or asks for one.
     pub(super) fn save(&mut self, ctx: &egui::Context) {
         match self.editor.document.path().map(Path::to_owned) {
-            Some(path) => self.save_to(path, self.editor.document.seen()),
-            None => self.save_as(ctx),
+            Some(path) if self.editor.document.read_only().is_none() => {
+                self.save_to(path, self.editor.document.seen());
+            }
+            _ => self.save_as(ctx),
         }
     }
 
     /// Asks for a file to save to.
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
         let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
-        let name = match self.editor.document.path() {
-            Some(path) => name(path),
-            None => format!("{}.json", self.editor.document.title().to_lowercase().replace([' ', ','], "_")),
-        };
+        let name = self.file_name();
         self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
     }
 
-    fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {
-        let from = templates::file_of(&self.editor.document);
-        let project = match from.parent() == path.parent() {
-            true => self.editor.document.project().clone(),
-            false => Arc::new(relative_path::relocated(self.editor.document.project(), &from, &path)),
-        };
-        match self.editor.document.file() {
-            Ok(file) => self.request(StoreRequest::Save(SaveRequest { path, file, project, seen })),
-            Err(error) => self.show_message("The project cannot be saved".into(), error.to_string()),
+    /// The name of the document's file, or one made of its title.
+    pub(super) fn file_name(&self) -> String {
+        match self.editor.document.path() {
+            Some(path) => name(path),
+            None => format!(
+                "{}.json",
+                self.editor.document.title().to_lowercase().replace([' ', ',', '/', '\\'], "_")
+            ),
         }
     }
 
-    fn request(&mut self, request: StoreRequest) {
+    fn save_to(&mut self, path: PathBuf, seen: Option<Fingerprint>) {
+        let document = &mut self.editor.document;
+        if let Some(why) = document.read_only().filter(|_| document.path() == Some(&path)) {
+            let text = format!("It is read-only here: {why}. Save it under another name.");
+            return self.show_message(format!("'{}' was not saved", name(&path)), text);
+        }
+        let file = match document.file() {
+            Ok(file) => file,
+            Err(error) => return self.show_message("The project cannot be saved".into(), error.to_string()),
+        };
+        let project = frames_named_after(document.project(), document.path(), &file, &path);
+        let origin = Some(self.origin());
+        self.request(StoreRequest::Save(SaveRequest { path, file, project, origin, seen }));
+    }
+
+    pub(super) fn request(&mut self, request: StoreRequest) {
         if !self.files.request(request) {
             self.editor.status =
                 "no thread could be started for file access; nothing can be opened or saved".into();
@@ -230,73 +353,43 @@ impl App {
         match purpose {
             Purpose::OpenProject => self.leave(ctx, Leave::Open(path)),
             Purpose::SaveProject => self.save_to(path, None),
+            Purpose::CollectFolder => self.collect(path),
             Purpose::ExportFolder => self.windows.export.set_folder(path),
             Purpose::Frames => self.windows.player.play(ctx, &path),
             Purpose::Import => self.dropped(ctx, path),
-            Purpose::Asset(pick) => self.insert(&pick, &path),
-        }
-    }
-
-    /// Asks for a file for the project.
-    pub(super) fn pick_file(&mut self, ctx: &egui::Context, pick: AssetUse) {
-        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
-        self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
-    }
-
-    /// Asks for a scene or a picture to import.
-    pub(super) fn ask_what_to_import(&mut self, ctx: &egui::Context) {
-        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
-        self.picker.ask(PickRequest::new(Purpose::Import).in_folder(folder), ctx);
-    }
-
-    /// Puts a file into the project. Picking a file outside the project folder allows external files.
-    fn insert(&mut self, pick: &AssetUse, file: &Path) {
-        if *pick == AssetUse::Mesh {
-            return self.import(file);
-        }
-        let base = templates::file_of(&self.editor.document);
-        let written = relative_path::relative(file, &base);
-        self.external = true;
-        if let Some(edit) = pick.edit(self.editor.document.project(), written) {
-            self.editor.edit(edit);
-            self.editor.document.settle();
-        }
-    }
-
-    /// A file that was dropped on the window: a project is opened, a folder of frames is played, a mesh comes into the scene, a picture or points become
-    /// what the key frame after the playhead shows.
-    fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
-        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let ends = |pick: &AssetUse| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
-        let keys = &self.editor.document.project().keys;
-        let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
-        let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
-        if file.is_dir() {
-            return self.windows.player.play(ctx, &file);
-        }
-        if ending.as_deref() == Some("json") {
-            return self.leave(ctx, Leave::Open(file));
-        }
-        match [AssetUse::Mesh, AssetUse::Picture(at.clone()), AssetUse::Points(at)]
-            .iter()
-            .find(|pick| ends(pick))
-        {
-            Some(pick) => self.insert(pick, &file),
-            None => match mesh::advice(&file) {
-                Some(advice) => {
-                    self.show_message(format!("'{}' is not read", name(&file)), format!("It {advice}."));
-                }
-                None => {
-                    self.editor.status =
-                        format!("'{}' is not a project, mesh, picture or point file", name(&file));
-                }
-            },
+            Purpose::Asset(pick) => self.locate(pick, path),
         }
     }
 
     /// Shows a message window.
     pub(super) fn show_message(&mut self, title: String, text: String) {
-        self.files.question = Some((Question::Message { title, text }, PendingQuestion::Nothing));
+        self.files.ask(Question::Message { title, text }, PendingQuestion::Nothing);
+    }
+}
+
+/// The project whose frames are called as its file is from now on, unless the user gave them another name. `before` is the file
+/// it had, `file` what it was read from.
+fn frames_named_after(
+    project: &Arc<Project>,
+    before: Option<&Path>,
+    file: &ProjectFile,
+    path: &Path,
+) -> Arc<Project> {
+    let stem = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let own = &project.output.name;
+    let Some((called, number)) = own.find('.').map(|dot| own.split_at(dot)) else { return project.clone() };
+    let follows = match before {
+        Some(before) => stem(before).is_some_and(|stem| stem == called),
+        // A new document: what its example calls them.
+        None => file.project().output.name == *own,
+    };
+    match stem(path).filter(|new| follows && new != called && !new.contains(['#', '%', '$', '\\'])) {
+        Some(new) => {
+            let mut project = (**project).clone();
+            project.output.name = new + number;
+            Arc::new(project)
+        }
+        None => project.clone(),
     }
 }
 

@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use eframe::egui;
 use lightloom_core::import::{self, Import};
+use lightloom_core::project::relative;
 
 use super::App;
 use super::files::name;
 use super::importing::Importing;
 use crate::editor::document::{Document, Edit};
-use crate::editor::relative_path;
 use crate::editor::session::Panel;
 use crate::editor::templates;
 
@@ -51,10 +51,9 @@ impl App {
     }
 
     fn put_in(&mut self, import: &Import, file: &Path) {
-        let written = relative_path::relative(file, &templates::file_of(&self.editor.document));
+        let written = relative(file, &templates::file_of(&self.editor.document));
         let mut project = (**self.editor.document.project()).clone();
         import.add_to(&mut project, &written);
-        self.external = true;
         self.editor.edit(Edit::Scene(project.scene.map(Box::new)));
         if project.render != self.editor.document.project().render {
             self.editor.edit(Edit::Render(project.render));

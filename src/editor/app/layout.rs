@@ -23,7 +23,7 @@ impl App {
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         let mut editor = self.editor.context(actions);
         let editor = &mut editor;
-        Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found()));
+        Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
             if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
                 editor.ask(Command::Export);
@@ -31,7 +31,7 @@ impl App {
         });
         let height = Timeline::height(editor);
         let timeline = Panel::bottom("timeline").resizable(true).default_size(height).min_size(110.0);
-        self.timeline.external = self.external;
+        self.timeline.access = self.files.access();
         let play = timeline.show(ui, |ui| self.timeline.show(ui, editor)).inner;
         let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::same(2));
         let tools = Panel::left("tools").exact_size(toolbar::WIDTH).resizable(false).frame(frame);
@@ -53,7 +53,8 @@ impl App {
                 place.show(ui.ctx(), |ui| {
                     banner(ui).show(ui, |ui| {
                         ui.set_width(views.width() - 24.0);
-                        problem_banner(ui, &problem, &mut self.external);
+                        let asked = problem_banner(ui, &problem);
+                        self.files.asks_outside |= asked;
                     });
                 });
             }
@@ -69,15 +70,14 @@ fn banner(ui: &Ui) -> Frame {
         .inner_margin(Margin::symmetric(12, 6))
 }
 
-/// The preview's problem, with a button for what can be done at once.
-fn problem_banner(ui: &mut Ui, problem: &str, external: &mut bool) {
+/// The preview's problem; returns whether files outside of the project's folder shall be allowed.
+fn problem_banner(ui: &mut Ui, problem: &str) -> bool {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("The preview cannot be computed").strong());
         ui.label(problem);
-        if problem.contains("--allow-external") && !*external && ui.button("Allow external files").clicked() {
-            *external = true;
-        }
-    });
+        problem.contains("--allow-external") && ui.button("Allow these files…").clicked()
+    })
+    .inner
 }
 
 /// The status bar: activity, message, export, renderer. Returns whether the export was clicked.

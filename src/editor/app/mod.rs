@@ -8,6 +8,7 @@ mod import;
 mod importing;
 mod layout;
 mod open_windows;
+mod outside;
 mod recents;
 mod windows;
 
@@ -54,8 +55,6 @@ pub struct App {
     preferences: Preferences,
     /// The graphics device.
     gpu: Gpu,
-    /// Whether the project may read files from anywhere: the artist picked one, or allowed it.
-    external: bool,
     /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
 }
@@ -114,7 +113,6 @@ impl App {
             importing: None,
             preferences: setup.preferences,
             gpu: setup.gpu,
-            external: false,
             asked: Vec::new(),
         };
         app.editor.session.snapping = app.preferences.snapping;
@@ -122,6 +120,10 @@ impl App {
             app.editor.session.playing = true;
             app.windows.tour.begin(app.editor.document.project());
         }
+        app.attach();
+        let folders: Vec<_> =
+            app.preferences.recent.iter().rev().filter_map(|file| file.parent()).map(Into::into).collect();
+        folders.iter().for_each(|folder: &std::path::PathBuf| app.picker.remember(folder));
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
         }
@@ -152,6 +154,7 @@ impl App {
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
+        keyboard::set_covered(&ctx, self.picker.is_open() || self.files.question.is_some());
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);
@@ -215,7 +218,7 @@ impl App {
         Subject {
             project: self.editor.document.project().clone(),
             base: templates::file_of(&self.editor.document),
-            external: self.external,
+            access: self.files.access(),
         }
     }
 
@@ -225,7 +228,8 @@ impl App {
         self.editor.open(document);
         self.views.forget_pictures();
         self.importing = None;
-        self.external = false;
+        self.files.forget_admitted();
+        self.attach();
     }
 }
 

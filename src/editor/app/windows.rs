@@ -20,7 +20,7 @@ impl App {
     ) {
         let mut editor = self.editor.context(actions);
         let windows = &mut self.windows;
-        windows.export.external = self.external;
+        windows.export.access = self.files.access();
         windows.export.show(ctx, &mut editor, &mut self.exports, &mut self.picker);
         windows.player.show(ctx, &mut self.picker);
         let flow = &editor.document.project().flow;
@@ -33,7 +33,10 @@ impl App {
         let chosen = windows.palette.show(ctx, || palette::items(&editor, tools, &presets()));
         editor.actions.extend(chosen);
         windows.shortcuts.show(ctx, tools);
-        preferences::show(ctx, &mut windows.preferences, &mut self.preferences);
+        let trusted = self.files.trusted.count();
+        if preferences::show(ctx, &mut windows.preferences, &mut self.preferences, trusted) {
+            self.files.forget_trusted();
+        }
         self.editor.session.snapping = self.preferences.snapping;
         let chosen = windows.welcome.show(ctx, &self.recents.found());
         actions.extend(chosen);

@@ -6,8 +6,11 @@ mod browser;
 mod modal;
 mod native;
 mod picker;
+#[cfg(all(unix, not(target_os = "macos")))]
+mod portal;
 mod question;
 mod request;
+mod system;
 
 pub(super) use modal::modal;
 pub use native::Native;

@@ -4,35 +4,69 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::Context;
+use std::time::{Duration, Instant};
+
+use egui::{Context, Event};
 
 use super::browser::Browser;
+use super::modal::modal;
 use super::request::{Dialogs, PickRequest, PickResult, Purpose, with_ending};
+
+/// Time after which it is said that the system's dialog is open, or still to come.
+const PATIENCE: Duration = Duration::from_millis(400);
+/// Most recent folders.
+const MOST_RECENT: usize = 20;
 
 /// A file picker with at most one open dialog.
 pub struct Picker {
     dialogs: Arc<dyn Dialogs>,
     state: PickerState,
+    /// Folders used of late, newest first.
+    recent: Vec<PathBuf>,
 }
 
 enum PickerState {
     Idle,
     /// The system's dialog is open.
-    Asked(PickRequest, Receiver<PickResult>),
+    Asked(PickRequest, Receiver<PickResult>, Meanwhile),
     /// The built-in dialog is open.
     Browsing(PickRequest, Box<Browser>),
+}
+
+/// What happens until the system's dialog answers.
+struct Meanwhile {
+    since: Instant,
+    /// What was typed, for the built-in dialog.
+    typed: String,
+}
+
+/// What the user does while the system's dialog is open.
+enum Waiting {
+    On,
+    BuiltIn,
+    Cancel,
 }
 
 impl Picker {
     /// A picker that uses these dialogs.
     pub fn new(dialogs: Arc<dyn Dialogs>) -> Self {
-        Self { dialogs, state: PickerState::Idle }
+        Self { dialogs, state: PickerState::Idle, recent: Vec::new() }
+    }
+
+    /// Remembers a folder that was used.
+    pub fn remember(&mut self, folder: &std::path::Path) {
+        self.recent.retain(|known| known != folder);
+        self.recent.insert(0, folder.to_owned());
+        self.recent.truncate(MOST_RECENT);
     }
 
     /// Opens a dialog; one that is already open is dropped.
     pub fn ask(&mut self, request: PickRequest, ctx: &Context) {
         let answer = self.dialogs.pick(&request, ctx.clone());
-        self.state = PickerState::Asked(request, answer);
+        // What is typed from now on is meant for the dialog.
+        ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
+        self.state =
+            PickerState::Asked(request, answer, Meanwhile { since: Instant::now(), typed: String::new() });
     }
 
     /// Whether a dialog is open.
@@ -44,19 +78,20 @@ impl Picker {
     pub fn show(&mut self, ctx: &Context) -> Option<(Purpose, PathBuf)> {
         match std::mem::replace(&mut self.state, PickerState::Idle) {
             PickerState::Idle => None,
-            PickerState::Asked(request, answer) => match answer.try_recv() {
-                Ok(PickResult::Picked(path)) => {
-                    let path = with_ending(&request.purpose, path);
-                    Some((request.purpose, path))
-                }
+            PickerState::Asked(request, answer, mut meanwhile) => match answer.try_recv() {
+                Ok(PickResult::Picked(path)) => Some(self.picked(request.purpose, path)),
                 Ok(PickResult::Cancelled) => None,
                 Err(TryRecvError::Empty) => {
-                    self.state = PickerState::Asked(request, answer);
+                    match meanwhile.show(ctx) {
+                        Waiting::On => self.state = PickerState::Asked(request, answer, meanwhile),
+                        Waiting::BuiltIn => self.browse(request, meanwhile, ctx),
+                        Waiting::Cancel => (),
+                    }
                     None
                 }
                 Ok(PickResult::Unavailable) | Err(TryRecvError::Disconnected) => {
-                    let browser = Box::new(Browser::new(&request, ctx));
-                    self.state = PickerState::Browsing(request, browser);
+                    meanwhile.listen(ctx);
+                    self.browse(request, meanwhile, ctx);
                     None
                 }
             },
@@ -66,11 +101,63 @@ impl Picker {
                     None
                 }
                 Some(None) => None,
-                Some(Some(path)) => {
-                    let path = with_ending(&request.purpose, path);
-                    Some((request.purpose, path))
-                }
+                Some(Some(path)) => Some(self.picked(request.purpose, path)),
             },
         }
+    }
+
+    fn browse(&mut self, request: PickRequest, meanwhile: Meanwhile, ctx: &Context) {
+        let browser = Box::new(Browser::new(&request, &self.recent, meanwhile.typed, ctx));
+        self.state = PickerState::Browsing(request, browser);
+        ctx.request_repaint();
+    }
+
+    fn picked(&mut self, purpose: Purpose, path: PathBuf) -> (Purpose, PathBuf) {
+        let path = with_ending(&purpose, path);
+        let folder = if purpose.files().1.is_empty() { Some(&*path) } else { path.parent() };
+        if let Some(folder) = folder.map(ToOwned::to_owned) {
+            self.remember(&folder);
+        }
+        (purpose, path)
+    }
+}
+
+impl Meanwhile {
+    /// Keeps what is typed.
+    fn listen(&mut self, ctx: &Context) {
+        ctx.input(|input| {
+            for event in &input.events {
+                match event {
+                    Event::Text(text) | Event::Paste(text) => self.typed += text,
+                    _ => (),
+                }
+            }
+        });
+    }
+
+    /// Says that the system's dialog is open, where it is not over the window, and what else can be done.
+    fn show(&mut self, ctx: &Context) -> Waiting {
+        self.listen(ctx);
+        let waited = self.since.elapsed();
+        if waited < PATIENCE {
+            ctx.request_repaint_after(PATIENCE - waited);
+            return Waiting::On;
+        }
+        let mut does = Waiting::On;
+        let shown = modal(ctx, "system dialog").show(ctx, |ui| {
+            ui.set_width(340.0);
+            ui.heading("The system's file dialog is open");
+            ui.label("It may lie behind this window.");
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                if ui.button("Use Lightloom's own").clicked() {
+                    does = Waiting::BuiltIn;
+                }
+                if ui.button("Cancel").clicked() {
+                    does = Waiting::Cancel;
+                }
+            });
+        });
+        if shown.should_close() { Waiting::Cancel } else { does }
     }
 }

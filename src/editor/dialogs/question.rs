@@ -34,6 +34,15 @@ pub enum Question {
         /// Folder of the frames.
         folder: String,
     },
+    /// Files lie outside of the project's folder: picked ones, or those that an opened project names.
+    Outside {
+        /// What lies outside.
+        title: String,
+        /// The files, a line each; empty where the title names the only one.
+        files: String,
+        /// Label of the answer that leaves them out.
+        no: &'static str,
+    },
     /// A message.
     Message {
         /// Title.
@@ -46,9 +55,9 @@ pub enum Question {
 /// The answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save the changes; recover the work; reload the file; go on with the export.
+    /// Save the changes; recover the work; reload the file; copy the files; go on with the export.
     Yes,
-    /// Discard the changes; delete the recovered work; keep the document; forget the export.
+    /// Discard the changes; delete the recovered work; keep the document; trust the files; forget the export.
     No,
     /// Change nothing; close a message; offer the recovered work or the export again at the next start.
     Cancel,
@@ -96,6 +105,15 @@ impl Question {
                     "The program ended before all frames in '{folder}' were finished. What is there is kept; the project is rendered as it was when the export began."
                 ),
                 labels: ["Go on", "Forget it", "Ask again later"],
+            },
+            Self::Outside { title, files, no } => Words {
+                title: title.clone(),
+                text: format!(
+                    "{files}A copy beside the project is made when it is saved: then it opens on every machine. Or trust the \
+                     file for good: it stays where it is, and projects on this machine may read it, in the window and \
+                     from the command line."
+                ),
+                labels: ["Copy beside the project", "Trust for good", no],
             },
             Self::Message { title, text } => {
                 Words { title: title.clone(), text: text.clone(), labels: ["", "", "Close"] }

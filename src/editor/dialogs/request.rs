@@ -24,6 +24,8 @@ pub enum Purpose {
     ExportFolder,
     /// A scene of another program, or a picture, for the project.
     Import,
+    /// The folder to collect the project into.
+    CollectFolder,
     /// A picture of a rendered sequence to play.
     Frames,
     /// A file for the project to use.
@@ -51,6 +53,9 @@ pub enum PickResult {
     /// The system has no file dialog.
     Unavailable,
 }
+
+/// What a dialog of the system will answer.
+pub(super) type Answer = std::pin::Pin<Box<dyn Future<Output = PickResult> + Send>>;
 
 /// A source of file dialogs.
 pub trait Dialogs: Send + Sync {
@@ -103,6 +108,7 @@ impl Purpose {
             Self::SaveProject => "Save the project",
             Self::ExportFolder => "Folder for the frames",
             Self::Import => "Import a scene or a picture",
+            Self::CollectFolder => "Folder for the project and all its files",
             Self::Frames => "Choose a rendered frame",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
@@ -114,7 +120,7 @@ impl Purpose {
     pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
-            Self::ExportFolder => ("Folders", &[]),
+            Self::ExportFolder | Self::CollectFolder => ("Folders", &[]),
             Self::Import => ("Scenes and pictures", IMPORTED),
             Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),
             Self::Asset(pick) => pick.files(),

@@ -27,6 +27,8 @@ pub struct Document {
     history: History,
     /// Whether it is unsaved regardless of edits, such as a recovered document.
     unsaved: bool,
+    /// Why it must not be saved to its file, if so.
+    read_only: Option<String>,
 }
 
 impl Document {
@@ -34,7 +36,7 @@ impl Document {
     pub fn new(project: Project, path: Option<PathBuf>) -> Self {
         let project = Arc::new(project);
         let (file, seen, history) = (None, None, History::default());
-        Self { saved: project.clone(), project, path, file, seen, history, unsaved: false }
+        Self { saved: project.clone(), project, path, file, seen, history, unsaved: false, read_only: None }
     }
 
     /// A document read from a file saved at `at`; without `at`, a new one based on that text.
@@ -129,6 +131,23 @@ impl Document {
         self.saved = project;
         (self.path, self.seen) = (Some(path), Some(seen));
         self.unsaved = false;
+        self.read_only = None;
+    }
+
+    /// Why it must not be saved to its file, if so: it is saved under another name.
+    pub fn read_only(&self) -> Option<&str> {
+        self.read_only.as_deref()
+    }
+
+    /// Keeps it from being saved to its file, for this reason.
+    pub fn protect(&mut self, why: String) {
+        self.read_only = Some(why);
+    }
+
+    /// Keeps the open version beside a file that another program changed: it has the fingerprint `seen` now.
+    pub fn keep_over(&mut self, seen: Fingerprint) {
+        self.seen = Some(seen);
+        self.unsaved = true;
     }
 
     /// Rewrites the file paths for another folder with `there`, in the project and its history.

@@ -15,6 +15,7 @@ use lightloom_core::project::Project;
 use lightloom_core::render::Image;
 use lightloom_core::{Error, Progress, Result};
 
+use crate::editor::access::Access;
 use crate::editor::engine::SharedEngine;
 
 /// Longest side of the growing picture, pixels.
@@ -32,8 +33,8 @@ pub struct ExportSettings {
     pub project: Arc<Project>,
     /// The project file, whose folder the project's paths are relative to.
     pub file: PathBuf,
-    /// Whether it may read files from anywhere.
-    pub external: bool,
+    /// Which files outside of that folder it may read.
+    pub access: Access,
     /// The folder for the frames; made if it is not there.
     pub folder: PathBuf,
     /// The file of a film of all frames, where one is wanted.
@@ -254,8 +255,8 @@ impl ExportJob {
     }
 
     fn render(&self) -> Result<Summary> {
-        let ExportSettings { project, file, external, folder, film, existing, .. } = &self.settings;
-        let engine = self.engine.of(file, *external)?.on_behalf_of(Client::Export);
+        let ExportSettings { project, file, access, folder, film, existing, .. } = &self.settings;
+        let engine = self.engine.of(file, access)?.on_behalf_of(Client::Export);
         prepare_folder(folder, file, project, "folder")?;
         if let Some(film) = film {
             prepare_film(film, file, project, "film")?;

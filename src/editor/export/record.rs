@@ -8,11 +8,12 @@ use std::time::Duration;
 
 use lightloom_core::engine::Existing;
 use lightloom_core::files::{read_regular_file, write_atomic};
-use lightloom_core::project::Project;
+use lightloom_core::project::{Admitted, Project};
 use lightloom_core::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 use super::job::ExportSettings;
+use crate::editor::access::Access;
 
 /// Ending of the files.
 const ENDING: &str = "export.json";
@@ -31,7 +32,8 @@ pub struct ExportRecord {
 struct Written {
     project: Project,
     file: PathBuf,
-    external: bool,
+    /// Files outside of the project's folder that it may read.
+    admitted: Vec<PathBuf>,
     folder: PathBuf,
     film: Option<PathBuf>,
     limit_seconds: Option<f64>,
@@ -55,11 +57,11 @@ impl ExportRecord {
     /// The system refuses.
     pub(super) fn write(folder: &Path, settings: &ExportSettings) -> Result<Self> {
         std::fs::create_dir_all(folder).map_err(Error::io("create the folder", folder))?;
-        let ExportSettings { project, file, external, folder: out, film, limit, shown, existing } = settings;
+        let ExportSettings { project, file, access, folder: out, film, limit, shown, existing } = settings;
         let written = Written {
             project: (**project).clone(),
             file: file.clone(),
-            external: *external,
+            admitted: access.admitted().files(),
             folder: out.clone(),
             film: film.clone(),
             limit_seconds: limit.map(|limit| limit.as_secs_f64()),
@@ -117,7 +119,7 @@ fn read(path: &Path) -> Result<Option<InterruptedExport>> {
     let settings = ExportSettings {
         project: Arc::new(written.project),
         file: written.file,
-        external: written.external,
+        access: Access::of(&Admitted::new(written.admitted)),
         folder: written.folder,
         film: written.film,
         limit: written.limit_seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()),

@@ -13,6 +13,7 @@ use super::job::ExportSettings;
 use super::job_list::JobList;
 use super::options::ExportOptions;
 use super::queue::Exports;
+use crate::editor::access::Access;
 use crate::editor::context::EditorContext;
 use crate::editor::dialogs::Picker;
 use crate::editor::{templates, theme};
@@ -24,8 +25,8 @@ const LEFT: f32 = 350.0;
 pub struct ExportWindow {
     /// Whether it is open.
     pub open: bool,
-    /// Whether the project may read files outside its folder.
-    pub external: bool,
+    /// Which files outside of its folder the project may read.
+    pub access: Access,
     /// The options as set by the user.
     options: Option<ExportOptions>,
     /// The project's own options and file when last shown.
@@ -38,7 +39,7 @@ pub struct ExportWindow {
 impl Default for ExportWindow {
     fn default() -> Self {
         let (options, own, jobs) = (None, None, JobList::default());
-        Self { open: false, external: false, options, own, limit: (10.0, false), jobs }
+        Self { open: false, access: Access::default(), options, own, limit: (10.0, false), jobs }
     }
 }
 
@@ -119,7 +120,7 @@ impl ExportWindow {
             exports.add(ExportSettings {
                 project: Arc::new(project.clone()),
                 file: templates::file_of(editor.document),
-                external: self.external,
+                access: self.access.clone(),
                 folder: options.folder.clone(),
                 film: options.film_file(),
                 limit: self.limit.1.then(|| Duration::from_secs_f64(60.0 * self.limit.0.clamp(0.1, 1e6))),
@@ -128,26 +129,17 @@ impl ExportWindow {
             });
         }
         ui.add_space(10.0);
-        command_line(ui, editor, project, options, self.external);
+        command_line(ui, editor, project, options);
     }
 }
 
-fn command_line(
-    ui: &mut Ui,
-    editor: &EditorContext,
-    project: &Project,
-    options: &ExportOptions,
-    external: bool,
-) {
+fn command_line(ui: &mut Ui, editor: &EditorContext, project: &Project, options: &ExportOptions) {
     ui.label("Equivalent command line");
     let Some(file) = editor.document.path() else {
         ui.weak("Save the project to see its command line.");
         return;
     };
-    let mut line = options.command_line(project, file);
-    if external {
-        line += " --allow-external";
-    }
+    let line = options.command_line(project, file);
     let mut text = line.as_str();
     let field = TextEdit::multiline(&mut text).font(egui::TextStyle::Monospace).desired_rows(3);
     ui.add(field.desired_width(LEFT - 8.0)).accessible_name("Command line");

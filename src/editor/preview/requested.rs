@@ -9,6 +9,7 @@ use lightloom_core::render::{PlaneMaterial, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
 use super::picture_worker::Plane;
+use crate::editor::access::Access;
 
 /// The pictures that the views need.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,6 +72,6 @@ pub(super) struct BackgroundKey {
     /// By key frame: what each caustic, and the rest, has of its physical light; none where it shows something else.
     pub(super) physical: Vec<Vec<Option<[f32; 3]>>>,
     pub(super) kept_in_glass: f32,
-    /// The project file, and whether external files may be read.
-    pub(super) files: (PathBuf, bool),
+    /// The project file, and the files that may be read outside of its folder.
+    pub(super) files: (PathBuf, Access),
 }

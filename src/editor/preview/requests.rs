@@ -94,7 +94,7 @@ fn background_key(subject: &Subject, size: [u32; 2]) -> BackgroundKey {
         caustics: caustics.clone(),
         physical: physical(&subject.project),
         kept_in_glass: render.kept_in_glass,
-        files: (subject.base.clone(), subject.external),
+        files: (subject.base.clone(), subject.access.clone()),
     }
 }
 

@@ -7,6 +7,7 @@ use lightloom_core::Result;
 use lightloom_core::engine::Engine;
 use lightloom_core::project::Project;
 
+use crate::editor::access::Access;
 use crate::editor::engine::SharedEngine;
 
 /// A project, and the place of its files.
@@ -16,16 +17,14 @@ pub struct Subject {
     pub project: Arc<Project>,
     /// The project file, or one that could stand there: files are found from its folder.
     pub base: PathBuf,
-    /// Whether files may be read from anywhere.
-    pub external: bool,
+    /// Which files outside of that folder may be read.
+    pub access: Access,
 }
 
 impl Subject {
     /// Whether nothing differs; projects are compared by pointer.
     pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.project, &other.project)
-            && self.base == other.base
-            && self.external == other.external
+        Arc::ptr_eq(&self.project, &other.project) && self.base == other.base && self.access == other.access
     }
 
     /// The engine that works on the subject.
@@ -33,6 +32,6 @@ impl Subject {
     /// # Errors
     /// The folder cannot be found.
     pub(super) fn engine(&self, shared: &SharedEngine) -> Result<Engine> {
-        shared.of(&self.base, self.external)
+        shared.of(&self.base, &self.access)
     }
 }

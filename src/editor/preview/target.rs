@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Color32, ColorImage};
 use lightloom_core::Result;
-use lightloom_core::project::AssetFolder;
 use lightloom_core::targets::{Brightness, ImageTarget, Placement};
 
 use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
+use crate::editor::access::Access;
 
 /// Cells along the longer side of what is shown.
 const SIDE: usize = 512;
@@ -27,7 +27,7 @@ pub struct TargetPicture {
 #[derive(Clone, PartialEq)]
 struct Request {
     base: PathBuf,
-    external: bool,
+    access: Access,
     /// Wherever it is placed, the picture is the same.
     image: ImageTarget,
 }
@@ -61,7 +61,7 @@ impl Targets {
     pub(super) fn follow(&mut self, subject: &Subject, image: Option<&ImageTarget>) {
         let request = image.map(|image| Request {
             base: subject.base.clone(),
-            external: subject.external,
+            access: subject.access.clone(),
             image: ImageTarget { placement: Placement::default(), ..image.clone() },
         });
         if request == self.asked {
@@ -79,8 +79,8 @@ impl Targets {
     }
 }
 
-fn read(Request { base, external, image }: &Request) -> Result<TargetPicture> {
-    let path = AssetFolder::new(base, *external)?.resolve(&image.file, "target")?;
+fn read(Request { base, access, image }: &Request) -> Result<TargetPicture> {
+    let path = access.assets(base)?.resolve(&image.file, "target")?;
     let Brightness { size, width, values } = Brightness::load(&path, image, SIDE)?;
     let pixels =
         values.iter().map(|v| Color32::from_white_alpha((v * 255.0).round() as u8)).collect::<Vec<_>>();

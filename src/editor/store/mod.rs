@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! every change ──► Journal ──► <state folder>/recovery/<id>.json    at most a second later
-//! open, save   ──► Saver   ──► the user's file, its previous version as <state folder>/backups/….bak
+//! open, save   ──► Saver   ──► the user's file, its last three versions as <state folder>/backups/….bak1 to 3
 //! next start   ──► recoverable ──► what a crash left there, to be recovered or discarded
 //! ```
 //!
@@ -13,14 +13,23 @@ pub mod journal;
 pub mod preferences;
 pub mod recovery;
 pub mod saver;
+pub mod trust;
 
+mod attached;
+mod backups;
 mod disk;
+mod lock;
 mod record;
+mod save;
 mod slot;
 
+pub use attached::Hold;
+pub use backups::Backup;
 pub use disk::Fingerprint;
 pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
-pub use saver::{Opened, SaveRequest, Saved, Saver, StoreReply, StoreRequest};
+pub use save::{Origin, SaveRequest, Saved};
+pub use saver::{CollectRequest, Opened, Saver, StoreReply, StoreRequest};
+pub use trust::trusted;

@@ -3,16 +3,21 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 
-use lightloom_core::project::{Project, ProjectFile};
-use lightloom_core::{Error, Result, files};
+use std::time::Duration;
 
-use super::{Fingerprint, Folders, Preferences, Recovery, disk, recoverable};
+use lightloom_core::project::{AssetFolder, Collection, Project, ProjectFile, collect_into};
+use lightloom_core::{Error, Progress, Result, files};
 
-/// Maximum size of a project file; a larger file is not overwritten.
-const MOST_BYTES: u64 = 64 << 20;
+use super::attached::{Attached, Hold, other_owner};
+use super::backups::{self, Backup};
+use super::save::{MOST_BYTES, Origin, SaveRequest, Saved, save};
+use super::{Fingerprint, Folders, Preferences, Recovery, recoverable, trust};
+
+/// How often the file of the open document is looked at.
+const TICK: Duration = Duration::from_secs(1);
 
 /// A request to the saver; replies come in the same order.
 #[derive(Debug)]
@@ -21,6 +26,18 @@ pub enum StoreRequest {
     Open(PathBuf),
     /// Writes a project file.
     Save(SaveRequest),
+    /// Copies a project with its files.
+    Collect(CollectRequest),
+    /// Holds and watches the file of the open document, which has this fingerprint; none releases the last one.
+    Attach(Option<(PathBuf, Fingerprint)>),
+    /// Finds the files of a project that lie outside of its folder and are not admitted.
+    FindOutside(Arc<Project>, Origin),
+    /// Finds whether the file picked for a purpose, which the window knows, lies outside and is not admitted.
+    Locate(PathBuf, Origin),
+    /// Adds files to the trust list.
+    Trust(Vec<PathBuf>),
+    /// Empties the trust list.
+    ForgetTrusted,
     /// Looks for work that a crash left.
     LookForLost,
     /// Deletes such work.
@@ -29,17 +46,17 @@ pub enum StoreRequest {
     Remember(Box<Preferences>),
 }
 
-/// A request to save a project.
+/// A request to copy a project with all its files into a folder.
 #[derive(Clone, Debug)]
-pub struct SaveRequest {
-    /// Destination.
-    pub path: PathBuf,
+pub struct CollectRequest {
+    /// The folder.
+    pub folder: PathBuf,
     /// The file it was read from.
     pub file: Arc<ProjectFile>,
     /// The current project.
     pub project: Arc<Project>,
-    /// Expected fingerprint of the file at `path`; none overwrites whatever is there.
-    pub seen: Option<Fingerprint>,
+    /// Where its paths hold; its file name is that of the collected project.
+    pub origin: Origin,
 }
 
 /// The reply to a request.
@@ -52,6 +69,16 @@ pub enum StoreReply {
     /// Nothing was written: another program changed the file since it was last read or written. Repeated with `seen`
     /// none, the request overwrites it.
     ChangedOnDisk(SaveRequest),
+    /// A project was collected into this file, or why not.
+    Collected(Result<Box<(PathBuf, Collection)>>),
+    /// The file of the open document: whether it may be saved there, and its backups, newest first.
+    Attached(PathBuf, Hold, Vec<Backup>),
+    /// Another program changed the file of the open document; its new fingerprint.
+    ChangedMeanwhile(PathBuf, Fingerprint),
+    /// The files of this project that lie outside of its folder and are not admitted.
+    Outside(Arc<Project>, Vec<PathBuf>),
+    /// Whether a picked file lies outside.
+    Located(PathBuf, bool),
     /// Recoverable work, newest first.
     Lost(Vec<Recovery>),
     /// Another request failed, for this reason.
@@ -67,15 +94,6 @@ pub struct Opened {
     pub notes: Vec<String>,
     /// Its fingerprint.
     pub seen: Fingerprint,
-}
-
-/// A file that was written.
-#[derive(Clone, Debug)]
-pub struct Saved {
-    /// Its new fingerprint.
-    pub seen: Fingerprint,
-    /// Why there is no backup of the previous version, if so.
-    pub note: Option<String>,
 }
 
 /// The handle of the file thread. Dropping it waits for all requests.
@@ -95,8 +113,17 @@ impl Saver {
         let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
         let serve = move || {
-            for request in inbox {
-                let answer = catch_unwind(AssertUnwindSafe(|| answer(&folders, request)));
+            let mut server = Server { folders, attached: None };
+            loop {
+                let request = match inbox.recv_timeout(TICK) {
+                    Ok(request) => Some(request),
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => return,
+                };
+                let answer = catch_unwind(AssertUnwindSafe(|| match request {
+                    Some(request) => server.answer(request),
+                    None => server.tick(),
+                }));
                 let failed =
                     || Some(StoreReply::Failed("an internal error; the file may not be saved".into()));
                 let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
@@ -135,63 +162,98 @@ impl Drop for Saver {
     }
 }
 
-fn answer(folders: &Folders, request: StoreRequest) -> Option<StoreReply> {
-    let failed = |result: Result<()>| result.err().map(|error| StoreReply::Failed(error.to_string()));
-    match request {
-        StoreRequest::Open(path) => {
-            let opened = open(&path);
-            Some(StoreReply::Opened(path, opened))
+/// What the file thread works on.
+struct Server {
+    folders: Folders,
+    attached: Option<Attached>,
+}
+
+impl Server {
+    fn tick(&mut self) -> Option<StoreReply> {
+        let (path, seen) = self.attached.as_mut()?.tick()?;
+        Some(StoreReply::ChangedMeanwhile(path, seen))
+    }
+
+    fn answer(&mut self, request: StoreRequest) -> Option<StoreReply> {
+        let folders = &self.folders;
+        let failed = |result: Result<()>| result.err().map(|error| StoreReply::Failed(error.to_string()));
+        match request {
+            StoreRequest::Open(path) => {
+                let opened = open(&path);
+                Some(StoreReply::Opened(path, opened))
+            }
+            StoreRequest::Save(request) => Some(self.save(request)),
+            StoreRequest::Collect(request) => Some(StoreReply::Collected(collect(&request).map(Box::new))),
+            StoreRequest::Attach(None) => {
+                self.attached = None;
+                None
+            }
+            StoreRequest::Attach(Some((path, seen))) => Some(self.attach(path, seen)),
+            StoreRequest::FindOutside(project, origin) => {
+                let outside = outside(&project, &origin).unwrap_or_default();
+                Some(StoreReply::Outside(project, outside))
+            }
+            StoreRequest::Locate(path, origin) => {
+                let outside = is_outside(&path, &origin).unwrap_or(false);
+                Some(StoreReply::Located(path, outside))
+            }
+            StoreRequest::Trust(files) => failed(trust::trust(folders, &files)),
+            StoreRequest::ForgetTrusted => failed(trust::forget(folders)),
+            StoreRequest::LookForLost => Some(StoreReply::Lost(recoverable(&folders.recovery()))),
+            StoreRequest::Discard(recovery) => failed(recovery.discard()),
+            StoreRequest::Remember(preferences) => failed(preferences.save(&folders.config)),
         }
-        StoreRequest::Save(request) => Some(match save(folders, &request) {
-            Ok(Some(saved)) => StoreReply::Saved(request, Ok(saved)),
+    }
+
+    fn attach(&mut self, path: PathBuf, seen: Fingerprint) -> StoreReply {
+        let (attached, hold) = Attached::new(path.clone(), seen, self.attached.take());
+        self.attached = Some(attached);
+        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        StoreReply::Attached(path, hold, backups::of(&self.folders, &real))
+    }
+
+    fn save(&mut self, request: SaveRequest) -> StoreReply {
+        let own = self.attached.as_ref().is_some_and(|attached| attached.holds(&request.path));
+        if !own && let Some(who) = other_owner(&request.path) {
+            let what = format!("is open in {who}; save under another name");
+            let error = Error::format(&request.path, "", what);
+            return StoreReply::Saved(request, Err(error));
+        }
+        match save(&self.folders, &request) {
+            Ok(Some(saved)) => {
+                self.attached.iter_mut().for_each(|attached| attached.written(&request.path, saved.seen));
+                StoreReply::Saved(request, Ok(saved))
+            }
             Ok(None) => StoreReply::ChangedOnDisk(request),
             Err(error) => StoreReply::Saved(request, Err(error)),
-        }),
-        StoreRequest::LookForLost => Some(StoreReply::Lost(recoverable(&folders.recovery()))),
-        StoreRequest::Discard(recovery) => failed(recovery.discard()),
-        StoreRequest::Remember(preferences) => failed(preferences.save(&folders.config)),
+        }
     }
+}
+
+fn collect(request: &CollectRequest) -> Result<(PathBuf, Collection)> {
+    let Origin { file, admitted, .. } = &request.origin;
+    let assets = AssetFolder::new(file, false)?.admitting(admitted.clone());
+    collect_into(&request.folder, (&request.file, &request.project), (file, &assets), &Progress::new())
+}
+
+/// The files of a project that are there, but outside of its folder and not admitted.
+fn outside(project: &Project, origin: &Origin) -> Result<Vec<PathBuf>> {
+    let folder = origin.file.parent().unwrap_or(Path::new(""));
+    let real = project.files().into_iter().filter_map(|file| folder.join(file).canonicalize().ok());
+    let assets = AssetFolder::new(&origin.file, false)?.admitting(origin.admitted.clone());
+    let mut outside: Vec<_> = real.filter(|real| real.is_file() && !assets.allows(real)).collect();
+    outside.sort();
+    outside.dedup();
+    Ok(outside)
+}
+
+fn is_outside(path: &Path, origin: &Origin) -> Result<bool> {
+    let real = path.canonicalize().map_err(Error::io("find", path))?;
+    Ok(!AssetFolder::new(&origin.file, false)?.admitting(origin.admitted.clone()).allows(&real))
 }
 
 fn open(path: &Path) -> Result<Opened> {
     let bytes = files::read_regular_file(path, MOST_BYTES)?;
     let (file, notes) = ProjectFile::parse(&bytes, path)?;
     Ok(Opened { file: Arc::new(file), notes, seen: Fingerprint::of(&bytes) })
-}
-
-/// Saves a project; none where the file does not have the expected fingerprint.
-fn save(folders: &Folders, request: &SaveRequest) -> Result<Option<Saved>> {
-    // Through a link the file behind it is written; the link stays.
-    let path = request.path.canonicalize().unwrap_or_else(|_| request.path.clone());
-    let old = present(&path)?;
-    if let (Some(old), Some(seen)) = (&old, request.seen)
-        && Fingerprint::of(old) != seen
-    {
-        return Ok(None);
-    }
-    let text = request.file.save(&path, &request.project)?;
-    let backup = old.filter(|old| old != text.as_bytes()).map(|old| keep(folders, &path, &old));
-    if let Some(folder) = path.parent() {
-        disk::sweep(folder);
-    }
-    let note = backup.and_then(Result::err).map(|error| format!("saved, but without backup: {error}"));
-    Ok(Some(Saved { seen: Fingerprint::of(text.as_bytes()), note }))
-}
-
-/// The content of the file at `path`; none where there is none. Refuses a file that must not be overwritten.
-fn present(path: &Path) -> Result<Option<Vec<u8>>> {
-    match std::fs::metadata(path) {
-        Ok(data) if data.permissions().readonly() => {
-            Err(Error::format(path, "", "is write-protected; save under another name"))
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Ok(_) | Err(_) => files::read_regular_file(path, MOST_BYTES).map(Some),
-    }
-}
-
-/// Writes a backup of the previous version. The name contains a hash of the folder, so that equal names do not collide.
-fn keep(folders: &Folders, path: &Path, old: &[u8]) -> Result<()> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let folder = Fingerprint::of(path.as_os_str().as_encoded_bytes()).short();
-    disk::write(&folders.backups().join(format!("{name}.{folder}.bak")), old)
 }

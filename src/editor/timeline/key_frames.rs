@@ -86,7 +86,7 @@ impl Timeline {
             ui.ctx(),
             &key.shows,
             &templates::file_of(editor.document),
-            self.external,
+            &self.access,
             extent,
         );
         let chosen = editor.session.focus.key == Some(index);

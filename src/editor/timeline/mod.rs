@@ -18,6 +18,7 @@ use egui::{Align2, FontId, PointerButton, Rect, Ui, pos2};
 pub use commands::carry_out;
 
 use super::playback;
+use crate::editor::access::Access;
 use crate::editor::context::EditorContext;
 use drag::Dragging;
 use lanes::{GUTTER, KEYS, ROW, with_bar};
@@ -30,8 +31,8 @@ pub struct Timeline {
     /// The visible part of the time axis; none for all frames.
     seen: Option<VisibleRange>,
     drag: Dragging,
-    /// Whether thumbnails may read files outside the project's folder.
-    pub external: bool,
+    /// Which files outside of the folder of the project thumbnails may read.
+    pub access: Access,
     thumbnails: Thumbnails,
 }
 

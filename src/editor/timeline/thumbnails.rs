@@ -10,8 +10,10 @@ use std::thread;
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use glam::{Vec2, Vec3};
 use lightloom_core::Result;
-use lightloom_core::project::{AssetFolder, Shows};
+use lightloom_core::project::Shows;
 use lightloom_core::targets::{PictureSampler, Points, load_points};
+
+use crate::editor::access::Access;
 
 /// Pixels along the longer side.
 const SIDE: f32 = 96.0;
@@ -32,7 +34,7 @@ struct Request {
     shows: Shows,
     /// The project file, whose folder the target's path is relative to.
     project: PathBuf,
-    external: bool,
+    access: Access,
     extent: Vec2,
 }
 
@@ -73,14 +75,14 @@ impl Default for Thumbnails {
 }
 
 impl Thumbnails {
-    /// The thumbnail of the target `shows` in the project file `project`, on a plane of `extent`. With `external` it may
-    /// read files outside of the project's folder.
+    /// The thumbnail of the target `shows` in the project file `project`, on a plane of `extent`. Outside of the
+    /// project's folder it reads what `access` admits.
     pub(super) fn of(
         &mut self,
         ctx: &Context,
         shows: &Shows,
         project: &Path,
-        external: bool,
+        access: &Access,
         extent: Vec2,
     ) -> Thumbnail {
         if *shows == Shows::PhysicalCaustic {
@@ -88,7 +90,7 @@ impl Thumbnails {
         }
         self.collect(ctx);
         let same = |request: &Request| {
-            let place = request.project == project && request.external == external;
+            let place = request.project == project && request.access == *access;
             request.shows == *shows && request.extent == extent && place
         };
         match self.made.iter().find(|(request, _)| same(request)) {
@@ -99,7 +101,8 @@ impl Thumbnails {
                 Thumbnail::Waiting
             }
             None => {
-                self.order(Request { shows: shows.clone(), project: project.to_owned(), external, extent });
+                let (shows, project, access) = (shows.clone(), project.to_owned(), access.clone());
+                self.order(Request { shows, project, access, extent });
                 ctx.request_repaint_after_secs(0.1);
                 Thumbnail::Waiting
             }
@@ -126,7 +129,7 @@ impl Thumbnails {
 }
 
 fn picture(request: &Request) -> Result<ColorImage> {
-    let assets = AssetFolder::new(&request.project, request.external)?;
+    let assets = request.access.assets(&request.project)?;
     let points = match &request.shows {
         Shows::PhysicalCaustic => Points::default(),
         Shows::Image(image) => {

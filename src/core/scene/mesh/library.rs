@@ -10,10 +10,10 @@ use crate::Result;
 use crate::scene::material::{Diffuse, Material};
 
 /// Most material files of a mesh.
-const MOST_FILES: usize = 256;
+pub(super) const MOST_FILES: usize = 256;
 
 /// Resolves a path as written, for the value at a place, to a file; or refuses.
-pub(super) type Assets<'a> = &'a dyn Fn(&str, &str) -> Result<PathBuf>;
+pub type Assets<'a> = &'a dyn Fn(&str, &str) -> Result<PathBuf>;
 
 /// All materials of the files that an OBJ file names.
 #[derive(Default)]
@@ -161,16 +161,16 @@ fn end_of_name(text: &str) -> usize {
 }
 
 /// A material file that was found.
-struct Found {
+pub(super) struct Found {
     /// Relative to the folder of the mesh.
-    written: String,
-    path: PathBuf,
+    pub(super) written: String,
+    pub(super) path: PathBuf,
     materials: Vec<MtlMaterial>,
 }
 
 impl Owner<'_> {
     /// The files of an `mtllib` line with their names in it: one that is called as the whole line is, or several.
-    fn files(&self, line: &str) -> Vec<(String, Result<Found>)> {
+    pub(super) fn files(&self, line: &str) -> Vec<(String, Result<Found>)> {
         let clean = text::without_comment(line);
         match [line, clean].into_iter().find_map(|whole| self.open(whole).ok()) {
             Some(found) => vec![(found.written.clone(), Ok(found))],

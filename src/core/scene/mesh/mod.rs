@@ -1,6 +1,7 @@
 //! Triangle meshes from OBJ and glTF files: reading, placement, clean-up, smooth normals.
 
 mod clean;
+mod companions;
 mod desc;
 mod foreign;
 mod gltf;
@@ -14,9 +15,11 @@ mod text;
 
 use std::path::PathBuf;
 
+pub use self::companions::{MaterialFile, material_files};
 pub use self::desc::{MeshDesc, Transform};
 pub use self::foreign::advice;
 pub(super) use self::gltf::GltfFiles;
+pub use self::library::Assets;
 
 use self::library::Owner;
 use self::obj::{Group, ObjFile};

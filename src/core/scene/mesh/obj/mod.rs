@@ -16,7 +16,7 @@ use crate::files::read_regular_file;
 use crate::{Error, Progress, Result};
 
 /// Largest file read [bytes].
-const MAX_BYTES: u64 = 8 << 30;
+pub(super) const MAX_BYTES: u64 = 8 << 30;
 /// No normal given.
 pub(super) const NONE: u32 = u32::MAX;
 

@@ -1,0 +1,39 @@
+//! Which files outside of its folder the open project may read.
+
+use std::path::Path;
+
+use lightloom_core::Result;
+use lightloom_core::project::{Admitted, AssetFolder};
+
+/// The admitted files at one moment: equal as long as nothing was added to the list.
+#[derive(Clone, Debug, Default)]
+pub struct Access {
+    admitted: Admitted,
+    count: usize,
+}
+
+impl Access {
+    /// The files that are admitted now.
+    pub fn of(admitted: &Admitted) -> Self {
+        Self { admitted: admitted.clone(), count: admitted.count() }
+    }
+
+    /// The list.
+    pub fn admitted(&self) -> &Admitted {
+        &self.admitted
+    }
+
+    /// Finds the files of the project file `file`.
+    ///
+    /// # Errors
+    /// The folder of the project cannot be found.
+    pub fn assets(&self, file: &Path) -> Result<AssetFolder> {
+        Ok(AssetFolder::new(file, false)?.admitting(self.admitted.clone()))
+    }
+}
+
+impl PartialEq for Access {
+    fn eq(&self, other: &Self) -> bool {
+        self.admitted.is(&other.admitted) && self.count == other.count
+    }
+}
