@@ -257,5 +257,5 @@ fn what_is_typed_while_a_dialog_opens_is_its_name_and_no_tool() {
     assert_eq!(harness.state().session().tool, tool);
     assert_eq!(harness.state().document().project().keys.len(), 2, "K adds a key frame");
     let typed = harness.get_by_label("Path").value().unwrap_or_default();
-    assert!(typed.ends_with("webk"), "{typed}");
+    assert!(typed.ends_with("wdekwebk"), "{typed}");
 }
