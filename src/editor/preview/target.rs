@@ -13,8 +13,8 @@ use crate::editor::access::Access;
 
 /// Cells along the longer side of what is shown.
 const SIDE: usize = 512;
-/// Reach of the outline to both sides of an edge, cells.
-const REACH: usize = 1;
+/// Reach of the outline to both sides of an edge, cells: seen also where the picture is small.
+const REACH: usize = 3;
 
 /// The picture that was read last.
 #[derive(Clone)]
@@ -110,12 +110,12 @@ mod tests {
 
     #[test]
     fn an_outline_lies_on_the_edge_and_leaves_the_inside_free() {
-        let inside = |x: usize, y: usize| (3..9).contains(&x) && (2..8).contains(&y);
+        let inside = |x: usize, y: usize| (5..25).contains(&x) && (5..25).contains(&y);
         let values: Vec<f32> =
-            (0..10).flat_map(|y| (0..12).map(move |x| if inside(x, y) { 1.0 } else { 0.0 })).collect();
-        let drawn = outline(&values, 12, 10);
-        for (x, y, line) in [(5, 5, 0.0), (0, 0, 0.0), (3, 5, 1.0), (2, 5, 1.0), (8, 7, 1.0), (11, 9, 0.0)] {
-            assert!((drawn[y * 12 + x] - line).abs() < 1e-6, "{x} {y}");
+            (0..30).flat_map(|y| (0..40).map(move |x| if inside(x, y) { 1.0 } else { 0.0 })).collect();
+        let drawn = outline(&values, 40, 30);
+        for (x, y, line) in [(15, 15, 0.0), (0, 0, 0.0), (5, 15, 1.0), (2, 15, 1.0), (24, 24, 1.0), (39, 29, 0.0)] {
+            assert!((drawn[y * 40 + x] - line).abs() < 1e-6, "{x} {y}");
         }
         assert!(outline(&[], 0, 0).is_empty());
     }
