@@ -96,12 +96,7 @@ impl Plugin for KeyQueue {
 fn is_typed(event: &Event) -> bool {
     matches!(
         event,
-        Event::Key { .. }
-            | Event::Text(_)
-            | Event::Paste(_)
-            | Event::Copy
-            | Event::Cut
-            | Event::Ime(_)
+        Event::Key { .. } | Event::Text(_) | Event::Paste(_) | Event::Copy | Event::Cut | Event::Ime(_)
     )
 }
 

@@ -1,8 +1,8 @@
 //! The layout of the window.
 
 use eframe::egui;
-use lightloom_core::import::awaits_glass;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
+use lightloom_core::import::awaits_glass;
 
 use super::import::Details;
 use super::{App, Gpu};
@@ -30,8 +30,13 @@ impl App {
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
             let told = self.details.as_ref().is_some_and(|details| details.status == *editor.status);
-            let clicked =
-                status(ui, editor, self.gpu, self.preferences.photon_renderer, (&self.exports, told, self.views.pixel()));
+            let clicked = status(
+                ui,
+                editor,
+                self.gpu,
+                self.preferences.photon_renderer,
+                (&self.exports, told, self.views.pixel()),
+            );
             if clicked.export {
                 editor.ask(Command::Export);
             }

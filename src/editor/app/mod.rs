@@ -22,6 +22,7 @@ use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
 use super::engine::SharedEngine;
 use super::export::{Exports, InterruptedExport, interrupted};
+use super::key_queue::{KeyQueue, Taker};
 use super::playback::{self, Playback};
 use super::preview::{LivePreview, Subject};
 use super::session::Session;
@@ -30,7 +31,6 @@ use super::store::{Folders, Preferences};
 use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
-use super::key_queue::{KeyQueue, Taker};
 use super::{keyboard, preferences, templates, theme};
 use file_state::Files;
 use import::Details;
@@ -190,8 +190,7 @@ impl App {
 
     /// Says who takes the keys. `asking` is whether a file dialog was on its way before this frame.
     fn direct_keys(&self, ctx: &egui::Context, asking: bool) {
-        let covered =
-            self.picker.is_open() || self.files.question.is_some() || self.windows.welcome.open;
+        let covered = self.picker.is_open() || self.files.question.is_some() || self.windows.welcome.open;
         keyboard::set_covered(ctx, covered);
         let palette = self.windows.palette.is_open() && !ctx.text_edit_focused();
         let taker = match self.picker.taker(ctx) {

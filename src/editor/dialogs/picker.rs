@@ -66,8 +66,7 @@ impl Picker {
         let answer = self.dialogs.pick(&request, ctx.clone());
         // What is typed from now on is meant for the dialog.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
-        self.state =
-            PickerState::Asked(request, answer, Meanwhile { since: Instant::now() });
+        self.state = PickerState::Asked(request, answer, Meanwhile { since: Instant::now() });
         // An answer may be there already.
         ctx.request_repaint();
     }

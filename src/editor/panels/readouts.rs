@@ -232,10 +232,10 @@ pub(in crate::editor) fn pixel(ui: &mut Ui, light: glam::Vec3, exposure: f32) {
 }
 
 fn pixel_in_words(light: glam::Vec3, exposure: f32) -> String {
-    let words = |light: glam::Vec3| {
-        light.to_array().map(|value| number(digits(f64::from(value)), false)).join("  ")
-    };
-    let exposed = if exposure == 0.0 { String::new() } else { format!("  ({})", words(light * exposure.exp2())) };
+    let words =
+        |light: glam::Vec3| light.to_array().map(|value| number(digits(f64::from(value)), false)).join("  ");
+    let exposed =
+        if exposure == 0.0 { String::new() } else { format!("  ({})", words(light * exposure.exp2())) };
     format!("RGB {}{exposed}", words(light))
 }
 

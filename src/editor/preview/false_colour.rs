@@ -32,11 +32,7 @@ pub fn of_share(share: f32) -> Color32 {
 fn of_light(exposed: Vec3) -> Color32 {
     let luminance = exposed.dot(LUMINANCE);
     // Written so that NaN is black, too.
-    if luminance > 0.0 {
-        of_share(0.5 + 0.5 * (luminance / GREY).log2() / STOPS)
-    } else {
-        Color32::BLACK
-    }
+    if luminance > 0.0 { of_share(0.5 + 0.5 * (luminance / GREY).log2() / STOPS) } else { Color32::BLACK }
 }
 
 /// A picture in false colours; `gain` is that of the exposure.

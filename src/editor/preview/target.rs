@@ -114,7 +114,9 @@ mod tests {
         let values: Vec<f32> =
             (0..30).flat_map(|y| (0..40).map(move |x| if inside(x, y) { 1.0 } else { 0.0 })).collect();
         let drawn = outline(&values, 40, 30);
-        for (x, y, line) in [(15, 15, 0.0), (0, 0, 0.0), (5, 15, 1.0), (2, 15, 1.0), (24, 24, 1.0), (39, 29, 0.0)] {
+        for (x, y, line) in
+            [(15, 15, 0.0), (0, 0, 0.0), (5, 15, 1.0), (2, 15, 1.0), (24, 24, 1.0), (39, 29, 0.0)]
+        {
             assert!((drawn[y * 40 + x] - line).abs() < 1e-6, "{x} {y}");
         }
         assert!(outline(&[], 0, 0).is_empty());

@@ -38,11 +38,8 @@ impl Views {
         };
         let preview = editor.preview.preview().cloned();
         let photons = preview.as_ref().and_then(|preview| preview.positions(editor.session.playhead));
-        let backdrop = Backdrop {
-            light: Some(&light),
-            target: pictures.target(),
-            photons: photons.unwrap_or_default(),
-        };
+        let backdrop =
+            Backdrop { light: Some(&light), target: pictures.target(), photons: photons.unwrap_or_default() };
         let response = canvas::show(ui, editor, toolbox, &backdrop);
         let transform = PlaneTransform::new(view, extent, &editor.session.plane);
         let image = editor.preview.painted().linear[0].clone().filter(|_| !by_card);
