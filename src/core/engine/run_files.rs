@@ -52,11 +52,11 @@ impl RunFiles {
     /// Frames of other renders that may not be replaced; a bake of another project; too little room on the disk.
     pub(super) fn open(engine: &Engine, prepared: &mut Prepared, output: &Output) -> Result<Self> {
         let print = fingerprint(&prepared.project, &engine.stages.assets, &prepared.mesh_files)?;
-        let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
-        found.require(output.existing, "--out")?;
         if let Some(folder) = output.bake {
             prepared.bake = Some(Arc::new(Bake::of_folder(folder, &print)?));
         }
+        let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
+        found.require(output.existing, "--out")?;
         let mut files = Self { sheet: output.bake.is_none(), ..Self::fresh(output.folder, print) };
         let wanted = if found.wanted.is_empty() && output.film.is_some() {
             prepared.project.frames()?
