@@ -5,7 +5,7 @@ use std::path::Path;
 use lightloom_core::Result;
 use lightloom_core::project::{Admitted, AssetFolder};
 
-/// The admitted files at one moment: equal as long as nothing was added to the list.
+/// The admitted files at one moment: equal as long as nothing was added to the list, or where none is admitted.
 #[derive(Clone, Debug, Default)]
 pub struct Access {
     admitted: Admitted,
@@ -34,6 +34,6 @@ impl Access {
 
 impl PartialEq for Access {
     fn eq(&self, other: &Self) -> bool {
-        self.admitted.is(&other.admitted) && self.count == other.count
+        self.count == other.count && (self.count == 0 || self.admitted.is(&other.admitted))
     }
 }

@@ -343,7 +343,7 @@ fn a_missing_caustic_is_explained() {
     let dark = LightDesc::Point(PointLight { name: "lamp".into(), watts: 0.0, ..Default::default() });
     assert!(complaint(|stage| stage.desc.lights.clear()).contains("there is no light"));
     assert!(complaint(|stage| stage.desc.meshes.clear()).contains("no mesh is of glass"));
-    assert!(complaint(|stage| stage.desc.lights = vec![dark]).contains("sends nothing"));
+    assert!(complaint(|stage| stage.desc.lights = vec![dark]).contains("sends no light"));
     let away = complaint(|stage| stage.desc.receiver.centre = [50.0, 0.0, 0.0]);
     assert!(away.contains("'lamp'") && away.contains("'ball'") && away.contains("1 x 1 m"), "{away}");
     assert!(away.contains("100 % leaves the scene"), "{away}");

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::fingerprint::fingerprint;
 use super::meter::Meter;
 use super::output::Output;
 use super::prepare::Prepared;
@@ -101,7 +102,9 @@ impl Engine {
             let folder = out.join(method.name());
             std::fs::create_dir_all(&folder).map_err(Error::io("create the folder", &folder))?;
             let output = Output::new(&folder, progress, saved);
-            match self.render_prepared(prepared, &meter, &output, RunFiles::fresh(&folder)) {
+            let print = fingerprint(&prepared.project, &self.stages.assets, &prepared.mesh_files)?;
+            let files = RunFiles::fresh(&folder, print);
+            match self.render_prepared(prepared, &meter, &output, files) {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {
                     let rendered = rendered?;

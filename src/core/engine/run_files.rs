@@ -21,7 +21,7 @@ use crate::render::{ProgressiveRender, TextureLayout};
 
 /// What a render keeps, and where its unfinished light is.
 pub(super) struct RunFiles {
-    /// Empty where frames do not tell what they are made from.
+    /// What the frames are made from.
     pub(super) fingerprint: String,
     pub(super) found: Found,
     /// Whether a contact sheet is written.
@@ -33,10 +33,10 @@ pub(super) struct RunFiles {
 }
 
 impl RunFiles {
-    /// Those of a render that replaces whatever is in its folder, and is never taken up.
-    pub(super) fn fresh(folder: &Path) -> Self {
+    /// Those of a render with this fingerprint that replaces whatever is in its folder, and is never taken up.
+    pub(super) fn fresh(folder: &Path, fingerprint: String) -> Self {
         Self {
-            fingerprint: String::new(),
+            fingerprint,
             found: Found::default(),
             sheet: true,
             checkpoint: None,
@@ -52,13 +52,12 @@ impl RunFiles {
     /// Frames of other renders that may not be replaced; a bake of another project; too little room on the disk.
     pub(super) fn open(engine: &Engine, prepared: &mut Prepared, output: &Output) -> Result<Self> {
         let print = fingerprint(&prepared.project, &engine.stages.assets, &prepared.mesh_files)?;
-        let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
-        found.require(output.existing, "--out")?;
         if let Some(folder) = output.bake {
             prepared.bake = Some(Arc::new(Bake::of_folder(folder, &print)?));
         }
-        let mut files =
-            Self { fingerprint: print, sheet: output.bake.is_none(), ..Self::fresh(output.folder) };
+        let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
+        found.require(output.existing, "--out")?;
+        let mut files = Self { sheet: output.bake.is_none(), ..Self::fresh(output.folder, print) };
         let wanted = if found.wanted.is_empty() && output.film.is_some() {
             prepared.project.frames()?
         } else {

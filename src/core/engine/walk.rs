@@ -91,9 +91,9 @@ impl<'a> Walk<'a> {
             return Ok(None);
         }
         let layers = self.layers();
-        let (matched, mut to, tracks) = match self.pass {
-            0 if job.remembers => self.remembered(&maps)?,
-            _ => self.pair(&maps, job.progress)?,
+        let (matched, mut to, tracks) = match self.is_remembered(&maps) {
+            true => self.remembered(&maps)?,
+            false => self.pair(&maps, job.progress)?,
         };
         for (group, (before, to)) in self.at.iter().zip(&mut to).enumerate() {
             job.sources.keep_colours((number + 1, group), before, to);
@@ -115,6 +115,13 @@ impl<'a> Walk<'a> {
             (0..groups.count()).filter(moves).partition(|&group| groups.own_flow(group));
         let shared = Some(shared).filter(|groups| !groups.is_empty());
         shared.into_iter().chain(own.into_iter().map(|group| vec![group])).collect()
+    }
+
+    /// Whether a matching of this pass by these maps is remembered. One by the maps of a bake is not: it would take the place
+    /// of that which made the maps.
+    fn is_remembered(&self, maps: &MapsFrom) -> bool {
+        let by_bake = self.job.baked && matches!(maps, MapsFrom::Others(_));
+        self.job.remembers && self.pass == 0 && !by_bake
     }
 
     /// Whether the photons of a group stay in place until the next key frame.
@@ -175,7 +182,7 @@ impl<'a> Walk<'a> {
             self.pair_groups((maps, meeting), points, progress)
         };
         // What is done again for every pass is a part of the render.
-        if self.job.remembers && self.pass == 0 { self.job.meter.measure("match", pair) } else { pair() }
+        if self.is_remembered(maps) { self.job.meter.measure("match", pair) } else { pair() }
     }
 
     /// Pairs group by group, where they meet if there is a meeting.

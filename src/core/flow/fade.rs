@@ -38,6 +38,14 @@ pub enum Fade {
     },
 }
 
+/// A [`Fade`] as it is baked: the formats of bakes know no names of types.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Fade")]
+pub(super) enum PlainFade {
+    Smooth { start: f32, end: f32, limit: f32 },
+    Paper { tau: f32 },
+}
+
 settings! { Fade {
     /// How the photons leave the field to arrive exactly at their targets.
     KIND = Setting::choice("flow.fade", &[

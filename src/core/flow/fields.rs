@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec2;
 
-use super::fade::Fade;
+use super::fade::{Fade, PlainFade};
 use super::field::Field;
 use super::guidance::guidance;
 use super::step::{StageVelocity, Step};
@@ -22,6 +22,7 @@ pub struct Fields {
     steps: usize,
     /// Photon steps per field.
     substeps: usize,
+    #[serde(with = "PlainFade")]
     fade: Fade,
     mean_straight: f32,
     turbulence: Option<Turbulence>,

@@ -3,6 +3,7 @@
 use glam::{BVec3, Vec3};
 
 use super::FluxBalance;
+use super::lamp_light::power;
 use crate::Error;
 use crate::scene::light::LightRole;
 use crate::scene::material::Material;
@@ -111,8 +112,8 @@ fn broken_link(scene: &Scene, (light, balance): (&LightDesc, &FluxBalance)) -> S
 fn fate(scene: &Scene, light: &LightDesc, balance: &FluxBalance) -> String {
     let sum = |flux: glam::DVec3| flux.element_sum();
     let met = sum(balance.emitted - balance.direct);
-    if sum(balance.emitted) <= 0.0 {
-        return "sends nothing towards glass or mirrors (is it on, and turned to them?)".to_owned();
+    if !light.is_enabled() || power(light) == Some(0.0) {
+        return "sends no light: it is off, or has no watts".to_owned();
     }
     if met <= 0.0 {
         return format!("reaches no glass or mirror: {}", obstacle(scene, light));

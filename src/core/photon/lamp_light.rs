@@ -65,7 +65,7 @@ fn traced((scene, domain): (&Scene, &Domain), (index, row): (u64, u64), seed: u6
 }
 
 /// Its power by the project, watts.
-fn power(light: &LightDesc) -> Option<f64> {
+pub(super) fn power(light: &LightDesc) -> Option<f64> {
     let (watts, colour) = match light {
         LightDesc::Point(light) => (light.watts, light.colour),
         LightDesc::Spot(light) => (light.watts, light.colour),

@@ -42,7 +42,9 @@ impl App {
     /// The picked file comes into the project, at once or after a question.
     pub(super) fn located(&mut self, file: &Path, outside: bool) {
         let Some((path, pick)) = self.files.located.take().filter(|(path, _)| path == file) else { return };
-        match (outside, self.files.outside) {
+        // An unsaved project has no folder yet: saving it brings its files together.
+        let decided = self.files.outside.or(self.editor.document.path().is_none().then_some(Elsewhere::Copy));
+        match (outside, decided) {
             (false, _) => self.insert(&pick, &path),
             (true, Some(Elsewhere::Copy)) => self.decide_pick(&pick, &path, Answer::Yes),
             (true, Some(Elsewhere::Trust)) => self.decide_pick(&pick, &path, Answer::No),
