@@ -78,6 +78,15 @@ pub(super) enum Elsewhere {
     Trust,
 }
 
+/// What there is to say beyond the message in the status bar.
+#[derive(Clone)]
+pub(super) struct Details {
+    /// That message: without it there are no details to show.
+    pub(super) status: String,
+    pub(super) title: String,
+    pub(super) text: String,
+}
+
 /// What follows when the document is left.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Leave {

@@ -8,6 +8,7 @@ use lightloom_core::import::{self, Import};
 use lightloom_core::project::relative;
 
 use super::App;
+use super::file_state::Details;
 use super::files::name;
 use super::importing::Importing;
 use crate::editor::document::{Document, Edit};
@@ -16,15 +17,6 @@ use crate::editor::templates;
 
 /// How often the window looks whether the file is read.
 const LOOK: Duration = Duration::from_millis(30);
-
-/// What there is to say beyond the message in the status bar.
-#[derive(Clone)]
-pub(super) struct Details {
-    /// That message: without it there are no details to show.
-    pub(super) status: String,
-    pub(super) title: String,
-    pub(super) text: String,
-}
 
 impl App {
     /// Replaces the document by an empty project, with its scene in the panel.

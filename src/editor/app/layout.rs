@@ -4,7 +4,7 @@ use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
 use lightloom_core::import::awaits_glass;
 
-use super::import::Details;
+use super::file_state::Details;
 use super::{App, Gpu};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
