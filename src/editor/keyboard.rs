@@ -78,9 +78,8 @@ pub(super) fn set_covered(ctx: &Context, covered: bool) {
 
 /// Whether a dialog or a menu is open that receives the keys.
 pub(super) fn is_covered(ctx: &Context) -> bool {
-    // A modal window counts from the frame after its first.
     let told = ctx.data(|data| data.get_temp(egui::Id::unique("covered")).unwrap_or(false));
-    told || egui::Popup::is_any_open(ctx) || ctx.memory(|memory| memory.top_modal_layer().is_some())
+    told || egui::Popup::is_any_open(ctx)
 }
 
 /// The action of the space bar on release: held while the pointer drags, it pans the view instead.

@@ -187,6 +187,7 @@ pub fn is_on(command: Command, session: &Session) -> Option<bool> {
         Command::ShowCurl => show.map == Some(FieldMap::Curl),
         Command::ShowResidual => show.map == Some(FieldMap::Residual),
         Command::ShowTears => show.map == Some(FieldMap::Tears),
+        Command::FalseColour => show.false_colour,
         Command::Compare => session.compare.is_some(),
         Command::LookThroughCamera => session.layout == ViewLayout::Orbit && session.through_camera,
         _ => return None,

@@ -13,6 +13,8 @@ pub mod dialogs;
 pub mod document;
 pub mod engine;
 pub mod export;
+mod invitation;
+mod key_queue;
 pub mod keyboard;
 pub mod look;
 pub mod menu;

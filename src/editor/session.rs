@@ -113,7 +113,9 @@ pub struct Overlays {
     pub trails: bool,
     /// The grid of the field.
     pub grid: bool,
-    /// A map in false colours.
+    /// The light of plane and shot in false colours.
+    pub false_colour: bool,
+    /// A map of the field over the light.
     pub map: Option<FieldMap>,
 }
 
@@ -126,6 +128,7 @@ impl Default for Overlays {
             streamlines: false,
             trails: false,
             grid: false,
+            false_colour: false,
             map: None,
         }
     }

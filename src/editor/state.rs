@@ -168,6 +168,7 @@ impl EditorState {
             Command::ShowCurl => map(FieldMap::Curl),
             Command::ShowResidual => map(FieldMap::Residual),
             Command::ShowTears => map(FieldMap::Tears),
+            Command::FalseColour => toggle(&mut overlays.false_colour),
             Command::ShowArrows => toggle(&mut overlays.arrows),
             Command::ShowStreamlines => toggle(&mut overlays.streamlines),
             Command::ShowTrails => toggle(&mut overlays.trails),

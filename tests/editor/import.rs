@@ -36,11 +36,27 @@ fn a_scene_comes_into_an_empty_project_and_leaves_by_one_undo() {
     harness.run_steps(3);
     assert_eq!(**harness.state().document().project(), empty_project());
     assert!(!harness.state().document().is_unsaved());
+    // It invites; that there is nothing to compute is no fault.
+    assert!(harness.query_by_label("Import a glass").is_some());
+    for _ in 0..100 {
+        harness.run_steps(1);
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        assert_eq!(harness.state().preview().problem(), None);
+    }
 
     harness.key_press_modifiers(Modifiers::COMMAND, Key::I);
     until(&mut harness, "the scene", |app| {
         app.document().project().scene.as_ref().is_some_and(|scene| !scene.meshes.is_empty())
     });
+    // What was guessed is told in the status bar, and covers nothing.
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Import a glass").is_none());
+    assert!(harness.query_by_label("'prism.gltf' was imported").is_none());
+    harness.get_by_label("Details").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("'prism.gltf' was imported").is_some());
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
     let project = harness.state().document().project().clone();
     let scene = project.scene.as_ref().unwrap();
     assert_eq!(scene.meshes[0].node.as_deref(), Some("Prism"));

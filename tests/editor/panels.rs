@@ -255,3 +255,24 @@ fn pictures_of_every_panel() {
         harness.render().unwrap().save(folder.join(format!("tooltip_{}.png", name.to_lowercase()))).unwrap();
     }
 }
+
+#[test]
+fn a_selected_point_is_moved_by_number_and_a_loop_stays_closed() {
+    use lightloom_core::constraint::{Constraint, Wall};
+    let corners = [[0.2, 0.2], [0.6, 0.2], [0.6, 0.6], [0.2, 0.2]];
+    let project = Project {
+        constraints: vec![Constraint::Wall(Wall::new(corners.to_vec()))],
+        ..support::example("letters_free")
+    };
+    for (point, moved) in [(1, vec![1]), (0, vec![0, 3])] {
+        let mut harness = panel_harness(project.clone(), Panel::Drawn);
+        harness.state_mut().session.selection = Selection::point(0, point);
+        harness.run();
+        harness.get_by_role_and_label(Role::SpinButton, "Point x").set_value_accesskit(0.25);
+        harness.run();
+        let Edit::Change(changed) = last_edit(&harness) else { panic!("no change") };
+        let mut expected = corners;
+        moved.into_iter().for_each(|place| expected[place][0] = 0.25);
+        assert_eq!(changed[0].1.points(), expected);
+    }
+}

@@ -60,7 +60,26 @@ pub fn empty_project() -> Project {
     }
 }
 
+/// Whether a project has no glass yet for the caustic that it shall show: there is nothing to compute until one comes.
+pub fn awaits_glass(project: &Project) -> bool {
+    let shows_it = || project.keys.iter().any(|key| key.shows == Shows::PhysicalCaustic);
+    project.scene.as_ref().is_some_and(|scene| scene.meshes.is_empty()) && shows_it()
+}
+
 /// A faint sky, so that glass is seen.
 pub(super) fn sky() -> EnvironmentDesc {
     EnvironmentDesc { zenith: ZENITH, horizon: HORIZON, ..EnvironmentDesc::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_caustic_without_glass_awaits_one() {
+        let empty = empty_project();
+        assert!(awaits_glass(&empty));
+        assert!(!awaits_glass(&Project { scene: None, ..empty.clone() }));
+        assert!(!awaits_glass(&Project { keys: Vec::new(), ..empty }));
+    }
 }

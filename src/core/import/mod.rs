@@ -19,7 +19,7 @@ mod setting;
 mod summary;
 
 pub use copy::into_folder;
-pub use empty::empty_project;
+pub use empty::{awaits_glass, empty_project};
 pub use imported::Import;
 pub use reading::read;
 pub use summary::Summary;

@@ -293,9 +293,14 @@ impl App {
         }
     }
 
+    /// The folder of the document's file; none where it has none, and dialogs begin in the user's last folder.
+    pub(super) fn own_folder(&self) -> Option<PathBuf> {
+        self.editor.document.path().and_then(Path::parent).map(Path::to_owned)
+    }
+
     /// Asks for a project to open.
     pub(super) fn ask_what_to_open(&mut self, ctx: &egui::Context) {
-        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
+        let folder = self.own_folder();
         self.picker.ask(PickRequest::new(Purpose::OpenProject).in_folder(folder), ctx);
     }
 
@@ -311,7 +316,7 @@ impl App {
 
     /// Asks for a file to save to.
     pub(super) fn save_as(&mut self, ctx: &egui::Context) {
-        let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
+        let folder = self.own_folder();
         let name = self.file_name();
         self.picker.ask(PickRequest::new(Purpose::SaveProject).in_folder(folder).named(name), ctx);
     }

@@ -17,6 +17,15 @@ use crate::editor::templates;
 /// How often the window looks whether the file is read.
 const LOOK: Duration = Duration::from_millis(30);
 
+/// What there is to say beyond the message in the status bar.
+#[derive(Clone)]
+pub(super) struct Details {
+    /// That message: without it there are no details to show.
+    pub(super) status: String,
+    pub(super) title: String,
+    pub(super) text: String,
+}
+
 impl App {
     /// Replaces the document by an empty project, with its scene in the panel.
     pub(super) fn begin_empty(&mut self) {
@@ -63,8 +72,16 @@ impl App {
         let summary = &import.summary;
         self.editor.status = summary.line();
         if !summary.notes.is_empty() {
-            let text = format!("{}.\n\n{}", summary.line(), summary.notes.join("\n"));
-            self.show_message(format!("'{}' was imported", name(file)), text);
+            let count = match summary.notes.len() {
+                1 => "1 note".to_owned(),
+                more => format!("{more} notes"),
+            };
+            self.editor.status = format!("{count}: {}", self.editor.status);
+            self.details = Some(Details {
+                status: self.editor.status.clone(),
+                title: format!("'{}' was imported", name(file)),
+                text: format!("{}.\n\n{}", summary.line(), summary.notes.join("\n")),
+            });
         }
     }
 }

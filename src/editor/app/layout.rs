@@ -2,12 +2,15 @@
 
 use eframe::egui;
 use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
+use lightloom_core::import::awaits_glass;
 
+use super::import::Details;
 use super::{App, Gpu};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
 use crate::editor::context::EditorContext;
 use crate::editor::export;
+use crate::editor::invitation;
 use crate::editor::panels;
 use crate::editor::store::PhotonRenderer;
 use crate::editor::timeline::Timeline;
@@ -21,13 +24,23 @@ const PANEL: [f32; 2] = [330.0, 290.0];
 impl App {
     /// Shows everything; actions are appended to `actions`.
     pub(super) fn layout(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
+        let mut details_wanted = false;
         let mut editor = self.editor.context(actions);
         let editor = &mut editor;
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
-            if status(ui, editor, self.gpu, self.preferences.photon_renderer, &self.exports) {
+            let told = self.details.as_ref().is_some_and(|details| details.status == *editor.status);
+            let clicked = status(
+                ui,
+                editor,
+                self.gpu,
+                self.preferences.photon_renderer,
+                (&self.exports, told, self.views.pixel()),
+            );
+            if clicked.export {
                 editor.ask(Command::Export);
             }
+            details_wanted = clicked.details;
         });
         let height = Timeline::height(editor);
         let timeline = Panel::bottom("timeline").resizable(true).default_size(height).min_size(110.0);
@@ -58,8 +71,14 @@ impl App {
                     });
                 });
             }
+            if awaits_glass(editor.document.project()) {
+                invitation::show(ui, views, editor);
+            }
             self.views.plane_rect()
         });
+        if details_wanted && let Some(Details { title, text, .. }) = self.details.clone() {
+            self.show_message(title, text);
+        }
         self.windows.anchors = Some(Anchors { line, wall, play, plane: plane.inner });
     }
 }
@@ -80,20 +99,29 @@ fn problem_banner(ui: &mut Ui, problem: &str) -> bool {
     .inner
 }
 
-/// The status bar: activity, message, export, renderer. Returns whether the export was clicked.
+/// What was clicked in the status bar.
+#[derive(Default)]
+struct Clicked {
+    export: bool,
+    /// The details of the message.
+    details: bool,
+}
+
+/// The status bar: activity, message with its details if there are some, export, renderer.
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
     gpu: Gpu,
     renderer: PhotonRenderer,
-    exports: &export::Exports,
-) -> bool {
-    let mut clicked = false;
+    (exports, has_details, pixel): (&export::Exports, bool, Option<glam::Vec3>),
+) -> Clicked {
+    let mut clicked = Clicked::default();
     ui.horizontal_centered(|ui| {
         let activity = editor.preview.activity();
         let idle = match (editor.preview.problem(), editor.preview.is_shown()) {
             (Some(_), _) => "not computed",
             (None, true) => "ready",
+            (None, false) if awaits_glass(editor.document.project()) => "no glass yet",
             (None, false) => "painting",
         };
         let (doing, share) = activity.map_or((idle, 1.0), |now| (doing(now.stage), now.fraction));
@@ -107,9 +135,14 @@ fn status(
             ui.weak(name).on_hover_text(help);
             ui.separator();
             panels::readouts::status_line(ui, editor);
+            if let Some(light) = pixel {
+                ui.separator();
+                panels::readouts::pixel(ui, light, editor.document.project().render.view.exposure);
+            }
             ui.separator();
-            clicked = export::status_line(ui, exports);
+            clicked.export = export::status_line(ui, exports);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                clicked.details = has_details && ui.small_button("Details").clicked();
                 ui.add(egui::Label::new(editor.status).truncate());
             });
         });

@@ -22,6 +22,7 @@ use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
 use super::engine::SharedEngine;
 use super::export::{Exports, InterruptedExport, interrupted};
+use super::key_queue::{KeyQueue, Taker};
 use super::playback::{self, Playback};
 use super::preview::{LivePreview, Subject};
 use super::session::Session;
@@ -32,6 +33,7 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::Files;
+use import::Details;
 use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
@@ -52,6 +54,8 @@ pub struct App {
     files: Files,
     /// The scene that is being read for the document.
     importing: Option<Importing>,
+    /// The details of a message in the status bar.
+    details: Option<Details>,
     preferences: Preferences,
     /// The graphics device.
     gpu: Gpu,
@@ -111,6 +115,7 @@ impl App {
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             importing: None,
+            details: None,
             preferences: setup.preferences,
             gpu: setup.gpu,
             asked: Vec::new(),
@@ -153,8 +158,9 @@ impl App {
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
+        let asking = self.picker.is_waiting();
         self.receive(&ctx);
-        keyboard::set_covered(&ctx, self.picker.is_open() || self.files.question.is_some());
+        self.direct_keys(&ctx, asking);
         self.play(&ctx);
         let tools: Vec<_> = self.toolbox.tools().map(|tool| (tool.info().name, tool.info().key)).collect();
         let mut actions = std::mem::take(&mut self.asked);
@@ -179,6 +185,20 @@ impl App {
         }
         self.autosave(&ctx);
         self.follow();
+        self.direct_keys(&ctx, asking);
+    }
+
+    /// Says who takes the keys. `asking` is whether a file dialog was on its way before this frame.
+    fn direct_keys(&self, ctx: &egui::Context, asking: bool) {
+        let covered = self.picker.is_open() || self.files.question.is_some() || self.windows.welcome.open;
+        keyboard::set_covered(ctx, covered);
+        let palette = self.windows.palette.is_open() && !ctx.text_edit_focused();
+        let taker = match self.picker.taker(ctx) {
+            Taker::Shown if palette => Taker::Coming,
+            Taker::Shown if asking && !self.picker.is_open() => Taker::Gone,
+            taker => taker,
+        };
+        KeyQueue::set(ctx, taker);
     }
 
     /// Passes the keys to a transform that were pressed in the frame that began it, after the key that did.
@@ -227,7 +247,7 @@ impl App {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
         self.views.forget_pictures();
-        self.importing = None;
+        (self.importing, self.details) = (None, None);
         self.files.forget_admitted();
         self.attach();
     }

@@ -22,13 +22,13 @@ const LISTED: usize = 6;
 impl App {
     /// Asks for a file for the project.
     pub(super) fn pick_file(&mut self, ctx: &egui::Context, pick: AssetUse) {
-        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
+        let folder = self.own_folder();
         self.picker.ask(PickRequest::new(Purpose::Asset(pick)).in_folder(folder), ctx);
     }
 
     /// Asks for a scene or a picture to import.
     pub(super) fn ask_what_to_import(&mut self, ctx: &egui::Context) {
-        let folder = templates::file_of(&self.editor.document).parent().map(Path::to_owned);
+        let folder = self.own_folder();
         self.picker.ask(PickRequest::new(Purpose::Import).in_folder(folder), ctx);
     }
 
@@ -130,7 +130,7 @@ impl App {
 
     /// Asks for a folder to collect the project into.
     pub(super) fn ask_where_to_collect(&mut self, ctx: &egui::Context) {
-        let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
+        let folder = self.own_folder();
         self.picker.ask(PickRequest::new(Purpose::CollectFolder).in_folder(folder), ctx);
     }
 

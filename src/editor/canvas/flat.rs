@@ -111,4 +111,7 @@ fn paint(
     let overlay = Overlay { painter, screen: &screen };
     overlay.all(context, backdrop.target.map(|(texture, _)| texture), flow, ghosts);
     overlay::legends(painter, flow);
+    if context.session.overlays.false_colour {
+        overlay::stops_legend(painter);
+    }
 }

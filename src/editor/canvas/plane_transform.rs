@@ -6,7 +6,7 @@ use glam::{Vec2, vec2};
 use crate::editor::session::{PlaneViewport, ZOOM_RANGE};
 
 /// Margin around the plane at zoom 1, points.
-const MARGIN: f32 = 28.0;
+const MARGIN: f32 = 14.0;
 /// The transform from plane coordinates to screen points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneTransform {

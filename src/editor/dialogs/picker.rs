@@ -6,11 +6,12 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 
 use std::time::{Duration, Instant};
 
-use egui::{Context, Event};
+use egui::Context;
 
-use super::browser::Browser;
+use super::browser::{Browser, home};
 use super::modal::modal;
 use super::request::{Dialogs, PickRequest, PickResult, Purpose, with_ending};
+use crate::editor::key_queue::Taker;
 
 /// Time after which it is said that the system's dialog is open, or still to come.
 const PATIENCE: Duration = Duration::from_millis(400);
@@ -36,8 +37,6 @@ enum PickerState {
 /// What happens until the system's dialog answers.
 struct Meanwhile {
     since: Instant,
-    /// What was typed, for the built-in dialog.
-    typed: String,
 }
 
 /// What the user does while the system's dialog is open.
@@ -62,11 +61,14 @@ impl Picker {
 
     /// Opens a dialog; one that is already open is dropped.
     pub fn ask(&mut self, request: PickRequest, ctx: &Context) {
+        let folder = Some(begins_in(request.folder.clone(), &self.recent));
+        let request = PickRequest { folder, ..request };
         let answer = self.dialogs.pick(&request, ctx.clone());
         // What is typed from now on is meant for the dialog.
         ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
-        self.state =
-            PickerState::Asked(request, answer, Meanwhile { since: Instant::now(), typed: String::new() });
+        self.state = PickerState::Asked(request, answer, Meanwhile { since: Instant::now() });
+        // An answer may be there already.
+        ctx.request_repaint();
     }
 
     /// Whether a dialog is open.
@@ -74,24 +76,38 @@ impl Picker {
         !matches!(self.state, PickerState::Idle)
     }
 
+    /// Whether it is not known yet whose dialog it will be, or the system's is open.
+    pub(in crate::editor) fn is_waiting(&self) -> bool {
+        matches!(self.state, PickerState::Asked(..))
+    }
+
+    /// Who takes the keys, as far as the dialog goes.
+    pub(in crate::editor) fn taker(&self, ctx: &Context) -> Taker {
+        match &self.state {
+            PickerState::Asked(_, _, meanwhile) if meanwhile.is_long() => Taker::Doubtful,
+            PickerState::Asked(..) => Taker::Coming,
+            PickerState::Browsing(_, browser) if !browser.takes_keys(ctx) => Taker::Coming,
+            PickerState::Browsing(..) | PickerState::Idle => Taker::Shown,
+        }
+    }
+
     /// Shows the built-in dialog where it is needed; returns the chosen file.
     pub fn show(&mut self, ctx: &Context) -> Option<(Purpose, PathBuf)> {
         match std::mem::replace(&mut self.state, PickerState::Idle) {
             PickerState::Idle => None,
-            PickerState::Asked(request, answer, mut meanwhile) => match answer.try_recv() {
+            PickerState::Asked(request, answer, meanwhile) => match answer.try_recv() {
                 Ok(PickResult::Picked(path)) => Some(self.picked(request.purpose, path)),
                 Ok(PickResult::Cancelled) => None,
                 Err(TryRecvError::Empty) => {
                     match meanwhile.show(ctx) {
                         Waiting::On => self.state = PickerState::Asked(request, answer, meanwhile),
-                        Waiting::BuiltIn => self.browse(request, meanwhile, ctx),
+                        Waiting::BuiltIn => self.browse(request, ctx),
                         Waiting::Cancel => (),
                     }
                     None
                 }
                 Ok(PickResult::Unavailable) | Err(TryRecvError::Disconnected) => {
-                    meanwhile.listen(ctx);
-                    self.browse(request, meanwhile, ctx);
+                    self.browse(request, ctx);
                     None
                 }
             },
@@ -106,8 +122,8 @@ impl Picker {
         }
     }
 
-    fn browse(&mut self, request: PickRequest, meanwhile: Meanwhile, ctx: &Context) {
-        let browser = Box::new(Browser::new(&request, &self.recent, meanwhile.typed, ctx));
+    fn browse(&mut self, request: PickRequest, ctx: &Context) {
+        let browser = Box::new(Browser::new(&request, &self.recent, ctx));
         self.state = PickerState::Browsing(request, browser);
         ctx.request_repaint();
     }
@@ -122,22 +138,19 @@ impl Picker {
     }
 }
 
+/// The folder in which a dialog begins: the wanted one, the last used, or Home.
+fn begins_in(wanted: Option<PathBuf>, recent: &[PathBuf]) -> PathBuf {
+    wanted.or_else(|| recent.first().cloned()).unwrap_or_else(|| home("~"))
+}
+
 impl Meanwhile {
-    /// Keeps what is typed.
-    fn listen(&mut self, ctx: &Context) {
-        ctx.input(|input| {
-            for event in &input.events {
-                match event {
-                    Event::Text(text) | Event::Paste(text) => self.typed += text,
-                    _ => (),
-                }
-            }
-        });
+    /// Whether it is said that the system's dialog is open.
+    fn is_long(&self) -> bool {
+        self.since.elapsed() >= PATIENCE
     }
 
     /// Says that the system's dialog is open, where it is not over the window, and what else can be done.
-    fn show(&mut self, ctx: &Context) -> Waiting {
-        self.listen(ctx);
+    fn show(&self, ctx: &Context) -> Waiting {
         let waited = self.since.elapsed();
         if waited < PATIENCE {
             ctx.request_repaint_after(PATIENCE - waited);
@@ -159,5 +172,18 @@ impl Meanwhile {
             });
         });
         if shown.should_close() { Waiting::Cancel } else { does }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dialog_begins_where_it_is_wanted_else_where_the_last_one_ended_else_at_home() {
+        let [wanted, last] = ["/a", "/b"].map(PathBuf::from);
+        assert_eq!(begins_in(Some(wanted.clone()), std::slice::from_ref(&last)), wanted);
+        assert_eq!(begins_in(None, std::slice::from_ref(&last)), last);
+        assert_eq!(begins_in(None, &[]), home("~"));
     }
 }

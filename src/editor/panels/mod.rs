@@ -67,6 +67,7 @@ pub fn controls_by_panel() -> impl Iterator<Item = (&'static PanelInfo, &'static
 
 /// The tabs, and the selected panel.
 pub fn show(ui: &mut Ui, editor: &mut EditorContext) {
+    ui.data_mut(|data| data.insert_temp(control::row::panel_left(), ui.max_rect().left()));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = egui::vec2(2.0, 2.0);
         for entry in PANELS {

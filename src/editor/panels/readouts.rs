@@ -223,6 +223,22 @@ pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
     }
 }
 
+/// The linear light of a pixel, as rendered and as exposed.
+pub(in crate::editor) fn pixel(ui: &mut Ui, light: glam::Vec3, exposure: f32) {
+    ui.label(RichText::new(pixel_in_words(light, exposure)).weak()).on_hover_text(
+        "Linear light under the pointer: red, green, blue as in the EXR files, whatever the exposure; in brackets as exposed, \
+         1 is the white of a screen without view transform.",
+    );
+}
+
+fn pixel_in_words(light: glam::Vec3, exposure: f32) -> String {
+    let words =
+        |light: glam::Vec3| light.to_array().map(|value| number(digits(f64::from(value)), false)).join("  ");
+    let exposed =
+        if exposure == 0.0 { String::new() } else { format!("  ({})", words(light * exposure.exp2())) };
+    format!("RGB {}{exposed}", words(light))
+}
+
 fn in_short(preview: &Preview, frame: i32) -> Vec<Readout> {
     let mut all = vec![Readout {
         name: "Photons",
@@ -257,6 +273,13 @@ mod tests {
         for (energy, bad) in [(1.0, false), (1.0099, false), (0.985, true), (1.02, true)] {
             assert_eq!(of_energy(energy).is_bad, bad, "{energy}");
         }
+    }
+
+    #[test]
+    fn a_pixel_is_told_as_rendered_and_as_exposed() {
+        let light = glam::Vec3::new(0.125, 0.25, 1.0);
+        assert_eq!(pixel_in_words(light, 0.0), "RGB 0.125  0.25  1");
+        assert_eq!(pixel_in_words(light, 1.0), "RGB 0.125  0.25  1  (0.25  0.5  2)");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod background_worker;
 mod coverage;
+pub mod false_colour;
 mod figures;
 mod flow;
 pub mod gpu;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
 use lightloom_core::engine::{Client, Preview, SegmentContinuity, Shot};
+use lightloom_core::import::awaits_glass;
 use lightloom_core::photon::LampLight;
 use lightloom_core::project::Project;
 pub use orbit_worker::Seen;
@@ -214,8 +216,10 @@ impl LivePreview {
                 }
             }
         }
-        self.problem = found.problem.clone();
-        if found.problem.is_some() {
+        let awaits = self.subject.as_ref().is_some_and(|subject| awaits_glass(&subject.project));
+        // That there is no glass yet is no fault: the window invites to bring one.
+        self.problem = found.problem.clone().filter(|_| !awaits);
+        if self.problem.is_some() {
             self.coverage.fill(State::Failed);
         }
         self.found = found;

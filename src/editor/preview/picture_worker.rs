@@ -8,6 +8,7 @@ use lightloom_core::engine::{Preview, PreviewExposure, Quality, Shot};
 use lightloom_core::render::{Image, PlaneMaterial, ReceiverTexture, View, ViewSettings, plane_image};
 use rayon::prelude::*;
 
+use super::false_colour::of_image;
 use super::gpu::PhotonColumns;
 use super::worker::{Share, Turn, Worker};
 
@@ -32,6 +33,8 @@ pub(super) struct PictureRequest {
     pub(super) plane: Plane,
     /// The camera's view of the plane, where the shot is wanted.
     pub(super) shot: Option<Arc<Shot>>,
+    /// Whether luminance is shown in false colours.
+    pub(super) false_colour: bool,
 }
 
 /// How the plane is wanted.
@@ -60,6 +63,8 @@ pub struct Painted {
     pub photons: [Option<Arc<PhotonColumns>>; 2],
     /// The shot.
     pub shot: [Option<Arc<ColorImage>>; 2],
+    /// The linear light of this flow's plane and shot, where they are pictures.
+    pub linear: [Option<Arc<Image>>; 2],
 }
 
 /// Paints the newest moment that was asked for.
@@ -118,6 +123,10 @@ impl PictureBuffers {
     /// Paints the plane, shows it, then the shot.
     fn paint(&mut self, request: &PictureRequest, show: &mut dyn FnMut(&Painted)) {
         let view = request.view.view();
+        let encoded = |image: &Image| {
+            let gain = request.view.exposure.exp2();
+            Arc::new(if request.false_colour { of_image(image, gain) } else { shown(image, &view) })
+        };
         let light = Some(request.moment.preview.clone());
         let mut painted = Painted { frame: request.moment.frame, light, ..Painted::default() };
         let moments = || [Some(&request.moment), request.other.as_ref()].into_iter().enumerate();
@@ -126,7 +135,10 @@ impl PictureBuffers {
                 Plane::Hidden => {}
                 Plane::Picture(pixels) => {
                     let image = self.plane(moment, pixels, request.paper);
-                    painted.plane[side] = image.map(|image| Arc::new(shown(&image, &view)));
+                    painted.plane[side] = image.as_ref().map(encoded);
+                    if side == 0 {
+                        painted.linear[0] = image.map(Arc::new);
+                    }
                 }
                 Plane::Photons => painted.photons[side] = photons(moment).map(Arc::new),
             }
@@ -137,7 +149,10 @@ impl PictureBuffers {
             let image = self
                 .expose(moment, shot.resolution())
                 .and_then(|light| shot.picture(light, &moment.preview, moment.frame));
-            painted.shot[side] = image.map(|image| Arc::new(shown(&image, &view)));
+            painted.shot[side] = image.as_ref().map(encoded);
+            if side == 0 {
+                painted.linear[1] = image.map(Arc::new);
+            }
         }
         show(&painted);
     }

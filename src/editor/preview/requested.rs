@@ -59,6 +59,7 @@ pub(super) struct PictureKey {
     pub(super) view: ViewSettings,
     pub(super) paper: PlaneMaterial,
     pub(super) plane: Plane,
+    pub(super) false_colour: bool,
 }
 
 /// The inputs of the background.

@@ -34,6 +34,7 @@ impl LivePreview {
             view: subject.project.render.view.clone(),
             paper: paper(&subject.project),
             plane: wanted.plane,
+            false_colour: session.overlays.false_colour,
         };
         if let Some((camera, size)) = &wanted.look {
             let asked = (painting, Same(Some(subject.project.clone())), camera.clone(), *size);
@@ -57,6 +58,7 @@ impl LivePreview {
                 paper: paper(&subject.project),
                 plane: wanted.plane,
                 shot,
+                false_colour: session.overlays.false_colour,
             });
             self.requests.painted = Some(painting);
         }

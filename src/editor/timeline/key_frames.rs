@@ -68,7 +68,9 @@ impl Timeline {
             return;
         }
         let mut response = ui.interact(grip, Id::unique(("key frame", index)), Sense::click_and_drag());
-        let name = format!("Key frame at {}, shows {}", key.frame, words(&key.shows));
+        let shown = shown_at(key, project);
+        let all: Vec<String> = shown.iter().map(|shows| words(shows)).collect();
+        let name = format!("Key frame at {}, shows {}", key.frame, all.join(", "));
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         if response.clicked() {
             editor.session.focus.key = Some(index);
@@ -82,20 +84,18 @@ impl Timeline {
         {
             editor.ask(edit);
         }
-        let thumbnail = self.thumbnails.of(
-            ui.ctx(),
-            &key.shows,
-            &templates::file_of(editor.document),
-            &self.access,
-            extent,
-        );
+        let file = templates::file_of(editor.document);
+        let mut thumbnail = |shows: &&Shows| self.thumbnails.of(ui.ctx(), shows, &file, &self.access, extent);
+        let thumbnails: Vec<Thumbnail> = shown.iter().map(&mut thumbnail).collect();
         let chosen = editor.session.focus.key == Some(index);
         let style = KeyStyle { x, size, chosen, hot: response.hovered() || response.dragged() };
-        paint(ui, lane, &style, &thumbnail);
+        paint(ui, lane, &style, &thumbnails);
         response = response.on_hover_cursor(CursorIcon::Grab).on_hover_ui(|ui| {
             ui.strong(&name);
-            if let Thumbnail::Failed(why) = &thumbnail {
-                ui.colored_label(theme::BAD, why);
+            for thumbnail in &thumbnails {
+                if let Thumbnail::Failed(why) = thumbnail {
+                    ui.colored_label(theme::BAD, why);
+                }
             }
             ui.label("Drag to retime, click to go there, right click for easing and more.");
         });
@@ -116,6 +116,18 @@ fn room(keys: &[KeyFrame], index: usize, scale: &Scale) -> f32 {
     before.min(after) - 4.0
 }
 
+/// What the light shows at a key frame, each thing once: what the caustics have of their own, and the common one of the others.
+fn shown_at<'a>(key: &'a KeyFrame, project: &Project) -> Vec<&'a Shows> {
+    let own = project.caustics.iter().map(|caustic| key.shown_by(Some(&caustic.name)));
+    let mut all: Vec<&Shows> = Vec::new();
+    for shows in own {
+        if !all.contains(&shows) {
+            all.push(shows);
+        }
+    }
+    if all.is_empty() { vec![&key.shows] } else { all }
+}
+
 fn words(shows: &Shows) -> String {
     let file = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned();
     match shows {
@@ -132,7 +144,7 @@ struct KeyStyle {
     hot: bool,
 }
 
-fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
+fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnails: &[Thumbnail]) {
     let painter = ui.painter_at(lane);
     let visuals = ui.visuals();
     let outline = if style.chosen {
@@ -145,9 +157,10 @@ fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
     if style.size.x >= 14.0 {
         let middle = pos2(style.x, lane.top() + 4.0 + style.size.y / 2.0);
         let rect = Rect::from_center_size(middle, style.size);
-        painter.rect_filled(rect, 3.0, theme::SURROUND);
+        painter.rect_filled(rect, 3.0, Color32::BLACK);
         let sign = rect.shrink2(vec2(rect.width() * 0.12, rect.height() * 0.2));
-        match thumbnail {
+        thumbnails.iter().for_each(|thumbnail| match thumbnail {
+            // Light adds to light.
             Thumbnail::Picture(texture) => {
                 let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 painter.image(*texture, rect, uv, Color32::WHITE);
@@ -165,7 +178,7 @@ fn paint(ui: &Ui, lane: Rect, style: &KeyStyle, thumbnail: &Thumbnail) {
             Thumbnail::Failed(_) => {
                 painter.text(middle, Align2::CENTER_CENTER, "!", FontId::proportional(18.0), theme::BAD);
             }
-        }
+        });
         painter.rect_stroke(rect, CornerRadius::same(3), outline, StrokeKind::Outside);
     }
     let fill = if style.chosen { theme::ACCENT } else { visuals.widgets.inactive.fg_stroke.color };
@@ -236,4 +249,22 @@ fn ease_item(ui: &mut Ui, ease: Ease, name: &str, chosen: bool) -> bool {
         ui.close();
     }
     shown.response.clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_key_frame_shows_the_pictures_of_its_caustics_each_once() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/projects/bottles.json");
+        let project = Project::load(std::path::Path::new(path)).unwrap();
+        let shown = |key: usize| shown_at(&project.keys[key], &project).len();
+        let last = project.keys.len() - 1;
+        assert_eq!(shown(0), 1, "the physical caustic of all");
+        assert_eq!(shown(last), project.caustics.len(), "a picture of each caustic");
+        let bare = Project { caustics: Vec::new(), ..project.clone() };
+        assert_eq!(shown_at(&bare.keys[last], &bare), [&bare.keys[last].shows]);
+    }
 }

@@ -143,7 +143,7 @@ fn picture(request: &Request) -> Result<ColorImage> {
     Ok(splat(&points, request.extent))
 }
 
-/// The points as light, as bright as their mean where light falls is well seen.
+/// The points as light that is added to what is beneath, as bright as their mean where light falls is well seen.
 fn splat(points: &Points, extent: Vec2) -> ColorImage {
     let size = (extent * SIDE).max(Vec2::ONE).as_uvec2();
     let (width, height) = (size.x as usize, size.y as usize);
@@ -159,7 +159,9 @@ fn splat(points: &Points, extent: Vec2) -> ColorImage {
     let lit = light.iter().filter(|colour| **colour != Vec3::ZERO).count().max(1);
     let mean = light.iter().map(|colour| colour.element_sum() / 3.0).sum::<f32>() / lit as f32;
     let screen = |value: f32| (255.0 * (0.8 * value / mean.max(1e-6)).clamp(0.0, 1.0).powf(1.0 / 2.2)) as u8;
-    let pixels = light.iter().map(|c| Color32::from_rgb(screen(c.x), screen(c.y), screen(c.z))).collect();
+    // Without alpha it is added to what is beneath.
+    let pixel = |c: &Vec3| Color32::from_rgba_premultiplied(screen(c.x), screen(c.y), screen(c.z), 0);
+    let pixels = light.iter().map(pixel).collect();
     ColorImage::new([width, height], pixels)
 }
 
@@ -175,7 +177,7 @@ mod tests {
         let image = splat(&points, extent);
         assert_eq!(image.size, [96, 48]);
         let lit: Vec<usize> =
-            (0..image.pixels.len()).filter(|i| image.pixels[*i] != Color32::BLACK).collect();
+            (0..image.pixels.len()).filter(|i| image.pixels[*i] != Color32::TRANSPARENT).collect();
         assert_eq!(lit, [0], "the upper left corner alone");
     }
 }

@@ -1,7 +1,9 @@
 //! Sizes of the pictures of the views: on the screen and in pixels.
 
-use egui::{Rect, Ui, pos2, vec2};
+use egui::{Pos2, Rect, Ui, pos2, vec2};
+use glam::Vec3;
 use lightloom_core::project::Project;
+use lightloom_core::render::Image;
 
 /// Texture coordinates of a whole texture.
 pub(super) const WHOLE: Rect = Rect { min: pos2(0.0, 0.0), max: pos2(1.0, 1.0) };
@@ -25,4 +27,30 @@ pub(super) fn size(ui: &Ui, view: Rect, project: &Project) -> [u32; 2] {
     let shrink = (MOST / frame.max_elem()).min(1.0);
     // In steps, so that resizing the window does not restart the work with every pixel.
     [frame.x, frame.y].map(|n| ((n * shrink / 16.0).round() * 16.0).max(16.0) as u32)
+}
+
+/// The colour of a picture that is shown in `frame`, under a screen position; none beside it.
+pub(super) fn under(at: Pos2, frame: Rect, image: &Image) -> Option<Vec3> {
+    let share = (at - frame.min) / frame.size();
+    let inside = |share: f32| (0.0..1.0).contains(&share);
+    (inside(share.x) && inside(share.y)).then(|| {
+        let cell = |share: f32, count: usize| ((share * count as f32) as usize).min(count.saturating_sub(1));
+        image.at(cell(share.x, image.width), cell(share.y, image.height))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_pixel_under_the_pointer_is_that_of_the_picture_wherever_it_is_shown() {
+        let mut image = Image::new(4, 2);
+        image.pixels[5] = Vec3::ONE;
+        let frame = Rect::from_min_size(pos2(100.0, 50.0), vec2(400.0, 200.0));
+        assert_eq!(under(pos2(210.0, 160.0), frame, &image), Some(Vec3::ONE));
+        assert_eq!(under(pos2(310.0, 160.0), frame, &image), Some(Vec3::ZERO));
+        assert_eq!(under(pos2(99.0, 160.0), frame, &image), None);
+        assert_eq!(under(pos2(500.0, 160.0), frame, &image), None);
+    }
 }

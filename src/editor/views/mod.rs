@@ -1,6 +1,7 @@
 //! The views: plane, shot and orbit view, side by side or alone.
 
 mod fit;
+mod halves;
 mod orbit_view;
 mod pictures;
 mod plane;
@@ -8,7 +9,7 @@ mod shot;
 mod transform;
 mod wipe;
 
-use egui::{Rect, Sense, Ui, UiBuilder, pos2};
+use egui::{CursorIcon, Rect, Sense, Ui, UiBuilder, pos2};
 
 use super::action::Action;
 use super::canvas::plane_transform::PlaneTransform;
@@ -31,8 +32,8 @@ const LEAST: f32 = 0.15;
 /// The views of the window.
 pub(super) struct Views {
     pictures: Pictures,
-    /// Share of the plane view beside the shot.
-    split: f32,
+    /// Share of the plane view beside the shot, once it was chosen by hand; before, both pictures are as large as they can be.
+    split: Option<f32>,
     wanted: Wanted,
     /// Rectangles of the plane view and the shot view when last shown.
     places: [Rect; 2],
@@ -44,6 +45,8 @@ pub(super) struct Views {
     grabbed: bool,
     /// Frames in which a transform still covers the window.
     covered: u8,
+    /// The linear light under the pointer, as rendered.
+    pixel: Option<glam::Vec3>,
     /// When the project's camera was flown last, seconds of the window.
     flown: Option<f64>,
 }
@@ -52,13 +55,14 @@ impl Default for Views {
     fn default() -> Self {
         Self {
             pictures: Pictures::default(),
-            split: 0.5,
+            split: None,
             wanted: Wanted::default(),
             places: [Rect::NOTHING; 2],
             over_orbit: false,
             handle: None,
             grabbed: false,
             covered: 0,
+            pixel: None,
             flown: None,
         }
     }
@@ -81,6 +85,11 @@ impl Views {
         if is_over { KeyPlace::OrbitView } else { KeyPlace::Everywhere }
     }
 
+    /// The linear light under the pointer, as rendered; none where no picture is.
+    pub(super) fn pixel(&self) -> Option<glam::Vec3> {
+        self.pixel
+    }
+
     /// Rectangle of the plane view.
     pub(super) fn plane_rect(&self) -> Rect {
         self.places[0]
@@ -101,6 +110,7 @@ impl Views {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
         self.over_orbit = false;
+        let pixel = self.pixel.take();
         if editor.session.layout != ViewLayout::Orbit && editor.session.transforming.take().is_some() {
             editor.ask(Action::Abort);
         }
@@ -111,34 +121,42 @@ impl Views {
             ViewLayout::Shot => self.shot(ui, all, editor, toolbox),
             ViewLayout::Orbit => self.look(ui, all, editor),
             ViewLayout::PlaneAndShot => {
-                let [left, right] = self.halves(ui, all);
-                self.plane(ui, left, editor, toolbox);
-                self.shot(ui, right, editor, toolbox);
+                let [plane, shot] = self.halves(ui, all, editor.document.project());
+                self.plane(ui, plane, editor, toolbox);
+                self.shot(ui, shot, editor, toolbox);
             }
+        }
+        if self.pixel != pixel {
+            // The status bar was shown before the views.
+            ui.ctx().request_repaint();
         }
         if veil {
             ui.painter().rect_filled(all, 0.0, super::theme::SURROUND.gamma_multiply(VEIL));
         }
     }
 
-    /// The rectangles of two views, and the handle between them.
-    fn halves(&mut self, ui: &mut Ui, all: Rect) -> [Rect; 2] {
-        let middle = all.left() + all.width() * self.split;
-        let handle = Rect::from_x_y_ranges(middle - GAP / 2.0..=middle + GAP / 2.0, all.y_range());
-        let response = ui.interact(handle, ui.scope_id().with("between the views"), Sense::drag());
-        let response = response.on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
-        if let Some(at) = response.interact_pointer_pos() {
-            self.split = ((at.x - all.left()) / all.width().max(1.0)).clamp(LEAST, 1.0 - LEAST);
+    /// The rectangles of plane and shot, and the handle between them.
+    fn halves(&mut self, ui: &mut Ui, all: Rect, project: &Project) -> [Rect; 2] {
+        let arranged = halves::arranged(all, halves::aspects(project), self.split);
+        let handle = arranged.handle(all, GAP);
+        let response = ui.interact(handle, ui.scope_id().with("between the views"), Sense::click_and_drag());
+        let cursor = if arranged.stacked { CursorIcon::ResizeVertical } else { CursorIcon::ResizeHorizontal };
+        let response = response.on_hover_and_drag_cursor(cursor);
+        if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+            self.split = Some(arranged.share(all, at).clamp(LEAST, 1.0 - LEAST));
+        }
+        if response.double_clicked() {
+            self.split = None;
         }
         let colour = if response.hovered() { super::theme::ACCENT } else { ui.visuals().panel_fill };
         ui.painter().rect_filled(handle, 0.0, colour);
-        [all.with_max_x(handle.left()), all.with_min_x(handle.right())]
+        arranged.places(all, GAP)
     }
 
     fn plane(&mut self, ui: &mut Ui, place: Rect, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.places[0] = place;
         let longer = place.size().max_elem() * ui.pixels_per_point();
-        self.wanted.plane = if editor.preview.draws_photons() {
+        self.wanted.plane = if editor.preview.draws_photons() && !editor.session.overlays.false_colour {
             Plane::Photons
         } else {
             // While it plays, quick beats sharp.

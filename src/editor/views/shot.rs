@@ -4,10 +4,10 @@ use egui::{Color32, Pos2, Rect, Role, Sense, Ui, WidgetInfo, vec2};
 use glam::Vec2;
 use lightloom_core::render::PlaneView;
 
-use super::fit::{WHOLE, fitted};
+use super::fit::{WHOLE, fitted, under};
 use super::{Views, wipe};
 use crate::editor::canvas::input::ViewMove;
-use crate::editor::canvas::{self, ProjectedPlane};
+use crate::editor::canvas::{self, ProjectedPlane, overlay};
 use crate::editor::context::EditorContext;
 use crate::editor::session::{ShotViewport, ZOOM_RANGE};
 use crate::editor::theme;
@@ -35,7 +35,7 @@ fn moved(viewport: ShotViewport, movement: &ViewMove, fitted: Rect) -> ShotViewp
 
 impl Views {
     /// Shows the shot view: picture with caustics, overlays and active tool.
-    pub(super) fn shot_view(&self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
+    pub(super) fn shot_view(&mut self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         let view = ui.available_rect_before_wrap();
         let project = editor.document.project().clone();
         let fitted = fitted(view, &project);
@@ -50,6 +50,9 @@ impl Views {
             if let Some(texture) = self.pictures.shot[side].texture() {
                 painter.with_clip_rect(clip).image(texture.id(), frame, WHOLE, Color32::WHITE);
             }
+        }
+        if editor.session.overlays.false_colour {
+            overlay::stops_legend(&painter);
         }
         if let Ok(plane) = PlaneView::of_desc(project.scene.as_ref(), project.extent()) {
             let size = [project.render.width as usize, project.render.height as usize];
@@ -71,6 +74,9 @@ impl Views {
             let moves = canvas::show_projected(ui, &response, editor, toolbox, &projected);
             editor.session.shot =
                 moves.iter().fold(editor.session.shot, |viewport, by| moved(viewport, by, fitted));
+        }
+        if let Some((at, image)) = response.hover_pos().zip(editor.preview.painted().linear[1].clone()) {
+            self.pixel = under(at, frame, &image);
         }
         if let Some(wipe) = &mut editor.session.compare {
             wipe::handle(ui, view, wipe);

@@ -2,6 +2,7 @@
 
 use glam::Vec2;
 
+use super::edge::Edge;
 use crate::constraint::stroke;
 use crate::constraint::wall::ActiveWall;
 
@@ -45,6 +46,36 @@ pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 
         closing_edges.extend(outward);
     }
     (closing_edges, notes)
+}
+
+/// The gaps that are open as drawn, but count as closed: those between two walls, and between a wall's ends and its other
+/// parts, that are narrower than the walls are thick. The narrowest of each two walls.
+pub(super) fn closed_gaps(walls: &[&ActiveWall]) -> Vec<[Vec2; 2]> {
+    let pairs = walls.iter().enumerate().flat_map(|(i, a)| walls[..i].iter().map(move |b| [*a, *b]));
+    let between = pairs.filter(|[a, b]| !cross(a, b)).filter_map(|[a, b]| {
+        let ways = [(a, b), (b, a)].into_iter().flat_map(|(from, to)| {
+            stroke::simplify(&from.points, 0.1 * from.clearance)
+                .into_iter()
+                .map(|p| [p, nearest_on(p, &to.points)])
+                .collect::<Vec<_>>()
+        });
+        ways.filter(|gap| wide(gap) < a.clearance + b.clearance)
+            .min_by(|one, other| wide(one).total_cmp(&wide(other)))
+    });
+    let own = walls.iter().flat_map(|wall| own_gaps(wall));
+    between.chain(own).filter(|gap| wide(gap) > 4.0 * OVERLAP).collect()
+}
+
+fn wide([from, to]: &[Vec2; 2]) -> f32 {
+    from.distance(*to)
+}
+
+fn cross(a: &ActiveWall, b: &ActiveWall) -> bool {
+    let edges = |wall: &ActiveWall| -> Vec<Edge> {
+        wall.points.windows(2).map(|pair| Edge { from: pair[0], to: pair[1] }).collect()
+    };
+    let others = edges(b);
+    edges(a).iter().any(|edge| others.iter().any(|other| edge.blocks(other.from, other.to)))
 }
 
 /// Between the ends of a wall and its other parts, such as the two ends of a loop that was not quite closed.

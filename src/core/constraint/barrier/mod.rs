@@ -46,6 +46,12 @@ impl Barriers {
         Self { edges, lookup, notes }
     }
 
+    /// The gaps that are open as drawn, but count as closed, because they are narrower than the walls are thick; from one side to
+    /// the other. Those to the border of the receiver are left out.
+    pub fn closed_gaps(walls: &[&ActiveWall]) -> Vec<[Vec2; 2]> {
+        gap_closing::closed_gaps(walls)
+    }
+
     /// Messages to the artist about gaps that were closed.
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -108,6 +114,22 @@ mod tests {
         assert!(!blocks([0.1, 0.1], [0.4, 0.9]));
         let contact = barriers.first_contact(Vec2::new(0.4, 0.5), Vec2::new(0.8, 0.5)).unwrap();
         assert!((contact.share - 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_gap_that_counts_as_closed_is_told_and_walls_that_meet_or_stand_apart_are_not() {
+        let upright = |x: f32, from: f32, to: f32| wall(&[[x, from], [x, to]], 0.02);
+        let (lower, upper) = (upright(0.5, 0.1, 0.5), upright(0.5, 0.515, 0.9));
+        let gaps = Barriers::closed_gaps(&[&lower, &upper]);
+        assert_eq!(gaps.len(), 1);
+        let (ends, middle) = (gaps[0], Vec2::new(0.5, 0.5075));
+        assert!((ends[0].midpoint(ends[1]) - middle).length() < 1e-4, "{ends:?}");
+        let across = wall(&[[0.3, 0.5], [0.7, 0.5]], 0.02);
+        for other in [upright(0.5, 0.53, 0.9), upright(0.5, 0.5, 0.9), across] {
+            assert!(Barriers::closed_gaps(&[&lower, &other]).is_empty(), "{other:?}");
+        }
+        let almost = wall(&[[0.2, 0.2], [0.6, 0.2], [0.6, 0.6], [0.2, 0.6], [0.2, 0.21]], 0.02);
+        assert!(!Barriers::closed_gaps(&[&almost]).is_empty(), "a loop that is not quite closed");
     }
 
     #[test]

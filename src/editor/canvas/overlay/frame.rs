@@ -6,15 +6,15 @@ use glam::{Vec2, vec2};
 use super::Overlay;
 use crate::editor::theme;
 
-/// Opacity of the picture.
-const OPACITY: f32 = 0.22;
+/// Opacity of the outline.
+const OPACITY: f32 = 0.6;
 /// Subdivisions along each side, for perspective views.
 const PIECES: u32 = 12;
 /// Radius of a handle, points.
 const HANDLE: f32 = 5.0;
 
 impl Overlay<'_> {
-    /// The picture between its corners: lower left, lower right, upper right, upper left.
+    /// The picture's outline between its corners: lower left, lower right, upper right, upper left.
     pub(super) fn target(&self, texture: TextureId, corners: [Vec2; 4]) {
         let [origin, right, _, up] = corners;
         let tint = theme::TARGET.gamma_multiply(OPACITY);

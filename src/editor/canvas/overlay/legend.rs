@@ -4,6 +4,7 @@ use egui::{Align2, Color32, CornerRadius, FontId, Mesh, Painter, Pos2, Rect, Sha
 
 use super::colours;
 use crate::editor::preview::FlowPicture;
+use crate::editor::preview::false_colour::{STOPS, of_share};
 use crate::editor::session::FieldMap;
 
 /// Width and height of a legend's bar, points.
@@ -13,6 +14,12 @@ const STEPS: usize = 48;
 /// Size of a legend, and its margin, points.
 const BOX: [f32; 2] = [176.0, 50.0];
 const MARGIN: f32 = 12.0;
+
+/// Draws the legend of false colours in the lower right corner of a view.
+pub fn stops_legend(painter: &Painter) {
+    let corner = painter.clip_rect().right_bottom() + vec2(-MARGIN - BOX[0], -MARGIN);
+    legend(painter, corner, "Stops around middle grey", [-STOPS, STOPS], of_share);
+}
 
 /// Draws the legends of the flow overlays in the lower left corner of a view.
 pub fn legends(painter: &Painter, flow: &FlowPicture) {

@@ -10,8 +10,9 @@ mod heat;
 mod legend;
 mod line;
 mod wall;
+mod warnings;
 
-pub use legend::legends;
+pub use legend::{legends, stops_legend};
 
 use egui::{Color32, Painter, Pos2, Shape, Stroke, TextureId};
 use glam::Vec2;
@@ -98,6 +99,9 @@ impl Overlay<'_> {
             self.followed(photon);
         }
         self.ghosts(ghosts);
+        if show.drawn {
+            self.warnings(context, ghosts);
+        }
         if !flow.streamlines.is_empty() {
             self.painter.ctx().request_repaint_after(PACE);
         }

@@ -37,7 +37,7 @@ pub(super) struct FolderEntry {
 }
 
 /// A typed path with ~ replaced by the home folder.
-pub(super) fn home(typed: &str) -> PathBuf {
+pub(in crate::editor::dialogs) fn home(typed: &str) -> PathBuf {
     let rest = typed.strip_prefix("~/").or_else(|| (typed == "~").then_some(""));
     match (rest, directories::UserDirs::new()) {
         (Some(rest), Some(dirs)) => dirs.home_dir().join(rest),

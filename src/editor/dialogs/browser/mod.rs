@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Button, Context, Id, Key, Layout, RichText, ScrollArea, Sense, TextEdit, Ui, vec2};
 
-use self::listing::{FolderEntry, Listing, Read, home, make, read};
+pub(in crate::editor::dialogs) use self::listing::home;
+use self::listing::{FolderEntry, Listing, Read, make, read};
 use self::thumbnails::{Thumbnails, is_picture};
 use super::modal::modal;
 use super::request::{PickRequest, Purpose};
@@ -20,6 +21,8 @@ const LIST: egui::Vec2 = vec2(480.0, 280.0);
 const PLACES: f32 = 130.0;
 /// Height of a row with a thumbnail, points.
 const PICTURE: f32 = 40.0;
+/// Frames after which the field of the name has the keys, or something else has.
+const SETTLES: u32 = 10;
 
 /// The state of the open dialog.
 pub(super) struct Browser {
@@ -40,22 +43,20 @@ pub(super) struct Browser {
     /// An existing file that needs a confirmation before it is overwritten.
     overwrite: Option<PathBuf>,
     wake: Context,
+    /// Frames in which it was shown.
+    frames: u32,
 }
 
 impl Browser {
-    /// A dialog for a request; `typed` is what was typed while it was opened.
-    pub(super) fn new(request: &PickRequest, recent: &[PathBuf], typed: String, ctx: &Context) -> Self {
-        let folder = request.folder.clone().or_else(|| recent.first().cloned());
-        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| home("~"));
-        let replaces = typed.is_empty();
-        let typed = if replaces { request.name.clone() } else { typed };
-        let end = CCursor::new(typed.chars().count());
-        // A proposed name is replaced by typing, what was typed is continued.
-        let selected =
-            if replaces { CCursorRange::two(CCursor::new(0), end) } else { CCursorRange::one(end) };
+    /// A dialog for a request.
+    pub(super) fn new(request: &PickRequest, recent: &[PathBuf], ctx: &Context) -> Self {
+        let folder = request.folder.clone().unwrap_or_else(|| home("~"));
+        let typed = request.name.clone();
+        // A proposed name is replaced by typing.
+        let all = CCursorRange::two(CCursor::new(0), CCursor::new(typed.chars().count()));
         Self {
             purpose: request.purpose.clone(),
-            selects: Some(selected),
+            selects: Some(all),
             listing: read(folder.clone(), None, request.purpose.clone(), ctx),
             folder,
             recent: recent.to_vec(),
@@ -65,13 +66,23 @@ impl Browser {
             thumbnails: Thumbnails::new(ctx),
             overwrite: None,
             wake: ctx.clone(),
+            frames: 0,
         }
+    }
+
+    /// Whether keys reach the field of the name. A window that is new takes no focus in its first frames.
+    pub(super) fn takes_keys(&self, ctx: &Context) -> bool {
+        self.frames > SETTLES || ctx.memory(|memory| memory.has_focus(field_id()))
     }
 
     /// Shows the dialog; returns the chosen path, or `Some(None)` when cancelled.
     pub(super) fn show(&mut self, ctx: &Context) -> Option<Option<PathBuf>> {
         if let Some(taken) = self.collect() {
             return Some(Some(taken));
+        }
+        self.frames = self.frames.saturating_add(1);
+        if self.frames <= SETTLES {
+            ctx.request_repaint();
         }
         let mut answer = None;
         let shown = modal(ctx, "file dialog").show(ctx, |ui| {
@@ -256,12 +267,8 @@ impl Browser {
 
     /// The field of the name or path; returns whether Enter was pressed in it.
     fn field(&mut self, ui: &mut Ui, hint: &str) -> bool {
-        let id = Id::unique("name in the file dialog");
-        // A window that is new takes no focus in its first frames: what is typed then is kept all the same.
+        let id = field_id();
         let idle = ui.memory(|memory| memory.focused().is_none());
-        if idle && ui.ctx().current_pass_index() == 0 {
-            self.listen(ui);
-        }
         let field = TextEdit::singleline(&mut self.typed).id(id).hint_text(hint).desired_width(f32::INFINITY);
         let mut shown = field.show(ui);
         let response = shown.response.response.accessible_name("Path");
@@ -273,20 +280,6 @@ impl Browser {
             shown.state.store(ui.ctx(), id);
         }
         response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter))
-    }
-
-    /// Takes what was typed before the field could.
-    fn listen(&mut self, ui: &Ui) {
-        let events = ui.input(|input| input.events.clone());
-        for event in events {
-            if let egui::Event::Text(text) = event {
-                if self.selects.take().is_some_and(|range| !range.is_empty()) {
-                    self.typed.clear();
-                }
-                self.typed += &text;
-                self.selects = Some(CCursorRange::one(CCursor::new(self.typed.chars().count())));
-            }
-        }
     }
 
     fn ask_again(&mut self, ui: &mut Ui, path: PathBuf) -> Option<Option<PathBuf>> {
@@ -341,6 +334,10 @@ impl Browser {
         let path = if typed.is_empty() { self.folder.clone() } else { self.folder.join(home(typed)) };
         self.listing = read(self.folder.clone(), Some(path), self.purpose.clone(), &self.wake);
     }
+}
+
+fn field_id() -> Id {
+    Id::unique("name in the file dialog")
 }
 
 /// A folder or file of the list; pictures have a thumbnail, decoded once they are seen.

@@ -1,6 +1,8 @@
 //! A row of a panel: the label on the left, the value on the right, both aligned over the whole panel.
 
-use egui::{Align2, PointerButton, Response, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+use egui::{
+    Align2, Id, PointerButton, RectAlign, Response, Role, Sense, TextStyle, Tooltip, Ui, WidgetInfo, vec2,
+};
 
 use super::Control;
 use crate::editor::{panels::pictures, theme};
@@ -11,6 +13,22 @@ pub(in crate::editor::panels) const LABELS: f32 = 104.0;
 const MARK: f32 = 9.0;
 /// Width of a tooltip, points.
 const TOOLTIP: f32 = 330.0;
+
+/// Shows a tooltip at the height of a row, left of its panel: the next rows stay free.
+fn beside_panel(response: &Response, content: impl FnOnce(&mut Ui)) {
+    let mut tooltip = Tooltip::for_enabled(response);
+    let left = response.ctx.data(|data| data.get_temp::<f32>(panel_left()));
+    if let Some(left) = left.filter(|left| *left > TOOLTIP) {
+        let row = response.rect.with_min_x(left);
+        tooltip.popup = tooltip.popup.anchor(row).align(RectAlign::LEFT_START).gap(8.0);
+    }
+    tooltip.show(content);
+}
+
+/// Where the left border of the panel is kept, points.
+pub(in crate::editor::panels) fn panel_left() -> Id {
+    Id::unique("left border of the panel")
+}
 
 /// The result of a row.
 pub(in crate::editor::panels) struct Row<R> {
@@ -85,7 +103,7 @@ impl Control {
 
     /// The response with the tooltip of this setting.
     pub(super) fn with_tooltip(&self, response: Response) -> Response {
-        response.on_hover_ui(|ui| {
+        beside_panel(&response, |ui| {
             ui.set_max_width(TOOLTIP);
             ui.strong(self.label);
             ui.label(self.setting.help);
@@ -99,6 +117,7 @@ impl Control {
             if !words.is_empty() {
                 ui.weak(format!("{words} Double click resets."));
             }
-        })
+        });
+        response
     }
 }

@@ -7,6 +7,7 @@ use lightloom_core::setting::format::number;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::panels::control::Control;
+use crate::editor::panels::control::row::LABELS;
 use crate::editor::panels::widgets::aside;
 
 const WEIGHT: Control = Control::new("Weight", DirectedLine::WEIGHT).log_slider(0.0, 100.0);
@@ -20,6 +21,9 @@ const FADE: Control = Control::new("Fade", Span::FADE);
 
 /// The settings of what was drawn; name, eye and padlock stand in the list.
 pub(super) const CONTROLS: &[Control] = &[WEIGHT, SPEED, WIDTH, THICKNESS, SPAN, FROM, TO, FADE];
+
+/// Largest coordinate of a point, plane units.
+const FARTHEST: f32 = 10.0;
 
 /// A change of one constraint.
 type Change = Box<dyn Fn(&mut Constraint)>;
@@ -51,6 +55,9 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Const
             mixed(ui, of.iter().all(|&i| constraints[i].span() == constraints[first].span()));
         }
     });
+    if let [one] = free[..] {
+        point(ui, editor, &constraints[one], one, &mut changes);
+    }
     if !changes.is_empty() {
         let changed = free.into_iter().map(|i| {
             let mut constraint = constraints[i].clone();
@@ -58,6 +65,53 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraints: &[Const
             (i, constraint)
         });
         editor.ask(Edit::Change(changed.collect()));
+    }
+}
+
+/// The coordinates of the selected point, where it is one alone.
+fn point(
+    ui: &mut Ui,
+    editor: &EditorContext,
+    constraint: &Constraint,
+    index: usize,
+    changes: &mut Vec<Change>,
+) {
+    let chosen: Vec<usize> = editor.session.selection.points(index).collect();
+    let points = constraint.points();
+    let only = if let [place] = chosen[..] { Some(place) } else { None };
+    let Some((place, mut at)) = only.and_then(|place| Some((place, *points.get(place)?))) else {
+        return aside(ui, "click one of its points for its coordinates");
+    };
+    let before = at;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let size = egui::vec2(LABELS, ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            ui.set_min_width(LABELS);
+            ui.add_space(9.0);
+            ui.label(format!("Point {} of {}", place + 1, points.len()))
+                .on_hover_text("From the lower left corner of the plane, whose longer side is 1.");
+        });
+        let width = (ui.available_width() - 4.0) / 2.0;
+        for (value, name) in at.iter_mut().zip(["x", "y"]) {
+            let field = egui::DragValue::new(value).speed(0.001).range(-FARTHEST..=FARTHEST).max_decimals(5);
+            let field = field.prefix(format!("{name} "));
+            let size = egui::vec2(width, ui.spacing().interact_size.y);
+            ui.add_sized(size, field).accessible_name(format!("Point {name}"));
+        }
+    });
+    if at != before {
+        changes.push(Box::new(move |constraint| {
+            // A loop stays closed.
+            let points = match constraint {
+                Constraint::DirectedLine(line) => &mut line.points,
+                Constraint::Wall(wall) => &mut wall.points,
+            };
+            let last = points.len().saturating_sub(1);
+            let closed = last > 2 && points[0] == points[last] && (place == 0 || place == last);
+            let moved = if closed { vec![0, last] } else { vec![place] };
+            moved.into_iter().for_each(|place| points[place] = at);
+        }));
     }
 }
 
