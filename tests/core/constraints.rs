@@ -54,11 +54,19 @@ fn notes_of(constraint: Value) -> String {
     check(json!([constraint])).notes.join("\n")
 }
 
-fn line(points: Value) -> Value {
+/// The notes on a project with these constraints, or why it is refused.
+pub(crate) fn notes(constraints: Value) -> Result<Vec<String>, String> {
+    let project = project(constraints).map_err(|error| error.to_string())?;
+    let folder = folder();
+    let report = Engine::new(assets(folder.path())).check(&project);
+    report.map(|report| report.notes).map_err(|error| error.to_string())
+}
+
+pub(crate) fn line(points: Value) -> Value {
     json!({ "type": "directed_line", "points": points })
 }
 
-fn wall(points: Value) -> Value {
+pub(crate) fn wall(points: Value) -> Value {
     json!({ "type": "wall", "points": points })
 }
 

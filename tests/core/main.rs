@@ -6,6 +6,7 @@ use std::path::Path;
 mod advection;
 mod background;
 mod camera;
+mod cancel;
 mod cases;
 mod caustics;
 mod collect;
@@ -20,7 +21,10 @@ mod figures;
 mod film;
 mod fit;
 mod fit_reference;
+#[cfg(target_os = "linux")]
+mod frame_faults;
 mod gltf;
+mod hostile;
 mod layers;
 mod lines;
 mod matching;

@@ -13,6 +13,7 @@ use super::key_photons::KeyPhotons;
 use super::layer::Layer;
 use super::memo::Same;
 use super::meter::Meter;
+use super::numeric_place::in_segment;
 use super::segment_photons::{MeetingFlow, SegmentPhotons};
 use super::walk::{MapsFrom, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
@@ -54,15 +55,23 @@ pub(super) fn fit_segment(
     let matched = &photons.matched;
     let active = active(job.project, photons.number, job.extent);
     let input = FlowInput { matched: Same::of(matched), active, method: *method, settings };
-    job.stages.flows.get(job.slot(photons.number), input, job.progress, |FlowInput { active, .. }| {
-        let ActiveConstraints { lines, walls } = active;
-        let (layers, reports) = match &matched.maps.meeting {
-            Some(meeting) => photons.report_meeting(job, meeting, samples)?,
-            None => photons.fit(job.project, job.extent, (lines, walls), samples, job.meter, job.progress)?,
-        };
-        let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
-        Ok(Arc::new(fitted))
-    })
+    let fitted = job.stages.flows.get(
+        job.slot(photons.number),
+        input,
+        job.progress,
+        |FlowInput { active, .. }| {
+            let ActiveConstraints { lines, walls } = active;
+            let (layers, reports) = match &matched.maps.meeting {
+                Some(meeting) => photons.report_meeting(job, meeting, samples)?,
+                None => {
+                    photons.fit(job.project, job.extent, (lines, walls), samples, job.meter, job.progress)?
+                }
+            };
+            let fitted = FittedSegment { maps: matched.maps.clone(), layers, reports, cost: matched.cost };
+            Ok(Arc::new(fitted))
+        },
+    );
+    in_segment(fitted, job.project, photons.number)
 }
 
 /// Gets the groups of a layer, the index of a time, and the positions of their photons then, group by group.

@@ -26,6 +26,11 @@ impl FrameTimes {
         Self { moments, frames }
     }
 
+    /// The first requested frame that shows the moment of this index.
+    pub(super) fn frame_of(&self, slot: usize) -> Option<i32> {
+        self.frames.iter().find(|(_, own)| *own == slot).map(|(frame, _)| *frame)
+    }
+
     /// The moments of one segment with their indices.
     pub(super) fn of_segment(&self, segment: usize) -> impl Iterator<Item = (usize, f64)> {
         let at = move |(slot, m): (usize, &SegmentTime)| (m.segment == segment).then_some((slot, m.time));

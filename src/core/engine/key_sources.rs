@@ -15,7 +15,7 @@ use crate::photon::Photons;
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
 use crate::targets::{PictureSampler, Points, load_points};
-use crate::{Error, Result};
+use crate::{Error, Progress, Result};
 
 /// The source of a group's light at a key frame.
 pub(super) enum KeySource {
@@ -285,10 +285,16 @@ impl SourceInput {
 ///
 /// # Errors
 /// A file that cannot be read, with the place in the project that names it.
-pub(super) fn open(shows: &Shows, file: Option<&Path>, place: &str, extent: Vec2) -> Result<KeySource> {
+pub(super) fn open(
+    shows: &Shows,
+    file: Option<&Path>,
+    (place, extent): (&str, Vec2),
+    progress: &Progress,
+) -> Result<KeySource> {
     Ok(match (shows, file) {
         (Shows::Image(image), Some(path)) => {
-            KeySource::Picture(PictureSampler::load(path, image, extent, &format!("{place}.image"))?)
+            let place = format!("{place}.image");
+            KeySource::Picture(PictureSampler::load_cancellable(path, image, (extent, &place), progress)?)
         }
         (Shows::Points(_), Some(path)) => KeySource::Points(load_points(path)?),
         _ => KeySource::Physical,

@@ -42,6 +42,7 @@ mod memo;
 mod memo_keys;
 mod meter;
 mod moving_segment;
+mod numeric_place;
 mod observer;
 mod output;
 mod output_folder;

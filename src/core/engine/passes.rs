@@ -13,6 +13,7 @@ use super::fitted_segment::FittedSegment;
 use super::frame_times::FrameTimes;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, all_flux, all_positions, count};
+use super::numeric_place::{at_frame, in_segment};
 use super::trajectories::SegmentTrajectories;
 use super::walk::{MapsFrom, Walk};
 use crate::render::splat::OutsidePhotons;
@@ -80,9 +81,10 @@ impl<'a> Exposures<'a> {
             let photons = walk.next(maps)?.ok_or(Error::Cancelled)?;
             let trajectories =
                 SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
-            let moments = times.of_segment(i);
             let rows = self.rows(&photons.from);
-            self.carry((trajectories, &rows), photons.requested, (pass, kernel), moments, progress)?;
+            let carried =
+                self.carry((trajectories, &rows), photons.requested, (pass, kernel), (times, i), progress);
+            in_segment(carried, job.project, i)?;
         }
         self.pending.take().map_or(Ok(()), |slot| self.render.accumulate(slot, &self.works[1]))
     }
@@ -99,17 +101,19 @@ impl<'a> Exposures<'a> {
         (mut trajectories, rows): (SegmentTrajectories, &[Range<usize>]),
         requested: [f64; 2],
         passes: (usize, usize),
-        moments: impl Iterator<Item = (usize, f64)>,
+        (times, segment): (&FrameTimes, usize),
         progress: &Progress,
     ) -> Result<()> {
         self.positions.resize(trajectories.len(), Vec2::ZERO);
         self.flux.resize(trajectories.len(), Vec3::ZERO);
-        for (slot, time) in moments {
+        for (slot, time) in times.of_segment(segment) {
             if self.lacks(slot, passes.0) {
-                self.expose((slot, rows), passes, between(requested, time), |positions, flux| {
-                    trajectories.flux_at(time, flux);
-                    trajectories.light_at(time, positions, &progress.inner())
-                })?;
+                let exposed =
+                    self.expose((slot, rows), passes, between(requested, time), |positions, flux| {
+                        trajectories.flux_at(time, flux);
+                        trajectories.light_at(time, positions, &progress.inner())
+                    });
+                at_frame(exposed, times.frame_of(slot))?;
             }
             progress.advance(1);
             progress.check()?;

@@ -114,7 +114,9 @@ impl Stages {
     ) -> Result<Arc<KeySource>> {
         progress.check()?;
         let (input, file): (_, Option<PathBuf>) = SourceInput::new(shows, place, extent, &self.assets)?;
-        let open = |_: &SourceInput| key_sources::open(shows, file.as_deref(), place, extent).map(Arc::new);
+        let open = |_: &SourceInput| {
+            key_sources::open(shows, file.as_deref(), (place, extent), progress).map(Arc::new)
+        };
         self.sources.get(slot, input, progress, open)
     }
 }

@@ -9,6 +9,7 @@ use glam::Vec2;
 use super::job::Job;
 use super::key_photons::{KeyPhotons, PassLight};
 use super::memo::Same;
+use super::numeric_place::in_segment;
 use super::pairing::{Pairing, PairingMethod, TransportCost};
 use super::segment_photons::{
     FirstKey, GroupTracks, Maps, MatchInput, Matched, MeetingFlow, Origin, SegmentPhotons,
@@ -91,10 +92,11 @@ impl<'a> Walk<'a> {
             return Ok(None);
         }
         let layers = self.layers();
-        let (matched, mut to, tracks) = match self.is_remembered(&maps) {
-            true => self.remembered(&maps)?,
-            false => self.pair(&maps, job.progress)?,
+        let paired = match self.is_remembered(&maps) {
+            true => self.remembered(&maps),
+            false => self.pair(&maps, job.progress),
         };
+        let (matched, mut to, tracks) = in_segment(paired, job.project, number)?;
         for (group, (before, to)) in self.at.iter().zip(&mut to).enumerate() {
             job.sources.keep_colours((number + 1, group), before, to);
         }

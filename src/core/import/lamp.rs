@@ -6,7 +6,7 @@ use glam::{Vec3, vec3};
 
 use super::draft::Bounds;
 use crate::scene::LightDesc;
-use crate::scene::light::{Common, SpotLight};
+use crate::scene::light::{Common, LightRole, SpotLight};
 
 /// From the glass to the lamp.
 const TOWARDS: Vec3 = vec3(-0.62, 0.62, -0.48);
@@ -14,10 +14,11 @@ const TOWARDS: Vec3 = vec3(-0.62, 0.62, -0.48);
 const DISTANCE: f32 = 9.0;
 /// The cone over that in which the glass is seen.
 const WIDER: f32 = 1.2;
-/// Irradiance at the glass (W/m²): a matt table is a third as bright as white, so that caustics stand out.
-const IRRADIANCE: f32 = 2.0;
+/// Irradiance at the glass (W/m²): what it casts is brighter than a matt table beneath the faint sky.
+const IRRADIANCE: f32 = 6.0;
 
-/// A spot that shines on the glass, from a place or from one that is good.
+/// A spot that shines on the glass, from a place or from one that is good. Its own pool of light would drown the caustic, so it
+/// draws caustics alone.
 pub(super) fn aimed_at(glass: &Bounds, place: Option<Vec3>) -> LightDesc {
     let (centre, radius) = (glass.centre(), glass.radius());
     let place = place.filter(|place| place.distance(centre) > 1.5 * radius);
@@ -28,6 +29,7 @@ pub(super) fn aimed_at(glass: &Bounds, place: Option<Vec3>) -> LightDesc {
     let watts = IRRADIANCE * distance * distance * solid_angle;
     LightDesc::Spot(SpotLight {
         name: "lamp".into(),
+        role: LightRole::Caustics,
         watts: Common::WATTS.clamped(watts),
         position: position.to_array(),
         target: centre.to_array(),

@@ -7,7 +7,7 @@ use glam::Vec2;
 use super::decode;
 use super::picture::Cells;
 use super::settings::{Channel, ImageTarget};
-use crate::Result;
+use crate::{Progress, Result};
 
 /// The sampling density of a picture, downscaled.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,10 +26,11 @@ impl Brightness {
     /// # Errors
     /// `Io`, `Format` or `Limit` when the file cannot be used.
     pub fn load(path: &Path, target: &ImageTarget, side: usize) -> Result<Self> {
-        let picture = decode::read(path)?;
-        let mut cells = Cells::of(&picture, target, target.channel);
+        let progress = &Progress::new();
+        let picture = decode::read(path, progress)?;
+        let mut cells = Cells::of(&picture, target, target.channel, progress)?;
         if target.channel == Channel::Brightness && cells.black_with_shape {
-            cells = Cells::of(&picture, target, Channel::Alpha);
+            cells = Cells::of(&picture, target, Channel::Alpha, progress)?;
         }
         let rows = cells.weights.len() / cells.width.max(1);
         let block = cells.width.max(rows).div_ceil(side.max(1)).max(1);

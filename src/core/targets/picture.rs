@@ -12,7 +12,7 @@ use crate::math::colour::luminance;
 use crate::math::distribution::Distribution2;
 use crate::math::rng::{Purpose, Stream};
 use crate::math::sobol;
-use crate::{Error, Result};
+use crate::{Error, Progress, Result};
 
 /// Larger pictures are averaged down to at most this many cells a side: finer than any plane texture.
 const MAX_CELLS: usize = 2048;
@@ -39,10 +39,23 @@ impl PictureSampler {
     /// # Errors
     /// `Value` when a setting is out of range; `Io`, `Format` or `Limit` when the file cannot be used, or has no light.
     pub fn load(path: &Path, target: &ImageTarget, extent: Vec2, place: &str) -> Result<Self> {
+        Self::load_cancellable(path, target, (extent, place), &Progress::new())
+    }
+
+    /// As [`Self::load`], until it is cancelled.
+    ///
+    /// # Errors
+    /// Those of [`Self::load`]; `Cancelled`.
+    pub(crate) fn load_cancellable(
+        path: &Path,
+        target: &ImageTarget,
+        (extent, place): (Vec2, &str),
+        progress: &Progress,
+    ) -> Result<Self> {
         target.check(place)?;
-        let picture = decode::read(path)?;
+        let picture = decode::read(path, progress)?;
         let mut notes = picture.notes.clone();
-        let mut cells = Cells::of(&picture, target, target.channel);
+        let mut cells = Cells::of(&picture, target, target.channel, progress)?;
         if cells.bad_pixels > 0 {
             notes.push(format!(
                 "'{}': {} pixels hold NaN, infinite or negative values, which count as 0",
@@ -51,7 +64,7 @@ impl PictureSampler {
             ));
         }
         if target.channel == Channel::Brightness && cells.black_with_shape {
-            cells = Cells::of(&picture, target, Channel::Alpha);
+            cells = Cells::of(&picture, target, Channel::Alpha, progress)?;
             notes.push(format!("'{}' is black all over: its opacity is used as brightness", path.display()));
         }
         let Some(brightness) = Distribution2::new(&cells.weights, cells.width) else {
@@ -138,7 +151,12 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    pub(super) fn of(picture: &Picture, target: &ImageTarget, channel: Channel) -> Self {
+    pub(super) fn of(
+        picture: &Picture,
+        target: &ImageTarget,
+        channel: Channel,
+        progress: &Progress,
+    ) -> Result<Self> {
         let block = picture.width.max(picture.height).div_ceil(MAX_CELLS);
         let (width, height) = (picture.width.div_ceil(block), picture.height.div_ceil(block));
         let coloured = if target.colour { width * height } else { 0 };
@@ -154,6 +172,7 @@ impl Cells {
         let (mut black, mut alphas) = (true, (f32::INFINITY, f32::NEG_INFINITY));
         let mut line = Vec::with_capacity(picture.width);
         for row in 0..picture.height {
+            progress.check()?;
             picture.read_row(row, &mut line);
             for (column, pixel) in line.iter_mut().enumerate() {
                 cells.bad_pixels += usize::from(clean(pixel));
@@ -171,7 +190,7 @@ impl Cells {
             }
         }
         cells.black_with_shape = black && !target.invert && alphas.0 < alphas.1;
-        cells
+        Ok(cells)
     }
 
     fn relative_colours(self) -> Vec<Vec3> {

@@ -10,8 +10,8 @@ use tempfile::TempDir;
 
 use crate::scenes::icosphere;
 
-mod fuzz;
-mod hostile;
+pub(crate) mod fuzz;
+pub(crate) mod hostile;
 mod materials;
 mod scenes_made;
 mod shapes;
@@ -132,6 +132,19 @@ impl Written {
     fn import(&self) -> Result<Import> {
         import::read(&self.path(), &Progress::new())
     }
+}
+
+/// A file with all that is read: sparse elements, lamps, a camera, a table, a tree.
+pub(crate) fn rich() -> Vec<u8> {
+    fuzz::seed().bytes()
+}
+
+/// The smallest file that is read.
+pub(crate) fn smallest() -> Vec<u8> {
+    let mut glb = Glb::new();
+    let mesh = glb.mesh(&[Vec3::ZERO, Vec3::X, Vec3::Y], &[[0, 1, 2]], None);
+    glb.node(json!({ "mesh": mesh }));
+    glb.bytes()
 }
 
 fn imported(glb: &Glb) -> Import {

@@ -9,15 +9,22 @@ use super::obj::{Face, Group, NONE};
 use super::shells::{Sides, inward};
 use crate::scene::accel::Triangle;
 use crate::scene::material::Material;
+use crate::{Progress, Result};
 
-/// The triangles of one material, and for each its shell, numbered from 0.
+/// The triangles of one material, and for each its shell, numbered from 0. Checked for a cancel between the steps, each of which takes
+/// some tenths of a second of a million triangles.
+///
+/// # Errors
+/// `Cancelled`.
 pub(super) fn triangles(
     group: &Group,
     smooth: bool,
     (material, name): (&Material, &str),
     notes: &mut Vec<String>,
-) -> (Vec<Triangle>, Vec<u32>) {
+    progress: &Progress,
+) -> Result<(Vec<Triangle>, Vec<u32>)> {
     let welded = weld(&group.positions);
+    progress.check()?;
     let mut kept: Vec<Face> = group.faces.iter().copied().filter(|face| has_area(group, face)).collect();
     let mut note = |count: usize, what: &str| {
         if count > 0 {
@@ -31,6 +38,7 @@ pub(super) fn triangles(
         kept.iter().map(|face| face.vertices.map(|v| welded[v as usize])).collect()
     };
     let doubled = Doubled::of(&vertices(&kept));
+    progress.check()?;
     note(kept.len() - doubled.once.len(), "faces stand twice; one of each was kept");
     if kept.len() > doubled.once.len() {
         kept = doubled.once.iter().map(|face| kept[*face as usize]).collect();
@@ -42,13 +50,16 @@ pub(super) fn triangles(
         kept.retain(|_| !is_wall.next().unwrap_or(false));
     }
     let sides = Sides::new(&vertices(&kept));
+    progress.check()?;
     let shells = sides.shells(kept.len(), false);
+    progress.check()?;
     if is_glass {
         let corners: Vec<[DVec3; 3]> = kept
             .par_iter()
             .map(|face| face.vertices.map(|v| group.positions[v as usize].as_dvec3()))
             .collect();
         let inward = inward(&sides, &shells, &corners);
+        progress.check()?;
         let turned = inward.iter().filter(|is| **is).count();
         kept.iter_mut().zip(inward).filter(|(_, is)| *is).for_each(|(face, _)| flip(face));
         if turned == kept.len() {
@@ -68,9 +79,10 @@ pub(super) fn triangles(
             "edges whose two faces are wound against each other; recalculate the normals outside",
         );
     }
+    progress.check()?;
     let (triangles, turned) = normals::shade(group, &kept, &compact(vertices(&kept)), smooth);
     note(turned, "corner normals pointed against their face and were turned");
-    (triangles, shells)
+    Ok((triangles, shells))
 }
 
 /// Faces of the same three vertices.

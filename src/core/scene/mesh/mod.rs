@@ -74,7 +74,7 @@ pub(super) fn load(
     let mut parts = Vec::new();
     for (name, material, group) in objects {
         progress.check()?;
-        let (triangles, shells) = clean::triangles(&group, desc.smooth, (&material, &name), notes);
+        let (triangles, shells) = clean::triangles(&group, desc.smooth, (&material, &name), notes, progress)?;
         if !triangles.is_empty() {
             parts.push(Part { name, material, triangles, shells });
         }

@@ -1,6 +1,5 @@
 //! OpenEXR: the layer that is shown, composed into its display window.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
@@ -8,7 +7,8 @@ use exr::prelude::{
 };
 
 use super::decoded::{Picture, Pixels, damaged, require_size};
-use crate::{Error, Result};
+use super::source::Source;
+use crate::{Error, Progress, Result};
 
 /// Words in the names of layers that hold the whole picture.
 const WHOLE: [&str; 5] = ["combined", "beauty", "rgb", "composite", "image"];
@@ -21,9 +21,9 @@ struct Layer {
     rank: usize,
 }
 
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture> {
-    let meta =
-        MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|error| damaged(path, error))?;
+pub(super) fn read(path: &Path, bytes: &[u8], progress: &Progress) -> Result<Picture> {
+    let meta = MetaData::read_from_buffered(Source::new(bytes, progress), false)
+        .map_err(|error| damaged(path, error))?;
     let mut layers = Vec::new();
     let mut names = Vec::new();
     for header in &meta.headers {
@@ -46,10 +46,11 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture> {
         );
         return Err(Error::format(path, "", what));
     };
+    let source = Source::new(bytes, progress);
     let mut picture = if shown.channels[0] == shown.channels[1] {
-        read_grey(path, bytes, shown)
+        read_grey(path, source, shown)
     } else {
-        read_colour(path, bytes, shown)
+        read_colour(path, source, shown)
     }?;
     let mut others: Vec<String> = layers.iter().map(|layer| format!("'{}'", layer.name)).collect();
     others.retain(|name| *name != format!("'{}'", shown.name));
@@ -105,7 +106,7 @@ fn rank(layer: &str) -> usize {
     if layer.is_empty() { 0 } else { 1 + named }
 }
 
-fn read_colour(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
+fn read_colour(path: &Path, source: Source<'_>, layer: &Layer) -> Result<Picture> {
     let [r, g, b, a] = layer.channels.each_ref().map(|name| &**name);
     let layer = exr::prelude::read()
         .no_deep_data()
@@ -119,10 +120,10 @@ fn read_colour(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
             pixels[at.y() * *width + at.x()] = [r, g, b, a];
         })
         .first_valid_layer();
-    read_pixels(path, bytes, layer)
+    read_pixels(path, source, layer)
 }
 
-fn read_grey(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
+fn read_grey(path: &Path, source: Source<'_>, layer: &Layer) -> Result<Picture> {
     let [y, _, _, a] = layer.channels.each_ref().map(|name| &**name);
     let layer = exr::prelude::read()
         .no_deep_data()
@@ -134,19 +135,16 @@ fn read_grey(path: &Path, bytes: &[u8], layer: &Layer) -> Result<Picture> {
             pixels[at.y() * *width + at.x()] = [y, y, y, a];
         })
         .first_valid_layer();
-    read_pixels(path, bytes, layer)
+    read_pixels(path, source, layer)
 }
 
 /// The picture of the first layer that has the channels asked for.
-fn read_pixels<R, Channels>(path: &Path, bytes: &[u8], layer: R) -> Result<Picture>
+fn read_pixels<R, Channels>(path: &Path, source: Source<'_>, layer: R) -> Result<Picture>
 where
     for<'s> R: ReadLayers<'s, Layers = exr::image::Layer<SpecificChannels<Stored, Channels>>>,
 {
-    let image = layer
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(|error| damaged(path, error))?;
+    let image =
+        layer.all_attributes().non_parallel().from_buffered(source).map_err(|error| damaged(path, error))?;
     let data = IntegerBounds::new(image.layer_data.attributes.layer_position, image.layer_data.size);
     compose(path, data, &image.attributes, image.layer_data.channel_data.pixels.1)
 }

@@ -1,6 +1,5 @@
 //! PNG, JPEG, WebP, TIFF and Radiance HDR, read by the package `image`.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use image::codecs::hdr::HdrDecoder;
@@ -9,22 +8,23 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use super::colour::{self, Encoding};
 use super::decoded::{Picture, Pixels, damaged, require_size};
 use super::formats;
-use crate::{Error, Result};
+use super::source::Source;
+use crate::{Error, Progress, Result};
 
 /// Formats that are read.
 const READ: [ImageFormat; 5] =
     [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::WebP, ImageFormat::Tiff, ImageFormat::Hdr];
 
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Picture> {
+pub(super) fn read(path: &Path, bytes: &[u8], progress: &Progress) -> Result<Picture> {
+    let source = Source::new(bytes, progress);
     // Radiance files begin with the name of the program that wrote them.
     if bytes.starts_with(b"#?") {
-        let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(|error| damaged(path, error))?;
+        let decoder = HdrDecoder::new_nonstrict(source).map_err(|error| damaged(path, error))?;
         let aspect = decoder.metadata().pixel_aspect_ratio.unwrap_or(1.0);
         // The format gives the height of a pixel over its width.
         return decode(path, decoder, Encoding::Linear, 1.0 / aspect);
     }
-    let reader =
-        ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(Error::io("read", path))?;
+    let reader = ImageReader::new(source).with_guessed_format().map_err(Error::io("read", path))?;
     let Some(format) = reader.format().filter(|format| READ.contains(format)) else {
         return Err(Error::format(path, "", formats::unread(bytes)));
     };
