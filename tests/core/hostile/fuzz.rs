@@ -48,10 +48,9 @@ impl Target {
     fn run(&self) {
         let rounds =
             std::env::var("LIGHTLOOM_FUZZ").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(FEW);
-        let mut stage = Stage::new();
+        let stage = Stage::new();
         stage.file("a.mtl", BALL_MATERIAL);
         stage.file("mesh.obj", format!("mtllib a.mtl\nusemtl Glass\n{}", ball()));
-        stage.mesh("mesh", "", None);
         let path = stage.folder.path().join(self.file);
         let mut tally = Tally::default();
         for seed in &self.seeds {
