@@ -259,22 +259,3 @@ fn what_is_typed_while_a_dialog_opens_is_its_name_and_no_tool() {
     let typed = harness.get_by_label("Path").value().unwrap_or_default();
     assert!(typed.ends_with("wdekwebk"), "{typed}");
 }
-
-#[test]
-fn a_path_and_enter_typed_before_the_dialog_is_there_open_the_project() {
-    let folder = examples();
-    let mut harness = window(&folder, "letters_free", Vec::new());
-    harness.run_steps(3);
-    let key =
-        |key, modifiers| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
-    let path = project(&folder, "letters");
-    // The examples are opened from the welcome window, which is left again: all in one frame.
-    harness.event(key(Key::N, Modifiers::COMMAND));
-    harness.event(key(Key::Escape, Modifiers::NONE));
-    harness.event(key(Key::O, Modifiers::COMMAND));
-    harness.event(Event::Text(path.display().to_string()));
-    harness.event(key(Key::Enter, Modifiers::NONE));
-    harness.event(key(Key::W, Modifiers::NONE));
-    until(&mut harness, "the project", |app| app.document().path() == Some(&path));
-    assert!(harness.query_by_label("Open a project").is_none());
-}

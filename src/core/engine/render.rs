@@ -58,8 +58,8 @@ impl Engine {
         let &Output { film, progress, observer, .. } = output;
         let meter = Meter::default();
         let mut prepared = self.prepare(project, &meter, progress)?;
-        let files = RunFiles::open(self, &mut prepared, output)?;
         prepared.plan.require_memory()?;
+        let files = RunFiles::open(self, &mut prepared, output)?;
         let mut stages = prepared.plan.stages.clone();
         if let Some(film) = film {
             let format = FilmFormat::of(film, "film")?;
