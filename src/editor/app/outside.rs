@@ -177,7 +177,7 @@ impl App {
         if file.is_dir() {
             return self.windows.player.play(ctx, &file);
         }
-        if ending.as_deref() == Some("json") {
+        if matches!(ending.as_deref(), Some("json" | "lightloom")) {
             return self.leave(ctx, Leave::Open(file));
         }
         match [AssetUse::Mesh, AssetUse::Picture(at.clone()), AssetUse::Points(at)]

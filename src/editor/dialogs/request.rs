@@ -119,7 +119,7 @@ impl Purpose {
     /// Name and extensions of the wanted files; no extension means a folder.
     pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json"]),
+            Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json", "lightloom"]),
             Self::ExportFolder | Self::CollectFolder => ("Folders", &[]),
             Self::Import => ("Scenes and pictures", IMPORTED),
             Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),

@@ -4,7 +4,8 @@
 //! at every step, once for the light of the earlier key frame, which moves forward to t = 1/2, and once for that of the
 //! later one, which moves backward ([`fit_meeting`]). Photons are paired where they meet ([`HalfTracks`]): the pairing is
 //! short, the neighbourhoods of each key frame stay whole in its own half, and both ends are exact. The gap that is left at
-//! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]).
+//! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]). What is rendered is diffused a little about these
+//! trajectories (`diffusion`); figures are of the trajectories themselves.
 
 mod detours;
 mod diffusion;
