@@ -38,8 +38,8 @@ pub(super) fn rows() -> Vec<Row> {
     ];
     let read_rows: Vec<(&str, Vec<u8>, bool, &str)> = vec![
         (
-            "mtllib ../../etc/passwd",
-            format!("mtllib ../../etc/passwd\nusemtl a\n{cube}").into(),
+            "mtllib ../../nowhere/passwd",
+            format!("mtllib ../../nowhere/passwd\nusemtl a\n{cube}").into(),
             false,
             "passwd",
         ),
