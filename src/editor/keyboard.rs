@@ -28,18 +28,8 @@ const REPEATED: [Command; 6] = [
     Command::ZoomOut,
 ];
 
-/// Commands that open something to type into: a dialog, the palette, a transform.
-const OPENERS: [Command; 9] = [
-    Command::Open,
-    Command::Import,
-    Command::SaveAs,
-    Command::Collect,
-    Command::New,
-    Command::Palette,
-    Command::MoveObject,
-    Command::TurnObject,
-    Command::ScaleObject,
-];
+/// Commands that begin a transform, into which the keys that follow are typed.
+const TRANSFORMS: [Command; 3] = [Command::MoveObject, Command::TurnObject, Command::ScaleObject];
 
 /// The actions of this frame's key presses. `tools` are the names and keys of the tools in order; `busy` means
 /// that the active tool has an unfinished gesture. Over the orbit view its keys win. A focused text field keeps all keys except shortcuts that have
@@ -66,9 +56,9 @@ pub fn pressed(
     actions.into_iter().take(count).collect()
 }
 
-/// Whether what follows in the same frame is typed into something that the action opens: a dialog, the palette, or a transform.
+/// Whether what follows in the same frame is typed into a transform that the action begins.
 fn takes_keys(action: &Action) -> bool {
-    matches!(action, Action::Command(command) if OPENERS.contains(command))
+    matches!(action, Action::Command(command) if TRANSFORMS.contains(command))
 }
 
 /// Tells in each frame whether a dialog or a question of the program takes the keys.

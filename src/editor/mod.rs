@@ -7,6 +7,7 @@ mod app;
 pub mod asset;
 pub mod canvas;
 pub mod clipboard;
+mod colour_ramp;
 pub mod command;
 pub mod context;
 pub mod dialogs;

@@ -51,6 +51,11 @@ impl Fixture {
         Note { path: Some(self.path()), title: "Letters".into(), file, project, seen }
     }
 
+    /// The request to save `project` where it was opened.
+    fn save(&self, file: Arc<ProjectFile>, project: Arc<Project>, seen: Option<Fingerprint>) -> SaveRequest {
+        SaveRequest { path: self.path(), file, project, origin: None, seen }
+    }
+
     fn files_in_recovery(&self) -> usize {
         std::fs::read_dir(self.recovery()).map_or(0, Iterator::count)
     }
@@ -237,13 +242,7 @@ fn opening_and_saving_gives_the_same_bytes_and_no_backup() {
     let waiting = Waiting::new(&fixture);
     let opened = waiting.open(&fixture);
     let project = Arc::new(opened.file.project().clone());
-    let save = SaveRequest {
-        path: fixture.path(),
-        file: opened.file,
-        project,
-        origin: None,
-        seen: Some(opened.seen),
-    };
+    let save = fixture.save(opened.file, project, Some(opened.seen));
     assert!(
         matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(saved)) if saved.seen == opened.seen)
     );
@@ -260,8 +259,7 @@ fn the_last_three_versions_are_kept_aside() {
     let mut versions = vec![std::fs::read(fixture.path()).unwrap()];
     for seed in 2..7 {
         let project = with_seed(&opened.file, seed);
-        let save =
-            SaveRequest { path: fixture.path(), file: opened.file.clone(), project, origin: None, seen };
+        let save = fixture.save(opened.file.clone(), project, seen);
         let StoreReply::Saved(_, Ok(saved)) = waiting.ask(StoreRequest::Save(save)) else {
             panic!("not saved")
         };
@@ -287,13 +285,7 @@ fn a_second_editor_neither_holds_nor_overwrites_the_file() {
         panic!("held twice")
     };
     assert!(who.contains(&std::process::id().to_string()), "{who}");
-    let save = || SaveRequest {
-        path: fixture.path(),
-        file: opened.file.clone(),
-        project: with_seed(&opened.file, 2),
-        origin: None,
-        seen: None,
-    };
+    let save = || fixture.save(opened.file.clone(), with_seed(&opened.file, 2), None);
     let StoreReply::Saved(_, Err(error)) = second.ask(StoreRequest::Save(save())) else {
         panic!("overwritten")
     };
@@ -314,7 +306,7 @@ fn what_another_program_changes_is_told_once_and_what_this_one_saves_is_not() {
     let opened = waiting.open(&fixture);
     waiting.attach(&fixture.path());
     let project = with_seed(&opened.file, 2);
-    let save = SaveRequest { path: fixture.path(), file: opened.file, project, origin: None, seen: None };
+    let save = fixture.save(opened.file, project, None);
     assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(..)));
     std::fs::write(fixture.path(), b"another's work").unwrap();
     waiting.woken.recv_timeout(PATIENCE).unwrap();
@@ -374,13 +366,7 @@ fn a_file_that_another_program_changed_is_replaced_only_when_asked() {
     let opened = waiting.open(&fixture);
     std::fs::write(fixture.path(), b"somebody else's work").unwrap();
     let project = with_seed(&opened.file, 2);
-    let save = SaveRequest {
-        path: fixture.path(),
-        file: opened.file,
-        project,
-        origin: None,
-        seen: Some(opened.seen),
-    };
+    let save = fixture.save(opened.file, project, Some(opened.seen));
     let StoreReply::ChangedOnDisk(save) = waiting.ask(StoreRequest::Save(save)) else {
         panic!("not noticed")
     };
@@ -399,13 +385,7 @@ fn a_file_that_was_deleted_is_no_changed_one() {
     let opened = waiting.open(&fixture);
     std::fs::remove_file(fixture.path()).unwrap();
     let project = with_seed(&opened.file, 3);
-    let save = SaveRequest {
-        path: fixture.path(),
-        file: opened.file,
-        project,
-        origin: None,
-        seen: Some(opened.seen),
-    };
+    let save = fixture.save(opened.file, project, Some(opened.seen));
     assert!(matches!(waiting.ask(StoreRequest::Save(save)), StoreReply::Saved(_, Ok(_))));
     assert_eq!(fixture.file().project().seed, 3);
 }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::files::{read_regular_file, write_atomic};
+use crate::files::{read_regular_file, try_hold, write_atomic};
 use crate::project::Project;
 use crate::{Error, Result};
 
@@ -179,11 +179,7 @@ fn lock(folder: &Path) -> Result<Option<File>> {
     let mut options = File::options();
     let file = options.write(true).create(true).truncate(false).open(&path);
     let file = file.map_err(Error::io("write", &path))?;
-    match file.try_lock() {
-        Err(fs::TryLockError::WouldBlock) => Ok(None),
-        // A disk that knows no locks is taken as it is.
-        Err(fs::TryLockError::Error(_)) | Ok(()) => Ok(Some(file)),
-    }
+    Ok(try_hold(&file).then_some(file))
 }
 
 fn remove(folder: &Path) -> Result<()> {

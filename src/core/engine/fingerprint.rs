@@ -2,7 +2,7 @@
 //!
 //! Frames carry it, so that a later run knows which of them it would make again.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -26,8 +26,13 @@ const MAX_BYTES: u64 = 64 << 30;
 /// # Errors
 /// A file cannot be read.
 pub(super) fn fingerprint(project: &Project, assets: &AssetFolder, mesh_files: &[PathBuf]) -> Result<String> {
+    let mut known = HashMap::new();
+    let mut hash_of = |path: &Path| match known.get(path) {
+        Some(hash) => Ok(String::clone(hash)),
+        None => hash_of_file(path).inspect(|hash| drop(known.insert(path.to_owned(), hash.clone()))),
+    };
     let hash = |file: &str| {
-        let hash = assets.resolve(file, "file").and_then(|path| hash_of_file(&path))?;
+        let hash = assets.resolve(file, "file").and_then(|path| hash_of(&path))?;
         Ok((file.to_owned(), hash))
     };
     let hashes: BTreeMap<String, String> = project.files().into_iter().map(hash).collect::<Result<_>>()?;
@@ -43,7 +48,7 @@ pub(super) fn fingerprint(project: &Project, assets: &AssetFolder, mesh_files: &
     let version = env!("CARGO_PKG_VERSION");
     let mut hash = Sha256::new();
     hash.update(format!("Lightloom {version} engine {ENGINE}\n{content}\n{apart:?}\n"));
-    let mut hashes = mesh_files.iter().map(|path| hash_of_file(path)).collect::<Result<Vec<_>>>()?;
+    let mut hashes = mesh_files.iter().map(|path| hash_of(path)).collect::<Result<Vec<_>>>()?;
     // Wherever the files lie.
     hashes.sort();
     hashes.iter().for_each(|of_file| hash.update(of_file));

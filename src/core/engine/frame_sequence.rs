@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::frame_writer::{SHEET_COLUMNS, SHEET_PICTURES, small};
+use super::frame_writer::{SHEET_COLUMNS, SHEET_PICTURES, sheet_texts, small};
 use super::kept_picture::picture_of;
 use super::output_folder::CONTACT_SHEET;
 use crate::export::{FrameFormat, Overlay, evenly_chosen, inspect, write_contact_sheet};
@@ -58,12 +58,7 @@ pub fn write_sheet(folder: &Path) -> Result<PathBuf> {
         }
     }
     let fingerprint = frames.values().next().and_then(|path| inspect(path).ok());
-    let fingerprint = fingerprint.and_then(|file| file.fingerprint().map(ToOwned::to_owned));
-    let texts = [
-        ("passes", "0".to_owned()),
-        ("passes_planned", "0".into()),
-        ("fingerprint", fingerprint.unwrap_or_default()),
-    ];
+    let texts = sheet_texts(fingerprint.as_ref().and_then(|file| file.fingerprint()).unwrap_or_default());
     let path = folder.join(CONTACT_SHEET);
     write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, Overlay::NONE, &texts)?;
     Ok(path)

@@ -39,6 +39,12 @@ pub(super) fn small(image: &Image) -> Image {
     image.resized(SHEET_WIDTH, (SHEET_WIDTH * image.height).div_ceil(image.width))
 }
 
+/// What a contact sheet tells of itself. It is as finished as it can be: any run of the same makes it anew.
+pub(super) fn sheet_texts(fingerprint: &str) -> [(&'static str, String); 3] {
+    [("passes", "0"), ("passes_planned", "0"), ("fingerprint", fingerprint)]
+        .map(|(name, text)| (name, text.to_owned()))
+}
+
 /// The light of a frame as the camera sees it.
 struct FrameLight {
     /// Of all caustics.
@@ -128,10 +134,7 @@ impl FrameWriter<'_> {
             let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
             let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
             let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
-            // A sheet is as finished as it can be: it is made anew by any run of the same.
-            let made_from =
-                [("passes", "0"), ("passes_planned", "0"), ("fingerprint", &*self.files.fingerprint)];
-            let texts = made_from.map(|(name, text)| (name, text.to_owned()));
+            let texts = sheet_texts(&self.files.fingerprint);
             sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay, &texts)?;
             (self.saved)(&path);
         }
@@ -254,9 +257,7 @@ impl FrameWriter<'_> {
             ("render".into(), json(serde_json::to_string(render))),
         ];
         settings.push(("passes_planned".into(), self.planned.to_string()));
-        if !self.files.fingerprint.is_empty() {
-            settings.push(("fingerprint".into(), self.files.fingerprint.clone()));
-        }
+        settings.push(("fingerprint".into(), self.files.fingerprint.clone()));
         if !method.fits() {
             settings.push(("method".into(), method.name().into()));
         }

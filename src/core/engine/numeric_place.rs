@@ -6,29 +6,25 @@ use crate::{Error, Result};
 /// The result, whose numeric error names segment `number` by its frames.
 pub(super) fn in_segment<T>(result: Result<T>, project: &Project, number: usize) -> Result<T> {
     let frame = |key: usize| project.keys.get(key).map_or(0, |key| key.frame);
-    placed(result, || format!("in segment {number}, frames {} to {}", frame(number), frame(number + 1)))
+    let place = || format!("in segment {number}, frames {} to {}", frame(number), frame(number + 1));
+    result.map_err(|error| placed(error, place))
 }
 
 /// The result, whose numeric error names a frame.
 pub(super) fn at_frame<T>(result: Result<T>, frame: Option<i32>) -> Result<T> {
     match frame {
-        Some(frame) => placed(result, || format!("on the way to frame {frame}")),
+        Some(frame) => result.map_err(|error| placed(error, || format!("on the way to frame {frame}"))),
         None => result,
     }
 }
 
-fn placed<T>(result: Result<T>, place: impl FnOnce() -> String) -> Result<T> {
-    result.map_err(|error| match error {
+/// The error with the place of what is numeric in it.
+fn placed(error: Error, place: impl FnOnce() -> String) -> Error {
+    match error {
         Error::Numeric { stage, what } => Error::Numeric { stage, what: format!("{what} ({})", place()) },
-        Error::Noted { error, notes } => match *error {
-            Error::Numeric { stage, what } => {
-                let error = Error::Numeric { stage, what: format!("{what} ({})", place()) };
-                Error::Noted { error: Box::new(error), notes }
-            }
-            error => Error::Noted { error: Box::new(error), notes },
-        },
+        Error::Noted { error, notes } => Error::Noted { error: Box::new(placed(*error, place)), notes },
         other => other,
-    })
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! File access: bounded reads of regular files, atomic writes; array files ([`npy`], [`npz`]).
 
 mod copy;
+mod hold;
 pub mod npy;
 pub mod npz;
 mod space;
 
 pub(crate) use copy::{copy_new, is_same_content};
+pub use hold::try_hold;
 pub use space::{free_bytes, reserve};
 
 use std::fs::File;

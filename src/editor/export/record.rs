@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lightloom_core::engine::Existing;
-use lightloom_core::files::{read_regular_file, write_atomic};
+use lightloom_core::files::{read_regular_file, try_hold, write_atomic};
 use lightloom_core::project::{Admitted, Project};
 use lightloom_core::{Error, Result};
 use serde::{Deserialize, Serialize};
@@ -81,8 +81,7 @@ impl ExportRecord {
     /// Takes over a file; none where another program works at its export.
     fn open(path: &Path) -> Result<Option<Self>> {
         let file = File::open(path).map_err(Error::io("read", path))?;
-        let held = matches!(file.try_lock(), Err(std::fs::TryLockError::WouldBlock));
-        Ok((!held).then(|| Self { path: path.to_owned(), _lock: file }))
+        Ok(try_hold(&file).then(|| Self { path: path.to_owned(), _lock: file }))
     }
 
     /// Removes the file: the export is not offered again.

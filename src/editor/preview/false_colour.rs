@@ -2,14 +2,15 @@
 
 use egui::Color32;
 use glam::Vec3;
+use lightloom_core::math::colour::luminance;
 use lightloom_core::render::Image;
+
+use crate::editor::colour_ramp::along;
 
 /// Stops around middle grey that the colours tell apart.
 pub const STOPS: f32 = 6.0;
 /// Linear value of middle grey.
 const GREY: f32 = 0.18;
-/// Luminance of linear Rec.709.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 /// From the darkest to the brightest; grey in the middle.
 const COLOURS: [Color32; 7] = [
     Color32::from_rgb(24, 12, 60),
@@ -23,14 +24,12 @@ const COLOURS: [Color32; 7] = [
 
 /// The colour of a share of the range, 0..=1.
 pub fn of_share(share: f32) -> Color32 {
-    let at = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f32;
-    let from = (at as usize).min(COLOURS.len() - 2);
-    COLOURS[from].lerp_to_gamma(COLOURS[from + 1], at - from as f32)
+    along(&COLOURS, share)
 }
 
 /// The colour of exposed linear light; black where there is none.
 fn of_light(exposed: Vec3) -> Color32 {
-    let luminance = exposed.dot(LUMINANCE);
+    let luminance = luminance(exposed);
     // Written so that NaN is black, too.
     if luminance > 0.0 { of_share(0.5 + 0.5 * (luminance / GREY).log2() / STOPS) } else { Color32::BLACK }
 }

@@ -3,11 +3,12 @@
 //! The system's lock on that file tells whether its owner lives, on this machine; across machines, where not every disk shares
 //! such locks, the owner touches the file every minute. What a dead owner left is taken over.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
+use lightloom_core::files::try_hold;
 use serde::{Deserialize, Serialize};
 
 /// How often the owner shows that it lives.
@@ -53,7 +54,7 @@ impl FileLock {
         for _ in 0..TRIES {
             let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
             let Ok(mut file) = opened else { return Locked::Impossible };
-            if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            if !try_hold(&file) {
                 return Locked::Elsewhere(Owner::read(&mut file).unwrap_or_default().words());
             }
             // Its owner may have removed it in the meantime: then another file is the lock now.

@@ -1,9 +1,10 @@
 //! The file of one journal with a lock that marks its owner. The system releases the lock when its owner ends,
 //! so a file whose lock is free belongs to a crashed editor.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
 
+use lightloom_core::files::try_hold;
 use lightloom_core::{Error, Result};
 
 use super::disk;
@@ -28,7 +29,7 @@ impl JournalSlot {
             let (lock, lock_path) =
                 lock.and_then(|lock| Ok(lock.keep()?)).map_err(Error::io("create a file in", folder))?;
             // Whoever clears away empty slots may have come between: then another name.
-            if is_free(lock.try_lock()) && lock_path.exists() {
+            if try_hold(&lock) && lock_path.exists() {
                 return Ok(Self { file: lock_path.with_extension("json"), lock_path, _lock: lock });
             }
         }
@@ -72,7 +73,7 @@ impl JournalSlot {
     fn take(file: PathBuf) -> Option<Self> {
         let lock_path = file.with_extension("lock");
         let lock = OpenOptions::new().write(true).create(true).truncate(false).open(&lock_path).ok()?;
-        is_free(lock.try_lock()).then_some(Self { file, lock_path, _lock: lock })
+        try_hold(&lock).then_some(Self { file, lock_path, _lock: lock })
     }
 }
 
@@ -82,12 +83,6 @@ impl Drop for JournalSlot {
             let _ = std::fs::remove_file(&self.lock_path);
         }
     }
-}
-
-/// Whether nobody else holds the lock. Without lock support it counts as free: work offered twice is better than work
-/// never offered.
-fn is_free(lock: Result<(), TryLockError>) -> bool {
-    !matches!(lock, Err(TryLockError::WouldBlock))
 }
 
 #[cfg(test)]

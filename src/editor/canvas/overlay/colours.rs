@@ -2,6 +2,7 @@
 
 use egui::Color32;
 
+use crate::editor::colour_ramp::along;
 use crate::editor::session::FieldMap;
 
 /// Opacity of the largest values.
@@ -19,9 +20,7 @@ const SPEEDS: [Color32; 4] = [
 
 /// The colour of a speed relative to the maximum, 0..=1.
 pub(super) fn speed(share: f32) -> Color32 {
-    let at = share.clamp(0.0, 1.0) * (SPEEDS.len() - 1) as f32;
-    let from = (at as usize).min(SPEEDS.len() - 2);
-    SPEEDS[from].lerp_to_gamma(SPEEDS[from + 1], at - from as f32)
+    along(&SPEEDS, share)
 }
 
 /// The colour of a signed value, -1..=1; transparent at 0.
