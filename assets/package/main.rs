@@ -3,6 +3,7 @@
 //! The archive holds the program, its desktop entry, the file type `.lightloom`, icons, the notices of all libraries that the
 //! program is built from, and `install.sh`, which puts them where a desktop finds them. `--target x86_64-unknown-linux-gnu.2.28` builds with
 //! `cargo zigbuild` for systems from that version of the C library on; otherwise the program needs that of the machine it was built on.
+//! `--program FILE` packs one that is built already.
 
 mod archive;
 mod glibc;
@@ -27,10 +28,11 @@ const LICENCES: [(&str, &str); 2] = [
 const ICON_SIZES: [u32; 6] = [16, 32, 48, 64, 128, 256];
 
 fn main() -> io::Result<()> {
-    let (out, target) = arguments(env::args().skip(1)).map_err(|what| {
-        io::Error::other(format!("{what}; use: lightloom_package --out DIR [--target TRIPLE.GLIBC]"))
+    let Arguments { out, target, program } = arguments(env::args().skip(1)).map_err(|what| {
+        let usage = "lightloom_package --out DIR [--target TRIPLE.GLIBC | --program FILE]";
+        io::Error::other(format!("{what}; use: {usage}"))
     })?;
-    let program = build(target.as_deref())?;
+    let program = program.map_or_else(|| build(target.as_deref()), Ok)?;
     let needed = glibc::newest(&fs::read(&program)?);
     let name = format!("lightloom-{}-{}-linux", env!("CARGO_PKG_VERSION"), env::consts::ARCH);
     fs::create_dir_all(&out)?;
@@ -42,18 +44,28 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// The folder, and the target where one is given.
-fn arguments(mut given: impl Iterator<Item = String>) -> Result<(PathBuf, Option<String>), String> {
-    let (mut out, mut target) = (None, None);
+/// What is asked for.
+struct Arguments {
+    /// The folder of the archive.
+    out: PathBuf,
+    /// What the program is built for.
+    target: Option<String>,
+    /// A program that is built already.
+    program: Option<PathBuf>,
+}
+
+fn arguments(mut given: impl Iterator<Item = String>) -> Result<Arguments, String> {
+    let (mut out, mut target, mut program) = (None, None, None);
     while let Some(name) = given.next() {
         let value = given.next().ok_or_else(|| format!("{name} needs a value"))?;
         match name.as_str() {
             "--out" => out = Some(PathBuf::from(value)),
             "--target" => target = Some(value),
+            "--program" => program = Some(PathBuf::from(value)),
             _ => return Err(format!("{name} is unknown")),
         }
     }
-    Ok((out.ok_or("--out is missing")?, target))
+    Ok(Arguments { out: out.ok_or("--out is missing")?, target, program })
 }
 
 /// Builds the program, and tells where it is.
