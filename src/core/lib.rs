@@ -164,6 +164,7 @@
 //! ```
 
 pub mod error;
+pub mod note;
 pub mod progress;
 pub mod setting;
 
@@ -200,4 +201,5 @@ pub mod engine;
 pub use error::{Error, Result};
 /// The vectors of this crate's interface.
 pub use glam;
+pub use note::Note;
 pub use progress::Progress;

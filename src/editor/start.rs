@@ -38,9 +38,12 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         ..Default::default()
     };
     let create = move |context: &eframe::CreationContext| {
-        let gpu = context.wgpu_render_state.as_ref().map_or(Gpu::None, prepare_gpu);
+        let card = context.wgpu_render_state.as_ref();
+        let graphics = card.map_or_else(|| "none".to_owned(), described);
+        tracing::info!("graphics: {graphics}");
+        let gpu = card.map_or(Gpu::None, prepare_gpu);
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, gpu };
+        let setup = Setup { document, message, folders, preferences, dialogs, gpu, graphics };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     if !has_screen() {
@@ -110,8 +113,19 @@ fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
+/// Name, kind and driver of a graphics card.
+fn described(state: &egui_wgpu::RenderState) -> String {
+    let card = state.adapter.get_info();
+    let kind = format!("{:?}, {:?}", card.device_type, card.backend);
+    format!("{} ({kind}), driver {} {}", card.name, card.driver, card.driver_info)
+}
+
 /// Installs the photon renderer, and returns the kind of device.
 fn prepare_gpu(state: &egui_wgpu::RenderState) -> Gpu {
+    // The window cannot draw without it; the journal keeps the work.
+    state.device.set_device_lost_callback(|reason, why| {
+        tracing::error!("the graphics device is lost ({reason:?}): {why}");
+    });
     let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Gpu::None };
     state.renderer.write().callback_resources.insert(renderer);
     match state.adapter.get_info().device_type {

@@ -429,17 +429,33 @@ fn a_file_of_version_1_and_one_of_a_later_program_that_says_so_are_read() {
     assert_eq!(strangers_of(&written), strangers_of(STRANGE));
     assert!(written.contains("\"lightloom\": 3") && written.contains("\"minimum_reader\": 1"), "{written}");
 
-    for text in [
-        later.replace("\"minimum_reader\": 1", "\"minimum_reader\": 2"),
-        later.replace(", \"minimum_reader\": 1", ""),
-    ] {
-        for message in [
-            Project::parse(text.as_bytes(), Path::new("shot.json")).unwrap_err().to_string(),
-            ProjectFile::parse(text.as_bytes(), Path::new("shot.json")).unwrap_err().to_string(),
-        ] {
-            assert!(message.contains("version 3") && message.contains("newer"), "{message}");
-        }
-    }
+    let path = Path::new("shot.json");
+    let refused = |message: String| {
+        assert!(message.contains("version 3") && message.contains("newer"), "{message}");
+    };
+    let beyond = later.replace("\"minimum_reader\": 1", "\"minimum_reader\": 2");
+    refused(Project::parse(beyond.as_bytes(), path).unwrap_err().to_string());
+    refused(ProjectFile::parse(beyond.as_bytes(), path).unwrap_err().to_string());
+}
+
+/// It is not rendered, as nobody says that the picture would be right; but it is looked at, and keeps all of its members.
+#[test]
+fn a_later_file_that_names_no_reader_is_opened_with_all_that_is_unknown() {
+    let path = Path::new("shot.json");
+    let later = STRANGE.replacen("\"lightloom\": 1,", "\"lightloom\": 3,", 1);
+    let told = Project::parse(later.as_bytes(), path).unwrap_err().to_string();
+    assert!(told.contains("version 3") && told.contains("newer") && told.contains("read-only"), "{told}");
+    let (file, notes) = read(&later);
+    assert_eq!((file.project().newer(), notes.len()), (Some(3), strangers_of(STRANGE).len()));
+    let written = after(&later, |project| project.flow.gamma = 0.75);
+    assert_eq!(strangers_of(&written), strangers_of(STRANGE));
+    assert!(written.contains("\"lightloom\": 3") && !written.contains("minimum_reader"), "{written}");
+
+    // A known member with a new meaning is refused, and the reason is the version.
+    let changed = later.replacen("\"flow\": {", "\"flow\": 7, \"glow\": {", 1);
+    assert_ne!(changed, later);
+    let told = ProjectFile::parse(changed.as_bytes(), path).unwrap_err().to_string();
+    assert!(told.contains("flow") && told.contains("version 3"), "{told}");
 }
 
 /// A number beyond all ranges, in place of each number of a project with every kind of object: it is refused, or kept finite.

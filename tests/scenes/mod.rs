@@ -9,6 +9,7 @@ use glam::Vec3;
 use lightloom_core::scene::light::{PointLight, RectangleLight};
 use lightloom_core::scene::material::{Glass, Material, Mirror};
 use lightloom_core::scene::{LightDesc, MeshDesc, Scene, SceneDesc};
+use lightloom_core::Note;
 use tempfile::TempDir;
 
 /// A scene description with its folder.
@@ -37,14 +38,20 @@ impl Stage {
 
     pub fn try_load(&self) -> lightloom_core::Result<(Scene, Vec<String>)> {
         let root = self.folder.path().to_owned();
-        Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
+        let loaded = Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
             Ok(root.join(path))
-        })
+        });
+        loaded.map(|(scene, notes)| (scene, texts(&notes)))
     }
 
     pub fn load(&self) -> Scene {
         self.try_load().unwrap().0
     }
+}
+
+/// What notes say.
+pub fn texts(notes: &[Note]) -> Vec<String> {
+    notes.iter().map(|note| note.text.clone()).collect()
 }
 
 pub fn glass(ior: f32) -> Option<Material> {

@@ -69,6 +69,7 @@ pub fn window_with(
         preferences,
         dialogs: Arc::new(Scripted::new(answers)),
         gpu: Gpu::None,
+        graphics: "none".to_owned(),
     };
     let mut setup = Some(setup);
     Harness::builder()

@@ -99,6 +99,13 @@ impl App {
             StoreReply::Located(path, outside) => self.located(&path, outside),
             StoreReply::Lost(lost) => self.files.lost = lost,
             StoreReply::Failed(why) => self.editor.status = why,
+            StoreReply::Fault(words) => {
+                (self.files.after_save, self.files.opening) = (None, None);
+                let text = format!(
+                    "A fault of the program: {words}. What was being read or written then was not; the work is unharmed, try again."
+                );
+                self.show_message("A file was not read or written".into(), text);
+            }
         }
     }
 
@@ -343,6 +350,7 @@ impl App {
             Err(error) => return self.show_message("The project cannot be saved".into(), error.to_string()),
         };
         let project = frames_named_after(document.project(), document.path(), &file, &path);
+        tracing::info!("saves '{}'", path.display());
         let origin = Some(self.origin());
         self.request(StoreRequest::Save(SaveRequest { path, file, project, origin, seen }));
     }
@@ -362,12 +370,14 @@ impl App {
             Purpose::ExportFolder => self.windows.export.set_folder(path),
             Purpose::Frames => self.windows.player.play(ctx, &path),
             Purpose::Import => self.dropped(ctx, path),
+            Purpose::SaveReport => self.save_report(&path),
             Purpose::Asset(pick) => self.locate(pick, path),
         }
     }
 
     /// Shows a message window.
     pub(super) fn show_message(&mut self, title: String, text: String) {
+        tracing::warn!("{title}: {text}");
         self.files.ask(Question::Message { title, text }, PendingQuestion::Nothing);
     }
 }

@@ -10,6 +10,7 @@ mod layout;
 mod open_windows;
 mod outside;
 mod recents;
+mod report;
 mod windows;
 
 use std::sync::Arc;
@@ -56,8 +57,11 @@ pub struct App {
     /// The details of a message in the status bar.
     details: Option<Details>,
     preferences: Preferences,
-    /// The graphics device.
+    /// The graphics device, and its name.
     gpu: Gpu,
+    graphics: String,
+    /// The last message of the status bar that is in the log.
+    logged: String,
     /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
 }
@@ -87,6 +91,8 @@ pub struct Setup {
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
     pub gpu: Gpu,
+    /// Name, kind and driver of the graphics card; for people.
+    pub graphics: String,
 }
 
 impl App {
@@ -117,6 +123,8 @@ impl App {
             details: None,
             preferences: setup.preferences,
             gpu: setup.gpu,
+            graphics: setup.graphics,
+            logged: String::new(),
             asked: Vec::new(),
         };
         app.editor.session.snapping = app.preferences.snapping;
@@ -184,6 +192,7 @@ impl App {
         }
         self.autosave(&ctx);
         self.follow();
+        self.log_status();
         self.direct_keys(&ctx, asking);
     }
 

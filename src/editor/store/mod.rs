@@ -18,6 +18,8 @@ pub mod trust;
 mod attached;
 mod backups;
 mod disk;
+#[cfg(test)]
+mod faults;
 mod lock;
 mod record;
 mod save;
@@ -26,6 +28,7 @@ mod slot;
 pub use attached::Hold;
 pub use backups::Backup;
 pub use disk::Fingerprint;
+pub(crate) use disk::make_private;
 pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};

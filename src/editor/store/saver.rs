@@ -1,6 +1,5 @@
 //! The file thread: opens and saves, so that the window never waits for a disk.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -15,6 +14,7 @@ use super::attached::{Attached, Hold, other_owner};
 use super::backups::{self, Backup};
 use super::save::{MOST_BYTES, Origin, SaveRequest, Saved, save};
 use super::{Fingerprint, Folders, Preferences, Recovery, recoverable, trust};
+use crate::editor::guard::Guard;
 
 /// How often the file of the open document is looked at.
 const TICK: Duration = Duration::from_secs(1);
@@ -83,6 +83,8 @@ pub enum StoreReply {
     Lost(Vec<Recovery>),
     /// Another request failed, for this reason.
     Failed(String),
+    /// A fault of the program ended a request; what a panic said.
+    Fault(String),
 }
 
 /// A file that was read.
@@ -112,6 +114,7 @@ impl Saver {
     pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
         let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
+        let guard = Guard::new("saver");
         let serve = move || {
             let mut server = Server { folders, attached: None };
             loop {
@@ -120,13 +123,13 @@ impl Saver {
                     Err(RecvTimeoutError::Timeout) => None,
                     Err(RecvTimeoutError::Disconnected) => return,
                 };
-                let answer = catch_unwind(AssertUnwindSafe(|| match request {
+                let answer = guard.run(|| match request {
                     Some(request) => server.answer(request),
                     None => server.tick(),
-                }));
-                let failed =
-                    || Some(StoreReply::Failed("an internal error; the file may not be saved".into()));
-                let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
+                });
+                let Some(answer) = answer.unwrap_or_else(|words| Some(StoreReply::Fault(words))) else {
+                    continue;
+                };
                 if outbox.send(answer).is_err() {
                     // The window is gone; what it asked for is done all the same.
                     continue;
