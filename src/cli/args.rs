@@ -398,14 +398,12 @@ impl CommonArgs {
         if !(1..=1024).contains(&threads) {
             return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
         }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .map_err(|error| {
-                let refused = std::error::Error::source(&error).and_then(|source| source.downcast_ref::<io::Error>());
-                let kind = refused.map_or(io::ErrorKind::Other, io::Error::kind);
-                Error::io("start the threads of", "--threads")(io::Error::new(kind, error.to_string()))
-            })
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|error| {
+            let refused =
+                std::error::Error::source(&error).and_then(|source| source.downcast_ref::<io::Error>());
+            let kind = refused.map_or(io::ErrorKind::Other, io::Error::kind);
+            Error::io("start the threads of", "--threads")(io::Error::new(kind, error.to_string()))
+        })
     }
 }
 

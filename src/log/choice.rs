@@ -36,7 +36,8 @@ impl FromStr for LogChoice {
             }
             _ => {
                 return Err(
-                    "is neither a level (error, warn, info, debug, trace) nor a file that ends in .log".into()
+                    "is neither a level (error, warn, info, debug, trace) nor a file that ends in .log"
+                        .into(),
                 );
             }
         })

@@ -43,7 +43,8 @@ mod tests {
             fs::write(logs.path().join(format!("lightloom-{second:012}-7.log")), "x").unwrap();
             fs::write(logs.path().join("notes.txt"), "mine").unwrap();
         }
-        let mut names: Vec<_> = fs::read_dir(&logs).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        let mut names: Vec<_> =
+            fs::read_dir(&logs).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
         let kept = [7, 8, 9].map(|second| format!("lightloom-{second:012}-7.log"));
         assert_eq!(names, [&*kept[0], &kept[1], &kept[2], "notes.txt"]);

@@ -7,7 +7,9 @@ use super::sink::RUN;
 /// A report as text. `sections` are what only the window knows: a title and a text each.
 pub fn report(sections: &[(&str, String)]) -> String {
     let log = RUN.get();
-    let place = log.and_then(|log| log.path()).map_or_else(|| "no file".into(), |path| format!("'{}'", path.display()));
+    let place = log
+        .and_then(|log| log.path())
+        .map_or_else(|| "no file".into(), |path| format!("'{}'", path.display()));
     let messages = log.map_or_else(|| "there is no log".into(), |log| log.messages());
     let mut text = format!("Lightloom report\n\n{}\n", program());
     for (title, content) in sections {

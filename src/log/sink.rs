@@ -125,7 +125,9 @@ mod tests {
         (0..count).for_each(|i| (&sink).write_all(message(i).as_bytes()).unwrap());
         let told = sink.messages();
         let left_out = format!("… {} messages are left out …\n", count - FIRST - LAST);
-        for part in [&*message(0), &message(FIRST - 1), &left_out, &message(count - LAST), &message(count - 1)] {
+        for part in
+            [&*message(0), &message(FIRST - 1), &left_out, &message(count - LAST), &message(count - 1)]
+        {
             assert!(told.contains(part), "{}", &part[..40.min(part.len())]);
         }
         assert!(!told.contains(&message(FIRST)) && !told.contains(&message(count - LAST - 1)));

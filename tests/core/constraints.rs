@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lightloom_core::note::About;
 use lightloom_core::engine::{CheckReport, Engine, Summary};
+use lightloom_core::note::About;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress, Result};
 use serde_json::{Value, json};

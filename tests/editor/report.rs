@@ -16,7 +16,14 @@ fn a_report_tells_versions_and_settings_and_no_content_of_files() {
     harness.state_mut().ask(Action::Command(Command::SaveReport));
     until(&mut harness, "the report", |_| path.exists());
     let text = fs::read_to_string(&path).unwrap();
-    for part in [env!("CARGO_PKG_VERSION"), "== graphics ==", "\"theme\": \"dark\"", "2 keys", "== notes on it ==", "== messages ("] {
+    for part in [
+        env!("CARGO_PKG_VERSION"),
+        "== graphics ==",
+        "\"theme\": \"dark\"",
+        "2 keys",
+        "== notes on it ==",
+        "== messages (",
+    ] {
         assert!(text.contains(part), "{part}: {text}");
     }
     // Neither the project's own words nor the names of recent files.

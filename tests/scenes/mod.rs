@@ -6,10 +6,10 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use glam::Vec3;
+use lightloom_core::Note;
 use lightloom_core::scene::light::{PointLight, RectangleLight};
 use lightloom_core::scene::material::{Glass, Material, Mirror};
 use lightloom_core::scene::{LightDesc, MeshDesc, Scene, SceneDesc};
-use lightloom_core::Note;
 use tempfile::TempDir;
 
 /// A scene description with its folder.
@@ -38,9 +38,10 @@ impl Stage {
 
     pub fn try_load(&self) -> lightloom_core::Result<(Scene, Vec<String>)> {
         let root = self.folder.path().to_owned();
-        let loaded = Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
-            Ok(root.join(path))
-        });
+        let loaded =
+            Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
+                Ok(root.join(path))
+            });
         loaded.map(|(scene, notes)| (scene, texts(&notes)))
     }
 

@@ -148,7 +148,9 @@ fn odd(constraint: &Constraint, extent: Vec2, cell: f32) -> Option<String> {
 /// Lines that ask for opposite directions in one place.
 fn conflict(lines: &[(usize, ActiveLine)]) -> Option<Note> {
     let mut seen: std::collections::BTreeMap<[i32; 2], Vec2> = Default::default();
-    let places = lines.iter().flat_map(|(index, line)| line.positions.iter().zip(&line.directions).map(|of| (*index, of)));
+    let places = lines
+        .iter()
+        .flat_map(|(index, line)| line.positions.iter().zip(&line.directions).map(|of| (*index, of)));
     for (index, (place, &direction)) in places {
         let cell = (*place * CELLS).floor().as_ivec2().to_array();
         let first = *seen.entry(cell).or_insert(direction);

@@ -59,13 +59,14 @@ impl KeySources {
     pub(super) fn load(project: &Project, scene: Option<&Scene>, open: &OpenSource<'_>) -> Result<Self> {
         let grouping = Grouping::resolve(project, scene)?;
         let mut notes = Vec::new();
-        let mut open = |shows: &Shows, place: String, (key, slot): (usize, usize)| -> Result<Arc<KeySource>> {
-            let source = open(shows, &place, slot)?;
-            if let KeySource::Picture(picture) = &*source {
-                notes.extend(About::Key(key).notes(picture.notes().iter().cloned()));
-            }
-            Ok(source)
-        };
+        let mut open =
+            |shows: &Shows, place: String, (key, slot): (usize, usize)| -> Result<Arc<KeySource>> {
+                let source = open(shows, &place, slot)?;
+                if let KeySource::Picture(picture) = &*source {
+                    notes.extend(About::Key(key).notes(picture.notes().iter().cloned()));
+                }
+                Ok(source)
+            };
         let mut shown = Vec::new();
         let slots = grouping.count() + 1;
         for (i, key) in project.keys.iter().enumerate() {

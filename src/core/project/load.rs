@@ -121,7 +121,8 @@ impl Newer {
         known_part(text, path).map_err(|error| match error {
             Error::Format { path, place, what } => {
                 let version = self.lightloom;
-                let what = format!("{what}; the file is of version {version}, later than this program's {VERSION}");
+                let what =
+                    format!("{what}; the file is of version {version}, later than this program's {VERSION}");
                 Error::Format { path, place, what }
             }
             other => other,

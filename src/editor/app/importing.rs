@@ -61,7 +61,8 @@ mod tests {
     fn a_panic_is_told_and_the_next_file_is_read() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.obj");
-        std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n").unwrap();
+        std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+            .unwrap();
         let result = |importing: Importing| {
             loop {
                 match importing.result() {

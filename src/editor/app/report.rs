@@ -52,10 +52,16 @@ impl App {
             render.passes
         );
         let preview = &self.editor.preview;
-        let notes = preview.preview().map_or_else(String::new, |preview| preview.notes().iter().map(|note| format!("{note}\n")).collect());
-        let problem = preview.problem().map_or_else(String::new, |problem| format!("not computed: {problem}\n"));
+        let notes = preview.preview().map_or_else(String::new, |preview| {
+            preview.notes().iter().map(|note| format!("{note}\n")).collect()
+        });
+        let problem =
+            preview.problem().map_or_else(String::new, |problem| format!("not computed: {problem}\n"));
         [
-            ("graphics", format!("{}\nphotons are drawn by the card: {}", self.graphics, self.draws_on_gpu())),
+            (
+                "graphics",
+                format!("{}\nphotons are drawn by the card: {}", self.graphics, self.draws_on_gpu()),
+            ),
             ("preferences", self.preferences.without_files()),
             ("open project", sizes),
             ("notes on it", problem + &notes),

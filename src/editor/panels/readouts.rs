@@ -1,10 +1,10 @@
 //! Readouts: the numbers of the frame that is shown.
 
 use egui::{Color32, RichText, Ui};
+use lightloom_core::Note;
 use lightloom_core::continuity::{Continuity, FIGURES, Figure};
 use lightloom_core::engine::{Preview, Quality, SegmentContinuity};
 use lightloom_core::flow::FlowReport;
-use lightloom_core::Note;
 use lightloom_core::note::About;
 use lightloom_core::setting::format::number;
 

@@ -77,7 +77,8 @@ impl Shared {
     fn read(&self, guard: &Guard, wake: &dyn Fn()) {
         while let Some(index) = self.next().filter(|_| !self.stopped.load(Relaxed)) {
             let file = &self.files[index];
-            let fault = |words| Err(format!("'{}' cannot be shown: a fault of the program: {words}", file.display()));
+            let fault =
+                |words| Err(format!("'{}' cannot be shown: a fault of the program: {words}", file.display()));
             let picture = guard.run(|| picture(file, self.files.len())).unwrap_or_else(fault);
             self.lock()[index] = Some(picture.map(Arc::new));
             wake();

@@ -55,7 +55,8 @@ fn is_done(name: &str, preview: &LivePreview) -> bool {
 
 #[test]
 fn a_panic_in_any_thread_is_told_until_the_next_edit_which_is_answered() {
-    let names = ["animation", "pictures", "background", "orbit view", "lamp", "flow view", "figures", "target"];
+    let names =
+        ["animation", "pictures", "background", "orbit view", "lamp", "flow view", "figures", "target"];
     for name in names {
         let engine = SharedEngine::default();
         let mut preview = guard::planted(name, || LivePreview::new(engine, || ()));

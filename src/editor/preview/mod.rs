@@ -2,9 +2,9 @@
 
 mod background_worker;
 mod coverage;
+pub mod false_colour;
 #[cfg(test)]
 mod faults;
-pub mod false_colour;
 mod figures;
 mod flow;
 pub mod gpu;

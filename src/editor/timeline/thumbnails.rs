@@ -65,7 +65,8 @@ impl Default for Thumbnails {
         let guard = Guard::new("thumbnails");
         let work = move || {
             for request in inbox {
-                let fault = |words| Err(Error::value("thumbnail", format!("a fault of the program: {words}")));
+                let fault =
+                    |words| Err(Error::value("thumbnail", format!("a fault of the program: {words}")));
                 let made = guard.run(|| picture(&request)).unwrap_or_else(fault);
                 if outbox.send((request, made)).is_err() {
                     return;

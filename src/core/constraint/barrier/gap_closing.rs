@@ -42,7 +42,8 @@ pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 
         closing_edges.extend(own_gaps(wall));
         let outward = border_pieces(wall, extent);
         if outward.len() == 2 {
-            let text = format!("wall {i} (in their order) reaches the border at both ends: no way leads around it");
+            let text =
+                format!("wall {i} (in their order) reaches the border at both ends: no way leads around it");
             notes.push((i, text));
         }
         closing_edges.extend(outward);

@@ -67,7 +67,8 @@ fn on_thread(wake: &Context, work: impl FnOnce() -> Read + Send + 'static) -> Li
     let wake = wake.clone();
     let guard = Guard::new("folder");
     let work = move || {
-        let fault = |words| Read { problem: Some(format!("a fault of the program: {words}")), ..Read::default() };
+        let fault =
+            |words| Read { problem: Some(format!("a fault of the program: {words}")), ..Read::default() };
         // The dialog may be closed by now.
         let _ = sender.send(guard.run(work).unwrap_or_else(fault));
         wake.request_repaint();

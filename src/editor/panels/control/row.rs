@@ -1,7 +1,8 @@
 //! A row of a panel: the label on the left, the value on the right, both aligned over the whole panel.
 
 use egui::{
-    Align, Align2, Id, PointerButton, RectAlign, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, WidgetInfo, vec2,
+    Align, Align2, Id, PointerButton, RectAlign, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
+    Tooltip, Ui, WidgetInfo, vec2,
 };
 
 use super::Control;
@@ -42,7 +43,9 @@ pub(in crate::editor::panels) fn seek(ui: &Ui, place: &'static str) {
 
 /// Marks the row of the setting that is sought.
 fn mark_sought(ui: &Ui, response: &Response, place: &str) {
-    let Some((wanted, is_new)) = ui.data(|data| data.get_temp::<(&'static str, bool)>(sought())) else { return };
+    let Some((wanted, is_new)) = ui.data(|data| data.get_temp::<(&'static str, bool)>(sought())) else {
+        return;
+    };
     if wanted != place {
         return;
     }
