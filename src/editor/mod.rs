@@ -10,6 +10,7 @@ pub mod clipboard;
 mod colour_ramp;
 pub mod command;
 pub mod context;
+pub mod device;
 pub mod dialogs;
 pub mod document;
 pub mod engine;

@@ -1,5 +1,6 @@
 //! Opens the window.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,25 +9,53 @@ use lightloom_core::project::ProjectFile;
 use lightloom_core::{Result, files};
 
 use super::app::{App, Gpu, Setup};
+use super::device::Device;
 use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
 use super::store::{Fingerprint, Folders, Preferences};
 use super::templates::{self, TEMPLATES};
 
+/// Windows that are opened in place of others whose graphics device was lost, the first among them.
+const MOST_WINDOWS: usize = 3;
+
 /// Maximum size of a project file.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Opens the window with a project or the first example. Returns when it is closed.
+/// Opens the window with a project or the first example. Returns when it is closed. Where the graphics device is lost
+/// meanwhile, the window is opened anew; what was not saved is offered for recovery there.
 ///
 /// # Errors
 /// There is no display, or no graphics device; the system's message.
 pub fn run(project: Option<&Path>) -> Result<(), String> {
+    if !has_screen() {
+        return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
+    }
+    let device = Arc::new(Device::default());
+    device.show(project.map(Path::to_owned));
+    let mut message = None;
+    for _ in 0..MOST_WINDOWS {
+        // egui cannot go on without its device, and may say so by a panic.
+        let closed = catch_unwind(AssertUnwindSafe(|| window(&device, message.take())));
+        if !device.begin_anew() {
+            return closed.unwrap_or_else(|panic| resume_unwind(panic));
+        }
+        let title = "The graphics device was lost".to_owned();
+        let text = "The window was opened anew. What was not saved is offered for recovery, and exports that were under way, too.";
+        message = Some((title, text.to_owned()));
+    }
+    Err("the graphics device is lost again and again; what was not saved is offered at the next start"
+        .to_owned())
+}
+
+/// Opens one window. `told` is shown in it first: title and text.
+fn window(device: &Arc<Device>, told: Option<(String, String)>) -> Result<(), String> {
     let folders = Folders::of_user();
     let (preferences, note) =
         folders.as_ref().map_or_else(Default::default, |folders| Preferences::load(&folders.config));
-    let (document, problem) = first_document(project)?;
-    let message = problem.or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
+    let (document, problem) = first_document(device.shown().as_deref())?;
+    let message =
+        problem.or(told).or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Lightloom")
@@ -37,18 +66,16 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: wgpu_setup().into(), ..Default::default() },
         ..Default::default()
     };
+    let device = device.clone();
     let create = move |context: &eframe::CreationContext| {
         let card = context.wgpu_render_state.as_ref();
         let graphics = card.map_or_else(|| "none".to_owned(), described);
         tracing::info!("graphics: {graphics}");
-        let gpu = card.map_or(Gpu::None, prepare_gpu);
+        let gpu = card.map_or(Gpu::None, |card| prepare_gpu(card, &device, &context.egui_ctx));
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, gpu, graphics };
+        let setup = Setup { document, message, folders, preferences, dialogs, gpu, graphics, device };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
-    if !has_screen() {
-        return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
-    }
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| in_words(&error))
 }
 
@@ -121,10 +148,15 @@ fn described(state: &egui_wgpu::RenderState) -> String {
 }
 
 /// Installs the photon renderer, and returns the kind of device.
-fn prepare_gpu(state: &egui_wgpu::RenderState) -> Gpu {
-    // The window cannot draw without it; the journal keeps the work.
-    state.device.set_device_lost_callback(|reason, why| {
-        tracing::error!("the graphics device is lost ({reason:?}): {why}");
+fn prepare_gpu(state: &egui_wgpu::RenderState, device: &Arc<Device>, ctx: &egui::Context) -> Gpu {
+    let (lost, ctx) = (device.clone(), ctx.clone());
+    state.device.set_device_lost_callback(move |reason, why| {
+        // A window that is closed drops its device, too.
+        if reason != wgpu::DeviceLostReason::Destroyed || !lost.is_closed() {
+            tracing::error!("the graphics device is lost ({reason:?}): {why}");
+            lost.lose();
+            ctx.request_repaint();
+        }
     });
     let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Gpu::None };
     state.renderer.write().callback_resources.insert(renderer);

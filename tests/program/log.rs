@@ -30,7 +30,7 @@ fn a_command_logs_where_it_is_asked_to_and_the_last_runs_are_kept() {
 
     let file = folder.path().join("a.log");
     let failed = run(&state, &["check", "none.json", "--log", file.to_str().unwrap()]);
-    assert_eq!(failed.status.code(), Some(5));
+    assert_eq!(failed.status.code(), Some(3));
     let text = fs::read_to_string(&file).unwrap();
     assert!(text.contains("ERROR") && text.contains("none.json"), "{text}");
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
 use eframe::egui;
 use lightloom_core::project::{Project, ProjectFile, moved};
@@ -10,6 +11,7 @@ use super::App;
 use super::file_state::{Leave, Opening, PendingQuestion};
 use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
 use crate::editor::document::Document;
+use crate::editor::export::interrupted;
 use crate::editor::menu::ago;
 use crate::editor::store::{
     Backup, Fingerprint, Hold, Journal, Origin, Recovery, SaveRequest, Saved, Saver, StoreReply, StoreRequest,
@@ -19,6 +21,7 @@ use crate::editor::templates::{self, TEMPLATES};
 impl App {
     /// Handles the replies of threads, file dialogs and questions.
     pub(super) fn receive(&mut self, ctx: &egui::Context) {
+        self.look_again(ctx);
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
         }
@@ -51,6 +54,18 @@ impl App {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.leave(ctx, Leave::Quit);
         }
+    }
+
+    /// Looks once more for what an earlier run left. What is found already is held, and not found again.
+    fn look_again(&mut self, ctx: &egui::Context) {
+        let Some((at, exports)) = self.looks_again.take() else { return };
+        let left = at.saturating_duration_since(Instant::now());
+        if !left.is_zero() {
+            self.looks_again = Some((at, exports));
+            return ctx.request_repaint_after(left);
+        }
+        self.files.request(StoreRequest::LookForLost);
+        self.interrupted.extend(exports.iter().flat_map(|exports| interrupted(exports)));
     }
 
     fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {
@@ -97,7 +112,7 @@ impl App {
             StoreReply::Collected(result) => self.collected(result),
             StoreReply::Outside(_, files) => self.ask_outside(files),
             StoreReply::Located(path, outside) => self.located(&path, outside),
-            StoreReply::Lost(lost) => self.files.lost = lost,
+            StoreReply::Lost(lost) => self.files.lost.extend(lost),
             StoreReply::Failed(why) => self.editor.status = why,
             StoreReply::Fault(words) => {
                 (self.files.after_save, self.files.opening) = (None, None);
@@ -183,6 +198,7 @@ impl App {
         match leave {
             Leave::Quit => {
                 self.files.closing = true;
+                self.device.close();
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
@@ -231,6 +247,7 @@ impl App {
         }
         let new = self.editor.document.path() != Some(&to);
         self.editor.document.mark_saved(saved.project, to.clone(), saved.seen);
+        self.device.show(Some(to.clone()));
         let subject = self.subject();
         self.editor.preview.relocated(&subject);
         self.preferences.add_recent(&to);
@@ -260,6 +277,7 @@ impl App {
             );
         }
         let document = &self.editor.document;
+        self.device.show(document.path().map(Path::to_owned));
         let file = document.path().map(Path::to_owned).zip(document.seen());
         self.files.request(StoreRequest::Attach(file));
         self.find_outside();

@@ -13,12 +13,14 @@ mod recents;
 mod report;
 mod windows;
 
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui;
 
 use super::action::Action;
+use super::device::Device;
 use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
 use super::engine::SharedEngine;
@@ -38,6 +40,10 @@ use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
 
+/// When it is looked once more for what an earlier run left: one that was killed just before still holds it while the system
+/// clears it away.
+const LOOKS_AGAIN: Duration = Duration::from_secs(4);
+
 /// The window: the editor's state with its views, windows and files.
 pub struct App {
     editor: EditorState,
@@ -48,6 +54,8 @@ pub struct App {
     exports: Exports,
     /// Exports that an earlier run left, not yet offered.
     interrupted: Vec<InterruptedExport>,
+    /// When it is looked once more for what an earlier run left, and where its exports are.
+    looks_again: Option<(Instant, Option<PathBuf>)>,
     picker: Picker,
     windows: Windows,
     recents: Recents,
@@ -60,6 +68,7 @@ pub struct App {
     /// The graphics device, and its name.
     gpu: Gpu,
     graphics: String,
+    device: Arc<Device>,
     /// The last message of the status bar that is in the log.
     logged: String,
     /// Actions asked for by [`App::ask`].
@@ -93,6 +102,8 @@ pub struct Setup {
     pub gpu: Gpu,
     /// Name, kind and driver of the graphics card; for people.
     pub graphics: String,
+    /// Whether the card is still there.
+    pub device: Arc<Device>,
 }
 
 impl App {
@@ -115,6 +126,7 @@ impl App {
             views: Views::default(),
             exports: Exports::new(engine, wake()).with_records(records.clone()),
             interrupted: records.as_deref().map(interrupted).unwrap_or_default(),
+            looks_again: Some((Instant::now() + LOOKS_AGAIN, records)),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),
@@ -124,6 +136,7 @@ impl App {
             preferences: setup.preferences,
             gpu: setup.gpu,
             graphics: setup.graphics,
+            device: setup.device,
             logged: String::new(),
             asked: Vec::new(),
         };
@@ -135,7 +148,7 @@ impl App {
         app.attach();
         let folders: Vec<_> =
             app.preferences.recent.iter().rev().filter_map(|file| file.parent()).map(Into::into).collect();
-        folders.iter().for_each(|folder: &std::path::PathBuf| app.picker.remember(folder));
+        folders.iter().for_each(|folder: &PathBuf| app.picker.remember(folder));
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
         }
@@ -165,6 +178,11 @@ impl App {
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
+        if self.device.is_lost() {
+            // The journal has the work; the next window offers it.
+            self.files.closing = true;
+            return ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
         let asking = self.picker.is_waiting();
         self.receive(&ctx);
         self.direct_keys(&ctx, asking);

@@ -64,7 +64,10 @@ impl App {
             ),
             ("preferences", self.preferences.without_files()),
             ("open project", sizes),
-            ("notes on it", problem + &notes),
+            (
+                "notes on it",
+                if notes.is_empty() && problem.is_empty() { "none".into() } else { problem + &notes },
+            ),
         ]
     }
 }

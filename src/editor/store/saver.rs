@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use lightloom_core::project::{AssetFolder, Collection, Project, ProjectFile, collect_into};
 use lightloom_core::{Error, Progress, Result, files};
@@ -18,6 +18,8 @@ use crate::editor::guard::Guard;
 
 /// How often the file of the open document is looked at.
 const TICK: Duration = Duration::from_secs(1);
+/// How long an editor that was killed may still hold its files while the system clears it away.
+const DYING: Duration = Duration::from_millis(1500);
 
 /// A request to the saver; replies come in the same order.
 #[derive(Debug)]
@@ -209,8 +211,15 @@ impl Server {
     }
 
     fn attach(&mut self, path: PathBuf, seen: Fingerprint) -> StoreReply {
-        let (attached, hold) = Attached::new(path.clone(), seen, self.attached.take());
-        self.attached = Some(attached);
+        let begun = Instant::now();
+        let hold = loop {
+            let (attached, hold) = Attached::new(path.clone(), seen, self.attached.take());
+            self.attached = Some(attached);
+            if matches!(hold, Hold::Here(_)) || begun.elapsed() > DYING {
+                break hold;
+            }
+            std::thread::sleep(DYING / 10);
+        };
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         StoreReply::Attached(path, hold, backups::of(&self.folders, &real))
     }
