@@ -163,8 +163,9 @@
 //! # Ok::<(), lightloom_core::Error>(())
 //! ```
 
-pub mod error;
 pub mod note;
+
+pub mod error;
 pub mod progress;
 pub mod setting;
 

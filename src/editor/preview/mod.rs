@@ -3,8 +3,6 @@
 mod background_worker;
 mod coverage;
 pub mod false_colour;
-#[cfg(test)]
-mod faults;
 mod figures;
 mod flow;
 pub mod gpu;
@@ -331,3 +329,6 @@ fn other(project: &Project, with: Comparison) -> Project {
         Comparison::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -18,8 +18,6 @@ pub mod trust;
 mod attached;
 mod backups;
 mod disk;
-#[cfg(test)]
-mod faults;
 mod lock;
 mod record;
 mod save;
@@ -36,3 +34,6 @@ pub use recovery::{Recovery, recoverable};
 pub use save::{Origin, SaveRequest, Saved};
 pub use saver::{CollectRequest, Opened, Saver, StoreReply, StoreRequest};
 pub use trust::trusted;
+
+#[cfg(test)]
+mod tests;
