@@ -106,7 +106,7 @@ fn a_note_says_what_it_is_about() {
     let note = report.notes.iter().find(|note| note.text.contains("reaches the border")).unwrap();
     assert_eq!(note.about, About::Constraint(1));
     let told: Value = serde_json::from_str(&report.to_json()).unwrap();
-    let [note] = &told["notes"].as_array().unwrap()[..] else { panic!("{told}") };
+    let [_, note] = &told["notes"].as_array().unwrap()[..] else { panic!("{told}") };
     assert_eq!((&note["kind"], &note["object"]), (&json!("constraint"), &json!("constraints[1]")));
     assert!(note["text"].as_str().unwrap().contains("reaches the border"));
 }
