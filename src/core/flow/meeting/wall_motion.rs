@@ -49,8 +49,11 @@ impl<'a> WallMotion<'a> {
         h: f32,
         c: [Vec2; N],
     ) -> ([Vec2; N], [bool; N]) {
+        // Next to a wall photons walk, wherever the step leads.
+        let beside = c.map(|p| self.clearance.at_least(p) <= 0.0);
         // Known well enough at the begin: both velocities are nearly the same.
-        let near = c.map(|p| self.near(self.clearance.at(p)));
+        let near: [f32; N] =
+            std::array::from_fn(|i| if beside[i] { 0.0 } else { self.near(self.clearance.at(c[i])) });
         let (end, reach) = runge_kutta(h, c, |stage, p| {
             let mut velocities = stages[stage].velocities(p);
             for i in 0..N {
@@ -60,7 +63,7 @@ impl<'a> WallMotion<'a> {
             }
             velocities
         });
-        (end, std::array::from_fn(|i| !self.is_clear(c[i], reach[i])))
+        (end, std::array::from_fn(|i| beside[i] || !self.is_clear(c[i], reach[i])))
     }
 
     /// A photon at `c` after each substep of a step of length `h`: each is a straight move, or one that slides.
