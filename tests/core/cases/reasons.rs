@@ -107,7 +107,8 @@ fn what_is_wrong_is_told() {
 
 #[test]
 fn what_is_told_is_about_something() {
-    let rows: [(fn(&mut Stage), About); 4] = [
+    type Row = (fn(&mut Stage), About);
+    let rows: [Row; 4] = [
         (|s| s.desc.meshes[0].transform.scale = 1000.0, About::Mesh(0)),
         (|s| s.desc.lights.push(around(0.5)), About::Light(1)),
         (|s| s.desc.camera.look_at = [0.0, 9.0, 0.0], About::Camera),
