@@ -1,6 +1,5 @@
 //! Opens the window.
 
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,21 +8,18 @@ use lightloom_core::project::ProjectFile;
 use lightloom_core::{Result, files};
 
 use super::app::{App, Gpu, Setup};
-use super::device::Device;
+use super::device::{self, Device};
 use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
 use super::store::{Fingerprint, Folders, Preferences};
 use super::templates::{self, TEMPLATES};
 
-/// Windows that are opened in place of others whose graphics device was lost, the first among them.
-const MOST_WINDOWS: usize = 3;
-
 /// Maximum size of a project file.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Opens the window with a project or the first example. Returns when it is closed. Where the graphics device is lost
-/// meanwhile, the window is opened anew; what was not saved is offered for recovery there.
+/// meanwhile, the program starts anew; what was not saved is offered for recovery there.
 ///
 /// # Errors
 /// There is no display, or no graphics device; the system's message.
@@ -32,28 +28,14 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
     }
     let device = Arc::new(Device::default());
-    device.show(project.map(Path::to_owned));
-    let mut message = None;
-    for _ in 0..MOST_WINDOWS {
-        // egui cannot go on without its device, and may say so by a panic.
-        let closed = catch_unwind(AssertUnwindSafe(|| window(&device, message.take())));
-        if !device.begin_anew() {
-            return closed.unwrap_or_else(|panic| resume_unwind(panic));
-        }
-        let title = "The graphics device was lost".to_owned();
+    let told = (device::lost_before() > 0).then(|| {
         let text = "The window was opened anew. What was not saved is offered for recovery, and exports that were under way, too.";
-        message = Some((title, text.to_owned()));
-    }
-    Err("the graphics device is lost again and again; what was not saved is offered at the next start"
-        .to_owned())
-}
-
-/// Opens one window. `told` is shown in it first: title and text.
-fn window(device: &Arc<Device>, told: Option<(String, String)>) -> Result<(), String> {
+        ("The graphics device was lost".to_owned(), text.to_owned())
+    });
     let folders = Folders::of_user();
     let (preferences, note) =
         folders.as_ref().map_or_else(Default::default, |folders| Preferences::load(&folders.config));
-    let (document, problem) = first_document(device.shown().as_deref())?;
+    let (document, problem) = first_document(project)?;
     let message =
         problem.or(told).or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
     let options = eframe::NativeOptions {
@@ -66,7 +48,6 @@ fn window(device: &Arc<Device>, told: Option<(String, String)>) -> Result<(), St
         wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: wgpu_setup().into(), ..Default::default() },
         ..Default::default()
     };
-    let device = device.clone();
     let create = move |context: &eframe::CreationContext| {
         let card = context.wgpu_render_state.as_ref();
         let graphics = card.map_or_else(|| "none".to_owned(), described);

@@ -247,7 +247,6 @@ impl App {
         }
         let new = self.editor.document.path() != Some(&to);
         self.editor.document.mark_saved(saved.project, to.clone(), saved.seen);
-        self.device.show(Some(to.clone()));
         let subject = self.subject();
         self.editor.preview.relocated(&subject);
         self.preferences.add_recent(&to);
@@ -277,7 +276,6 @@ impl App {
             );
         }
         let document = &self.editor.document;
-        self.device.show(document.path().map(Path::to_owned));
         let file = document.path().map(Path::to_owned).zip(document.seen());
         self.files.request(StoreRequest::Attach(file));
         self.find_outside();

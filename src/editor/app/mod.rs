@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 
 use super::action::Action;
-use super::device::Device;
+use super::device::{self, Device};
 use super::dialogs::{Dialogs, Picker};
 use super::document::Document;
 use super::engine::SharedEngine;
@@ -179,9 +179,10 @@ impl App {
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         if self.device.is_lost() {
-            // The journal has the work; the next window offers it.
-            self.files.closing = true;
-            return ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            // What is on its way to the disk gets there; the next window offers it.
+            self.exports = Exports::new(SharedEngine::default(), || ());
+            (self.files.journal, self.files.saver) = (None, None);
+            device::start_anew(self.editor.document.path());
         }
         let asking = self.picker.is_waiting();
         self.receive(&ctx);
