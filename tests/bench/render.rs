@@ -94,7 +94,6 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
         frames_per_second: (24, 1),
         seed: 1,
         passes: 8,
-        is_finished: true,
         camera: None,
         settings: Vec::new(),
     };
