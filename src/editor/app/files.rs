@@ -40,6 +40,7 @@ impl App {
             self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }
         self.imported(ctx);
+        self.collected(ctx);
         if std::mem::take(&mut self.files.asks_outside) {
             self.find_outside();
         }
@@ -94,7 +95,6 @@ impl App {
             }
             StoreReply::Attached(path, hold, backups) => self.attached(&path, hold, backups),
             StoreReply::ChangedMeanwhile(path, seen) => self.changed_meanwhile(path, seen),
-            StoreReply::Collected(result) => self.collected(result),
             StoreReply::Outside(_, files) => self.ask_outside(files),
             StoreReply::Located(path, outside) => self.located(&path, outside),
             StoreReply::Lost(lost) => self.files.lost = lost,
