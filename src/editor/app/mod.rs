@@ -260,6 +260,8 @@ impl App {
         self.editor.open(document);
         self.views.forget_pictures();
         (self.importing, self.details) = (None, None);
+        // Who begins with something else needs no tour of the example.
+        self.preferences.first_start_seen |= self.windows.tour.end();
         self.files.forget_admitted();
         self.attach();
     }
