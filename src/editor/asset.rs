@@ -51,7 +51,9 @@ impl AssetUse {
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Mesh | Self::MeshFile(_) => ("Meshes", &["glb", "gltf", "obj"]),
-            Self::Picture(_) | Self::Plate => ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"]),
+            Self::Picture(_) | Self::Plate => {
+                ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"])
+            }
             Self::Points(_) => ("Points", &["csv", "npy"]),
         }
     }

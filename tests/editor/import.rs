@@ -124,7 +124,8 @@ fn a_glass_a_logo_and_a_plate_from_elsewhere_become_frames_with_the_bytes_of_the
     harness.state_mut().ask(Action::Command(Command::NewEmpty));
     harness.run_steps(3);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::I);
-    let files = |count: usize| move |app: &lightloom::editor::App| app.document().project().files().len() == count;
+    let files =
+        |count: usize| move |app: &lightloom::editor::App| app.document().project().files().len() == count;
     until(&mut harness, "the glass", files(1));
     let slot = TargetSlot { key: 1, caustic: None };
     harness.state_mut().ask(Action::PickFile(AssetUse::Picture(slot)));

@@ -152,7 +152,10 @@ mod tests {
         let window = Span { from: 1, to: 41, fade: 10 }.window([1, 41], linear).unwrap();
         assert_eq!([0.0, 0.125, 0.25, 0.75, 1.0].map(|t| window.at(t)), [0.0, 0.5, 1.0, 1.0, 0.0]);
         let span = Span { from: 1, to: 41, fade: 10 };
-        assert_eq!([0, 1, 6, 11, 31, 41, 42].map(|frame| span.strength(frame)), [0.0, 0.0, 0.5, 1.0, 1.0, 0.0, 0.0]);
+        assert_eq!(
+            [0, 1, 6, 11, 31, 41, 42].map(|frame| span.strength(frame)),
+            [0.0, 0.0, 0.5, 1.0, 1.0, 0.0, 0.0]
+        );
     }
 
     #[test]

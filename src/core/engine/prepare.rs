@@ -65,7 +65,8 @@ impl Stages {
         notes.extend(sources.notes());
         if project.output.shows_background() {
             let slot = Slot { client, quality: Quality::Final, index: 0 };
-            let plate = self.plate(slot, &project.render, progress).map_err(|error| error.with_notes(&notes))?;
+            let plate =
+                self.plate(slot, &project.render, progress).map_err(|error| error.with_notes(&notes))?;
             notes.extend(plate.iter().flat_map(|plate| plate.notes.iter().cloned()));
         }
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));

@@ -139,7 +139,8 @@ impl Stages {
         let file = self.assets.resolve(&settings.file, PlateSettings::FILE.place)?;
         let size = [render.width as usize, render.height as usize];
         let input = (settings.clone(), size, FileStamp::of(&file));
-        let read = |(settings, size, _): &PlateInput| Plate::load(&file, settings, *size, progress).map(Arc::new);
+        let read =
+            |(settings, size, _): &PlateInput| Plate::load(&file, settings, *size, progress).map(Arc::new);
         self.plates.get(slot, input, progress, read).map(Some)
     }
 }

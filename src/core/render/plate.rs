@@ -108,8 +108,7 @@ fn fitted(
         let sum = |taps: &Taps| taps.iter().map(|&(i, weight)| line[i] * weight).sum();
         Ok(columns.iter().map(sum).collect())
     };
-    let narrow: Vec<Vec<Vec3>> =
-        light.pixels.par_chunks(light.size[0]).map(across).collect::<Result<_>>()?;
+    let narrow: Vec<Vec<Vec3>> = light.pixels.par_chunks(light.size[0]).map(across).collect::<Result<_>>()?;
     let row = |taps: &Taps| {
         progress.check()?;
         let sum = |x: usize| taps.iter().map(|&(y, weight)| narrow[y][x] * weight).sum();
@@ -168,13 +167,18 @@ mod tests {
 
     #[test]
     fn another_size_shows_the_same_places_and_another_shape_its_middle() {
-        for (size, frame) in [([40, 30], [80, 60]), ([80, 60], [40, 30]), ([80, 30], [40, 30]), ([40, 60], [40, 30])] {
+        for (size, frame) in
+            [([40, 30], [80, 60]), ([80, 60], [40, 30]), ([80, 30], [40, 30]), ([40, 60], [40, 30])]
+        {
             let plate = loaded(size, frame);
             assert_eq!(plate.notes.len(), usize::from(size[0] * 3 != size[1] * 4), "{:?}", plate.notes);
             let scale = (size[0] as f32 / frame[0] as f32).min(size[1] as f32 / frame[1] as f32);
             // Away from the border, where the outermost pixels are repeated.
             for (x, y) in [(4, 4), (20, 15), (35, 25)] {
-                let from_middle = glam::vec2(x as f32 + 0.5 - frame[0] as f32 / 2.0, y as f32 + 0.5 - frame[1] as f32 / 2.0);
+                let from_middle = glam::vec2(
+                    x as f32 + 0.5 - frame[0] as f32 / 2.0,
+                    y as f32 + 0.5 - frame[1] as f32 / 2.0,
+                );
                 let place = glam::vec2(size[0] as f32, size[1] as f32) / 2.0 + from_middle * scale;
                 let seen = plate.image.at(x, y) / 2.0;
                 // A filter that is even around its middle keeps a ramp, up to rounding.

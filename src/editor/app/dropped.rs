@@ -47,9 +47,8 @@ impl App {
 
     fn words_of_drop(&self, file: &Path) -> String {
         let shown = name(file);
-        let frame = |at: &TargetSlot| {
-            self.editor.document.project().keys.get(at.key).map_or(0, |key| key.frame)
-        };
+        let frame =
+            |at: &TargetSlot| self.editor.document.project().keys.get(at.key).map_or(0, |key| key.frame);
         match self.becomes(file) {
             Becomes::Document => format!("Open '{shown}'"),
             Becomes::Frames => format!("Play the frames in '{shown}'"),
@@ -79,10 +78,12 @@ impl App {
         let parts = [AssetUse::Mesh, AssetUse::Picture(at.clone()), AssetUse::Points(at)];
         match parts.into_iter().find(ends) {
             Some(part) => Becomes::Part(part),
-            None => Becomes::Nothing(mesh::advice(file).map_or_else(
-                || "is not a project, mesh, picture or point file".to_owned(),
-                str::to_owned,
-            )),
+            None => {
+                Becomes::Nothing(mesh::advice(file).map_or_else(
+                    || "is not a project, mesh, picture or point file".to_owned(),
+                    str::to_owned,
+                ))
+            }
         }
     }
 

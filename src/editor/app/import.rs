@@ -42,7 +42,9 @@ impl App {
         self.importing = None;
         match result {
             Ok(import) => self.put_in(&import, &file),
-            Err(Error::Cancelled) => self.editor.status = format!("'{}' was not imported: cancelled", name(&file)),
+            Err(Error::Cancelled) => {
+                self.editor.status = format!("'{}' was not imported: cancelled", name(&file))
+            }
             Err(error) => {
                 self.editor.status.clear();
                 self.show_message(format!("'{}' cannot be imported", name(&file)), error.to_string());
