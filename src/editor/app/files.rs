@@ -35,7 +35,9 @@ impl App {
             self.offer(recovery);
         } else if let Some(export) = self.interrupted.pop() {
             let settings = &export.settings;
-            let (title, folder) = (settings.project.name.clone(), settings.folder.display().to_string());
+            let own = settings.project.name.trim();
+            let title = if own.is_empty() { name(&settings.file) } else { own.to_owned() };
+            let folder = settings.folder.display().to_string();
             let question = Question::Export { title, folder };
             self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }

@@ -43,7 +43,7 @@ impl App {
         match result {
             Ok(import) => self.put_in(&import, &file),
             Err(Error::Cancelled) => {
-                self.editor.status = format!("'{}' was not imported: cancelled", name(&file))
+                self.editor.status = format!("'{}' was not imported: cancelled", name(&file));
             }
             Err(error) => {
                 self.editor.status.clear();
