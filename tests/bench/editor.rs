@@ -1,4 +1,4 @@
-//! What an artist waits for: `cargo bench --bench editor`. From an edit to the first new picture under the playhead, all
+//! What an artist waits for: `cargo bench --bench editor`, or with `-- bottles wall` a part of it. From an edit to the first new picture under the playhead, all
 //! frames of the preview, and what a frame of the window costs its own thread while the workers work.
 //!
 //! The window runs without a screen: layout, gestures, actions and tessellation are in the figures, what a graphics card
@@ -23,8 +23,10 @@ fn main() {
     if std::env::args().any(|arg| arg == "--list") {
         return;
     }
-    let told = typing("letters_free");
-    println!("{told}");
+    if asked("letters_free", "typing") {
+        let told = typing("letters_free");
+        println!("{told}");
+    }
     for name in ["letters_free", "dark_glass", "bottles"] {
         measure(name, "gamma", |project, i| {
             let mut flow = project.flow.clone();
@@ -42,8 +44,16 @@ fn main() {
     }
 }
 
+/// Whether each word on the command line is one of these.
+fn asked(name: &str, what: &str) -> bool {
+    std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).all(|arg| [name, what].contains(&arg.as_str()))
+}
+
 /// Edits one after the other, half a second apart: the work of the last is still going on.
 fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
+    if !asked(name, what) {
+        return;
+    }
     let folder = window::examples();
     let mut harness = window::window(&folder, name, Vec::new());
     window::until(&mut harness, "all light", is_fine);

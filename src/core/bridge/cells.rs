@@ -55,9 +55,18 @@ impl Cells {
         Place { index: row * width + column, x, y }
     }
 
+    /// The cell that holds a point; beyond the outermost cells the nearest.
+    #[inline]
+    pub fn holding(&self, p: Vec2) -> usize {
+        let [width, height] = self.size;
+        let column = ((p.x / self.side).max(0.0) as usize).min(width - 1);
+        let row = ((p.y / self.side).max(0.0) as usize).min(height - 1);
+        row * width + column
+    }
+
     /// The four cells around a point with their bilinear weights.
     #[inline]
-    pub(super) fn around(&self, p: Vec2) -> [(usize, f32); 4] {
+    pub fn around(&self, p: Vec2) -> [(usize, f32); 4] {
         let Place { index, x, y } = self.place(p);
         let width = self.size[0];
         [

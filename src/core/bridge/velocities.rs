@@ -3,6 +3,7 @@
 use glam::Vec2;
 
 use super::cells::Cells;
+use super::sight::Sight;
 use crate::constraint::barrier::Barriers;
 
 /// Velocities in cells, plane units per unit of time, as a plan had them at one step.
@@ -22,16 +23,26 @@ impl CellVelocities {
         self.cells.side
     }
 
-    /// The velocity at `p`, between those of the cells around it.
-    pub fn at(&self, p: Vec2) -> Vec2 {
-        self.cells.around(p).iter().map(|&(cell, weight)| self.velocities[cell] * weight).sum()
+    /// The cells.
+    pub fn cells(&self) -> &Cells {
+        &self.cells
     }
 
-    /// The velocity at `p`, between those of the cells that it sees past `barriers`; zero where it sees none.
-    pub fn seen_from(&self, barriers: &Barriers, p: Vec2) -> Vec2 {
+    /// The velocity at `p`, between those of the cells around it that it sees past the walls; zero where it sees none. `sight` is
+    /// that of the same cells.
+    #[inline]
+    pub fn seen_from(&self, (barriers, sight): (&Barriers, &Sight), p: Vec2) -> Vec2 {
+        let around = self.cells.around(p);
+        match sight.is_open(around[0].0) {
+            true => around.iter().map(|&(cell, weight)| self.velocities[cell] * weight).sum(),
+            false => self.past(barriers, p, around),
+        }
+    }
+
+    fn past(&self, barriers: &Barriers, p: Vec2, around: [(usize, f32); 4]) -> Vec2 {
         let mut sum = Vec2::ZERO;
         let mut total = 0.0;
-        for (cell, weight) in self.cells.around(p) {
+        for (cell, weight) in around {
             if !barriers.blocks(p, self.cells.centre(cell)) {
                 // A cell with no bilinear weight may be the only one in sight.
                 let weight = weight + 1e-6;

@@ -10,6 +10,8 @@ use super::wall_cells::WallCells;
 const REACH: usize = 4;
 /// Iterations that scale the rows of a kernel to sum 1.
 const SCALINGS: usize = 20;
+/// Cells per parallel task: a small grid is done before another thread has woken up.
+const PER_TASK: usize = 4096;
 /// Densities below this count as none.
 const LEAST: f64 = 1e-290;
 
@@ -93,11 +95,12 @@ impl StepKernel {
     pub(super) fn spread(&self, density: &[f64], work: &mut [Vec<f64>; 2], out: &mut [f64]) {
         let [width, height] = self.size;
         let [scaled, rows] = work;
+        let per_task = PER_TASK.div_ceil(width);
         let scaled_row = |y: usize, scaled: &mut [f64]| {
             let values = density[y * width..].iter().zip(&self.scale[y * width..]);
             scaled.iter_mut().zip(values).for_each(|(out, (value, scale))| *out = value * scale);
         };
-        scaled.par_chunks_mut(width).zip(rows.par_chunks_mut(width)).enumerate().with_min_len(24).for_each(
+        scaled.par_chunks_mut(width).zip(rows.par_chunks_mut(width)).enumerate().with_min_len(per_task).for_each(
             |(y, (scaled, row))| {
                 scaled_row(y, scaled);
                 row.iter_mut().zip(&*scaled).for_each(|(out, value)| *out = self.taps[0] * value);
@@ -109,7 +112,7 @@ impl StepKernel {
             },
         );
         let (scaled, rows) = (&*scaled, &*rows);
-        out.par_chunks_mut(width).enumerate().with_min_len(24).for_each(|(y, out)| {
+        out.par_chunks_mut(width).enumerate().with_min_len(per_task).for_each(|(y, out)| {
             let first = self.rows.partition_point(|&cell| (cell as usize) < y * width);
             out.fill(0.0);
             for from in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {

@@ -123,25 +123,6 @@ impl Field {
         Vec2::new(phi_x * s.x - psi_y * s.y, psi_x * s.x + phi_y * s.y)
     }
 
-    /// A bound on the speed anywhere: slopes of a spline are weighted means of the differences of its coefficients.
-    pub(super) fn speed_bound(&self) -> f32 {
-        let [nx, _] = self.grid.nodes();
-        let rows: Vec<_> = self.coefficients.chunks_exact(2 * nx).collect();
-        let steepest = |pairs: &mut dyn Iterator<Item = (&f32, &f32)>| {
-            pairs.enumerate().fold([0.0f32; 2], |mut most, (i, (a, b))| {
-                most[i % 2] = most[i % 2].max((b - a).abs());
-                most
-            })
-        };
-        let larger = |a: [f32; 2], b: [f32; 2]| from_fn(|i| a[i].max(b[i]));
-        let along = rows.iter().map(|row| steepest(&mut row.iter().zip(&row[2..])));
-        let across = rows.windows(2).map(|rows| steepest(&mut rows[0].iter().zip(rows[1])));
-        let [psi_x, phi_x] = along.fold([0.0; 2], larger);
-        let [psi_y, phi_y] = across.fold([0.0; 2], larger);
-        let s = self.per_plane;
-        Vec2::new(phi_x * s.x + psi_y * s.y, psi_x * s.x + phi_y * s.y).length()
-    }
-
     /// The Jacobian of the velocity at `p`, columns du/dx and du/dy: divergence x_axis.x + y_axis.y, curl
     /// x_axis.y - y_axis.x. Beyond the rectangle nothing changes along the outward direction.
     pub fn gradient(&self, p: Vec2) -> Mat2 {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::bisection::{Item, bisect};
 use super::transport_map::{TransportMap, require_points};
-use super::two_opt::{Pair, sweep};
+use super::two_opt::{Pair, UNKNOWN, sweep};
 use super::wall_map::WallMap;
 use crate::constraint::VisibilityGraph;
 use crate::math::rng::{Purpose, Stream};
@@ -192,6 +192,7 @@ fn bisected(
                 };
                 graph.barriers().blocks(from, b.position)
             }),
+            square: UNKNOWN,
         })
         .collect()
 }

@@ -25,7 +25,12 @@ pub(super) struct Pair {
     /// Whether its target may lie on the wrong side of a wall: a wall stands between the target and the image under the
     /// map, or it took over such a target.
     pub(super) across_wall: bool,
+    /// Squared length of its path around the walls; negative until it is asked for.
+    pub(super) square: f32,
 }
+
+/// A squared length that is not known yet.
+pub(super) const UNKNOWN: f32 = -1.0;
 
 impl Pair {
     fn exchange(&mut self, other: &mut Self) {
@@ -53,7 +58,7 @@ pub(super) fn sweep(
     *pairs = order.par_iter().with_min_len(4096).map(|&row| pairs[row as usize]).collect();
     progress.check()?;
     let run = |block: &mut [Pair]| match walls {
-        None => exchange(block, window, |a, b| closer(a, b).then_some([false; 2])),
+        None => exchange(block, window, |a, b| closer(a, b).then_some([Exchanged::CLEAR; 2])),
         Some(graph) => {
             let mut walls = WallComparison { graph, buffers: SearchBuffers::default() };
             exchange(block, window, |a, b| if progress.is_cancelled() { None } else { walls.closer(a, b) })
@@ -64,20 +69,34 @@ pub(super) fn sweep(
     Ok(exchanges)
 }
 
-/// Exchanges the targets of pairs for which `gains` returns the new `across_wall` flags. Returns the number of exchanges.
+/// What an exchange makes of a pair.
+#[derive(Clone, Copy)]
+struct Exchanged {
+    across_wall: bool,
+    square: f32,
+}
+
+impl Exchanged {
+    /// A pair that sees its target.
+    const CLEAR: Self = Self { across_wall: false, square: UNKNOWN };
+}
+
+/// Exchanges the targets of pairs for which `gains` returns what becomes of them. Returns the number of exchanges.
 fn exchange(
     block: &mut [Pair],
     window: usize,
-    mut gains: impl FnMut(&Pair, &Pair) -> Option<[bool; 2]>,
+    mut gains: impl FnMut(&mut Pair, &mut Pair) -> Option<[Exchanged; 2]>,
 ) -> usize {
     let mut exchanges = 0;
     for i in 1..block.len() {
         let (before, rest) = block.split_at_mut(i);
         let pair = &mut before[i - 1];
         for other in rest.iter_mut().take(window) {
-            if let Some(across_wall) = gains(pair, other) {
+            if let Some(exchanged) = gains(pair, other) {
                 pair.exchange(other);
-                [pair.across_wall, other.across_wall] = across_wall;
+                for (pair, exchanged) in [&mut *pair, other].into_iter().zip(exchanged) {
+                    (pair.across_wall, pair.square) = (exchanged.across_wall, exchanged.square);
+                }
                 exchanges += 1;
             }
         }
@@ -101,7 +120,7 @@ impl WallComparison<'_> {
     /// As [`closer`], by the paths around walls where a pair is across a wall; other pairs around the same corner are left
     /// as the map has them. A far target is handed on from neighbour to neighbour, so that each goes a little farther
     /// instead of one of them the whole path.
-    fn closer(&mut self, a: &Pair, b: &Pair) -> Option<[bool; 2]> {
+    fn closer(&mut self, a: &mut Pair, b: &mut Pair) -> Option<[Exchanged; 2]> {
         if a.across_wall || b.across_wall {
             return self.shorter(a, b);
         }
@@ -112,23 +131,34 @@ impl WallComparison<'_> {
                 && clear(a.source, a.target)
                 && clear(b.source, b.target)
         };
-        (closer(a, b) && all_clear()).then_some([false; 2])
+        (closer(a, b) && all_clear()).then_some([Exchanged::CLEAR; 2])
     }
 
-    fn shorter(&mut self, a: &Pair, b: &Pair) -> Option<[bool; 2]> {
-        let now = [self.square(a.source, a.target), self.square(b.source, b.target)];
+    fn shorter(&mut self, a: &mut Pair, b: &mut Pair) -> Option<[Exchanged; 2]> {
+        let now = [self.now(a), self.now(b)];
         // No path is shorter than the straight one.
         let least = a.source.distance_squared(b.target) + b.source.distance_squared(a.target);
         if least >= now[0] + now[1] {
             return None;
         }
-        let then = [self.square(a.source, b.target), self.square(b.source, a.target)];
+        let first = self.below(now[0] + now[1] - b.source.distance_squared(a.target), a.source, b.target)?;
+        let second = self.below(now[0] + now[1] - first, b.source, a.target)?;
         // The pair whose path became longer took over the far target.
-        (then[0] + then[1] < now[0] + now[1]).then(|| [then[0] > now[0], then[1] > now[1]])
+        let exchanged = |now: f32, then: f32| Exchanged { across_wall: then > now, square: then };
+        Some([exchanged(now[0], first), exchanged(now[1], second)])
     }
 
-    /// Squared length of the shortest path.
-    fn square(&mut self, source: Vec2, target: Vec2) -> f32 {
-        self.graph.distance(source, target, &mut self.buffers).powi(2)
+    /// Squared length of a pair's path.
+    fn now(&mut self, pair: &mut Pair) -> f32 {
+        if pair.square < 0.0 {
+            pair.square = self.graph.distance(pair.source, pair.target, &mut self.buffers).powi(2);
+        }
+        pair.square
+    }
+
+    /// Squared length of the shortest path; none where it is not below `most`.
+    fn below(&mut self, most: f32, source: Vec2, target: Vec2) -> Option<f32> {
+        let distance = self.graph.distance_below(most.sqrt(), source, target, &mut self.buffers)?;
+        Some(distance.powi(2)).filter(|square| *square < most)
     }
 }

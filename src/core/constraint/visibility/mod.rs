@@ -113,16 +113,25 @@ impl VisibilityGraph {
             return Some(WallPath::STRAIGHT);
         }
         // Tangents are all that shortest paths need; close to several walls they may be too strict.
-        self.search(a, b, buffers, false).or_else(|| self.search(a, b, buffers, true))
+        let search = |all, buffers: &mut _| self.search((a, b), (all, f32::INFINITY), buffers);
+        search(false, buffers).or_else(|| search(true, buffers))
     }
 
-    fn search(&self, a: Vec2, b: Vec2, buffers: &mut SearchBuffers, all: bool) -> Option<WallPath> {
-        self.see_corners(a, all, &mut buffers.from);
+    /// The shortest path that is shorter than `most`; by tangents alone unless `all`.
+    fn search(
+        &self,
+        (a, b): (Vec2, Vec2),
+        (all, most): (bool, f32),
+        buffers: &mut SearchBuffers,
+    ) -> Option<WallPath> {
+        // No path by a corner is shorter than straight to it and on.
+        let on_the_way = |corner: Vec2| a.distance(corner) + corner.distance(b) < most;
+        self.see_corners(a, all, on_the_way, &mut buffers.from);
         if buffers.from.is_empty() {
             return None;
         }
-        self.see_corners(b, all, &mut buffers.to);
-        let mut best = (f32::INFINITY, None);
+        self.see_corners(b, all, on_the_way, &mut buffers.to);
+        let mut best = (most, None);
         for &(last, after) in &buffers.to {
             let lengths = self.between.lengths_to(last);
             for &(first, before) in &buffers.from {
@@ -135,11 +144,11 @@ impl VisibilityGraph {
         best.1
     }
 
-    /// The corners that `p` sees, with their distances.
-    fn see_corners(&self, p: Vec2, all: bool, seen: &mut Vec<(u16, f32)>) {
+    /// The corners that `p` sees of those that `counts`, with their distances.
+    fn see_corners(&self, p: Vec2, all: bool, counts: impl Fn(Vec2) -> bool, seen: &mut Vec<(u16, f32)>) {
         seen.clear();
         for (i, corner) in self.corners.iter().enumerate() {
-            if (all || corner.turns(p)) && !self.barriers.blocks(p, corner.at) {
+            if counts(corner.at) && (all || corner.turns(p)) && !self.barriers.blocks(p, corner.at) {
                 seen.push((i as u16, p.distance(corner.at)));
             }
         }
@@ -160,10 +169,19 @@ impl VisibilityGraph {
         self.path(a, b, buffers).map_or(f32::INFINITY, |path| self.length(path, a, b))
     }
 
+    /// As [`Self::distance`], by tangents alone; none where it is not shorter than `most`.
+    pub fn distance_below(&self, most: f32, a: Vec2, b: Vec2, buffers: &mut SearchBuffers) -> Option<f32> {
+        if !self.barriers.blocks(a, b) {
+            return Some(a.distance(b)).filter(|distance| *distance < most);
+        }
+        let path = self.search((a, b), (false, most), buffers)?;
+        Some(self.length(path, a, b))
+    }
+
     /// Lengths of the shortest paths from all corners to `b`, for many queries about one target.
     pub fn paths_to(&self, b: Vec2) -> PathsToTarget {
         let mut seen = Vec::new();
-        self.see_corners(b, false, &mut seen);
+        self.see_corners(b, false, |_| true, &mut seen);
         let mut lengths = vec![f32::INFINITY; self.corners.len()];
         for (last, after) in seen {
             for (shortest, length) in lengths.iter_mut().zip(self.between.lengths_to(last)) {
@@ -176,7 +194,7 @@ impl VisibilityGraph {
     /// The corners that `a` sees, for many queries about one source.
     pub fn visible_corners(&self, a: Vec2) -> VisibleCorners {
         let mut seen = Vec::new();
-        self.see_corners(a, false, &mut seen);
+        self.see_corners(a, false, |_| true, &mut seen);
         VisibleCorners { source: a, seen }
     }
 

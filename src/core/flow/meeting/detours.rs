@@ -5,8 +5,8 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::fields::MeetingFields;
+use super::half_step::HalfStep;
 use super::tracks::HalfTracks;
-use super::wall_motion::WallMotion;
 use crate::Progress;
 use crate::Result;
 use crate::constraint::visibility::SearchBuffers;
@@ -128,31 +128,26 @@ impl Detours {
                     let since = (done + 1) as f64 / count as f64;
                     halves[half].after(done + 1)[row] + self.share(half, row, since, 0.0) * gap(row)
                 };
-                let Some(walls) = WallMotion::new(fields, half, done) else {
+                let step = HalfStep::new(fields, half, done, halves[half]);
+                let Some(walls) = step.walls() else {
                     at.par_iter_mut().enumerate().for_each(|(row, at)| *at = free(row));
                     continue;
                 };
-                let stages = fields.step(half, done);
-                let h = if half == 0 { 1.0 } else { -1.0 } / fields.steps() as f32;
-                let begins = halves[half].after(done);
-                let each = (at.par_iter_mut(), blocked.par_iter_mut(), begins.par_iter());
-                each.into_par_iter().enumerate().with_min_len(1024).for_each(
-                    |(row, (at, blocked, begin))| {
-                        let gap = gap(row);
-                        if *blocked || !self.beside[half][row] || walls.is_far_with(*begin, gap) {
-                            *at = free(row);
-                            return;
-                        }
-                        let mut place = *begin;
-                        for part in 0..SUBSTEPS {
-                            place = walls.substep(&stages, h / SUBSTEPS as f32, place, part);
-                            let since = (done as f64 + (part + 1) as f64 / SUBSTEPS as f64) / count as f64;
-                            let next = place + self.share(half, row, since, 0.0) * gap;
-                            *blocked |= walls.blocks(*at, next);
-                            *at = next;
-                        }
-                    },
-                );
+                let each = at.par_iter_mut().zip(&mut blocked).enumerate().with_min_len(1024);
+                each.for_each(|(row, (at, blocked))| {
+                    let gap = gap(row);
+                    if *blocked || !self.beside[half][row] || step.is_clear(row, gap) {
+                        *at = free(row);
+                        return;
+                    }
+                    for part in 1..=SUBSTEPS {
+                        let x = part as f32 / SUBSTEPS as f32;
+                        let since = (done as f64 + f64::from(x)) / count as f64;
+                        let next = step.position(row, x) + self.share(half, row, since, 0.0) * gap;
+                        *blocked |= walls.blocks(*at, next);
+                        *at = next;
+                    }
+                });
             }
         }
         Ok((0u32..).zip(blocked).filter_map(|(row, blocked)| blocked.then_some(row)).collect())
@@ -208,9 +203,11 @@ fn beside(fields: &MeetingFields, half: usize, halves: [&HalfTracks; 2]) -> Vec<
     let gap = |row: usize| halves[1].end()[row] - halves[0].end()[row];
     let mut beside = vec![false; tracks.end().len()];
     for done in 0..tracks.count() {
-        let Some(walls) = WallMotion::new(fields, half, done) else { continue };
-        let each = beside.par_iter_mut().zip(tracks.after(done)).enumerate().with_min_len(4096);
-        each.for_each(|(row, (beside, p))| *beside |= !walls.is_far_with(*p, gap(row)));
+        let step = HalfStep::new(fields, half, done, tracks);
+        if step.walls().is_some() {
+            let each = beside.par_iter_mut().enumerate().with_min_len(4096);
+            each.for_each(|(row, beside)| *beside = *beside || !step.is_clear(row, gap(row)));
+        }
     }
     beside
 }

@@ -19,8 +19,8 @@ use crate::{Progress, Result};
 pub struct MeetingFields {
     /// By half, from its key frame to the meeting.
     halves: [Vec<Field>; 2],
-    /// The planned velocities near walls, and a bound on the speed of photons, by half and step; empty where no wall stands.
-    planned: [Vec<(CellVelocities, f32)>; 2],
+    /// The planned velocities near walls, by half and step; empty where no wall stands.
+    planned: [Vec<CellVelocities>; 2],
     steps: usize,
     mean_way: f32,
     hold: f32,
@@ -77,12 +77,7 @@ impl MeetingFields {
 
     /// Appends the next field of a half, with the planned velocities where walls stand.
     pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
-        if let Some(planned) = planned {
-            let times = self.step_times(half, self.halves[half].len());
-            let noise = times.map(|t| self.noise(t).iter().map(Field::speed_bound).sum::<f32>());
-            let bound = field.speed_bound() + noise.into_iter().fold(0.0, f32::max);
-            self.planned[half].push((planned, bound));
-        }
+        self.planned[half].extend(planned);
         self.halves[half].push(field);
     }
 
@@ -139,12 +134,12 @@ impl MeetingFields {
 
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
     pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
-        self.planned[half].get(done).map(|(planned, _)| planned)
+        self.planned[half].get(done)
     }
 
-    /// A bound on the speed of a photon in step `done` of a half; none where no wall stands.
-    pub(super) fn speed_bound(&self, half: usize, done: usize) -> Option<f32> {
-        self.planned[half].get(done).map(|(_, bound)| *bound)
+    /// The length of a step of a half; negative in the second, which runs against time.
+    pub(super) fn signed_step(&self, half: usize) -> f32 {
+        (if half == 0 { 1.0 } else { -1.0 }) / self.steps as f32
     }
 
     /// Begin, middle and end of the step after `done` steps of a half.

@@ -28,6 +28,9 @@ const FINEST_WITH_WALLS: usize = 128;
 const COARSEST: usize = 32;
 /// Length over which a liquid is smooth, over that of the pieces that stay together.
 const LIQUID: f64 = 0.6;
+/// Relative residual of the solver from which on plans beside walls take their usual sweeps, and the least share of these.
+const SOLVED: f32 = 1e-4;
+const FEWEST_SWEEPS: f32 = 0.3;
 /// Steps before the meeting with the plan of the step before them: the time left would make any rest of an error fast.
 const UNPLANNED: usize = 2;
 
@@ -126,7 +129,10 @@ impl<'a> MeetingFitter<'a> {
             steps: fields.steps(),
             hold: settings.hold,
             density: settings.density,
-            sweeps: 1.0,
+            sweeps: match standing.is_empty() {
+                true => 1.0,
+                false => (SOLVED / settings.tolerance).sqrt().clamp(FEWEST_SWEEPS, 1.0),
+            },
         };
         let plan = refine(plan);
         let liquid = LIQUID * f64::from(settings.hold);

@@ -7,15 +7,19 @@
 //! the meeting is made up for evenly in both halves ([`MeetingTrajectories`]). What is rendered is diffused a little about these
 //! trajectories (`diffusion`); figures are of the trajectories themselves.
 
+mod curve;
 mod detours;
 mod diffusion;
 mod fields;
 mod fit;
+mod half_step;
 mod leading_fit;
+mod runge_kutta;
 mod segment;
 mod tracks;
 mod trajectories;
 mod wall_motion;
+mod walks;
 
 pub use fields::MeetingFields;
 pub use fit::{BridgeReport, MeetingFit, fit_meeting, fit_meeting_with};

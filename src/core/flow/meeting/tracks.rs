@@ -4,8 +4,11 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::fields::MeetingFields;
+use super::runge_kutta::runge_kutta;
 use super::wall_motion::WallMotion;
+use super::walks::Walks;
 use crate::flow::step::{CHUNK, StageVelocity};
+use crate::flow::walls::SUBSTEPS;
 use crate::{Error, Progress, Result};
 
 /// Photons that are stepped together: their evaluations overlap in the processor's pipeline.
@@ -17,6 +20,8 @@ const BATCH: usize = 16;
 pub struct HalfTracks {
     /// By step, from the key frame on.
     steps: Vec<Vec<Vec2>>,
+    /// By step.
+    walks: Vec<Walks>,
 }
 
 impl HalfTracks {
@@ -26,14 +31,15 @@ impl HalfTracks {
     /// `Numeric` with the count when photons are no longer finite; `Cancelled`.
     pub fn new(fields: &MeetingFields, half: usize, photons: &[Vec2], progress: &Progress) -> Result<Self> {
         let mut steps = Vec::with_capacity(fields.steps() / 2 + 1);
+        let mut walks = Vec::with_capacity(fields.steps() / 2);
         steps.push(photons.to_vec());
         for done in 0..fields.steps() / 2 {
             progress.check()?;
             let mut next = steps[done].clone();
-            advance(fields, half, done, &mut next, progress)?;
+            walks.push(advance(fields, half, done, &mut next, progress)?);
             steps.push(next);
         }
-        Ok(Self { steps })
+        Ok(Self { steps, walks })
     }
 
     /// Positions at the meeting.
@@ -46,6 +52,11 @@ impl HalfTracks {
         &self.steps[done]
     }
 
+    /// The photons that walk along walls in the step after `done` steps.
+    pub(super) fn walks(&self, done: usize) -> &Walks {
+        &self.walks[done]
+    }
+
     /// Steps from the key frame to the meeting.
     pub fn count(&self) -> usize {
         self.steps.len() - 1
@@ -55,11 +66,14 @@ impl HalfTracks {
     #[must_use]
     pub fn permuted(&self, order: &[u32]) -> Self {
         let permute = |at: &Vec<Vec2>| order.iter().map(|&row| at[row as usize]).collect();
-        Self { steps: self.steps.par_iter().map(permute).collect() }
+        Self {
+            steps: self.steps.par_iter().map(permute).collect(),
+            walks: self.walks.par_iter().map(|walks| walks.permuted(order)).collect(),
+        }
     }
 }
 
-/// Advances photons by one step of a half, after `done` steps of it.
+/// Advances photons by one step of a half, after `done` steps of it. Returns those that walk along walls.
 ///
 /// # Errors
 /// `Numeric` with the count when photons are no longer finite; `Cancelled`.
@@ -69,32 +83,27 @@ pub(super) fn advance(
     done: usize,
     photons: &mut [Vec2],
     progress: &Progress,
-) -> Result<()> {
-    let velocities = fields.step(half, done);
-    // Velocities are forward in time; the second half runs against it.
-    let sign = if half == 0 { 1.0 } else { -1.0 };
-    let h = sign / fields.steps() as f32;
+) -> Result<Walks> {
+    let stages = fields.step(half, done);
+    let h = fields.signed_step(half);
     let walls = WallMotion::new(fields, half, done);
-    let lost = photons
-        .par_chunks_mut(CHUNK)
-        .map(|photons| {
-            progress.check()?;
-            match &walls {
-                Some(walls) => photons.iter_mut().for_each(|p| match walls.is_far(*p) {
-                    true => [*p] = runge_kutta(&velocities, h, [*p]),
-                    false => *p = walls.advance(&velocities, h, *p, 1.0),
-                }),
-                None => {
-                    let (batches, rest) = photons.as_chunks_mut::<BATCH>();
-                    batches.iter_mut().for_each(|batch| *batch = runge_kutta(&velocities, h, *batch));
-                    rest.iter_mut().for_each(|p| [*p] = runge_kutta(&velocities, h, [*p]));
-                }
+    let chunks = photons.par_chunks_mut(CHUNK).enumerate();
+    let step = |(chunk, photons): (usize, &mut [Vec2])| {
+        progress.check()?;
+        let walks = match &walls {
+            Some(walls) => beside(walls, (&stages, h), (chunk * CHUNK, photons)),
+            None => {
+                free(&stages, h, photons);
+                Vec::new()
             }
-            Ok(photons.iter().filter(|p| !p.is_finite()).count())
-        })
-        .try_reduce(|| 0, |a, b| Ok(a + b))?;
+        };
+        Ok((walks, photons.iter().filter(|p| !p.is_finite()).count()))
+    };
+    let done_chunks: Vec<(Vec<Walk>, usize)> = chunks.map(step).collect::<Result<_>>()?;
+    let lost: usize = done_chunks.iter().map(|(_, lost)| lost).sum();
     if lost == 0 {
-        return Ok(());
+        let walks = done_chunks.into_iter().flat_map(|(walks, _)| walks);
+        return Ok(if walls.is_some() { Walks::new(photons.len(), walks) } else { Walks::default() });
     }
     let what = format!(
         "{lost} of {} photons are no longer finite after {} steps; take more steps or a larger alpha",
@@ -104,13 +113,40 @@ pub(super) fn advance(
     Err(Error::Numeric { stage: "advect", what })
 }
 
-/// One step of the classical Runge-Kutta method of order 4.
+/// The row of a photon that walks along walls, and where it is after each substep.
+type Walk = (usize, [Vec2; SUBSTEPS]);
+
+/// Advances photons by one step where no wall stands.
+fn free(stages: &[StageVelocity; 3], h: f32, photons: &mut [Vec2]) {
+    let (batches, rest) = photons.as_chunks_mut::<BATCH>();
+    batches.iter_mut().for_each(|batch| *batch = alone(stages, h, *batch));
+    rest.iter_mut().for_each(|p| [*p] = alone(stages, h, [*p]));
+}
+
 #[inline(always)]
-fn runge_kutta<const N: usize>([begin, middle, end]: &[StageVelocity; 3], h: f32, c: [Vec2; N]) -> [Vec2; N] {
-    let moved = |k: [Vec2; N], by: f32| std::array::from_fn(|i| c[i] + by * k[i]);
-    let k1: [Vec2; N] = begin.velocities(c);
-    let k2 = middle.velocities(moved(k1, 0.5 * h));
-    let k3 = middle.velocities(moved(k2, 0.5 * h));
-    let k4 = end.velocities(moved(k3, h));
-    std::array::from_fn(|i| c[i] + (h / 6.0) * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+fn alone<const N: usize>(stages: &[StageVelocity; 3], h: f32, c: [Vec2; N]) -> [Vec2; N] {
+    runge_kutta(h, c, |stage, p| stages[stage].velocities(p)).0
+}
+
+/// Advances photons, the first of them in row `first`, by one step beside walls.
+fn beside(
+    walls: &WallMotion,
+    (stages, h): (&[StageVelocity; 3], f32),
+    (first, photons): (usize, &mut [Vec2]),
+) -> Vec<Walk> {
+    let mut walks = Vec::new();
+    for (number, batch) in photons.chunks_mut(BATCH).enumerate() {
+        // The last batch is filled up with its first photon.
+        let before: [Vec2; BATCH] = std::array::from_fn(|i| batch[if i < batch.len() { i } else { 0 }]);
+        let (after, meets) = walls.step(stages, h, before);
+        for (i, p) in batch.iter_mut().enumerate() {
+            *p = after[i];
+            if meets[i] {
+                let places = walls.walk(stages, h, before[i]);
+                *p = places[SUBSTEPS - 1];
+                walks.push((first + number * BATCH + i, places));
+            }
+        }
+    }
+    walks
 }

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::detours::Detours;
 use super::diffusion::Diffusion;
 use super::fields::MeetingFields;
+use super::half_step::HalfStep;
 use super::tracks::HalfTracks;
-use super::wall_motion::WallMotion;
 use crate::flow::observer::{Kinematics, Observer};
 use crate::flow::report::FlowReport;
 use crate::flow::segment::guide_rows;
@@ -110,70 +110,37 @@ impl<'a> MeetingTrajectories<'a> {
         (squares.sum::<f64>() / self.source.len().max(1) as f64).sqrt()
     }
 
-    /// Writes `value` of the row, the place on its half, and of the share of the gap there with its slope, for each photon.
-    fn each(&self, t: f64, out: &mut [Vec2], value: impl Fn(usize, Curve, Vec2, [f32; 2]) -> Vec2 + Sync) {
-        let Some([forward, backward]) = &self.halves else { return };
+    /// The half at time `t`, and its step there with the fraction of it that is done; none before the tracks are known.
+    fn place(&self, t: f64) -> Option<(Half, HalfStep<'_>, f32)> {
         let second = usize::from(t > 0.5);
-        let tracks = if second == 0 { forward } else { backward };
+        let tracks = &self.halves.as_ref()?[second];
         let since = (if second == 0 { t } else { 1.0 - t }).clamp(0.0, 0.5);
         let place = since * self.fields.steps() as f64;
         let done = (place as usize).min(tracks.count() - 1);
-        let x = (place - done as f64) as f32;
-        let sign = if second == 0 { 1.0 } else { -1.0 };
-        // Half the gap times (2 s)^2, and its slope in forward time, which is the same from either side.
-        let share = [sign * 0.5 * (2.0 * since as f32).powi(2), 4.0 * since as f32];
-        let [before, begin, end, after] =
-            [done.saturating_sub(1), done, done + 1, (done + 2).min(tracks.count())].map(|n| tracks.after(n));
-        let at_border = [done == 0, done + 1 == tracks.count()];
+        let half = Half { second, since, sign: if second == 0 { 1.0 } else { -1.0 } };
+        Some((half, HalfStep::new(self.fields, second, done, tracks), (place - done as f64) as f32))
+    }
+
+    /// Writes `value` of the row and its gap for each photon.
+    fn each(&self, out: &mut [Vec2], value: impl Fn(usize, Vec2) -> Vec2 + Sync) {
+        let Some([forward, backward]) = &self.halves else { return };
         let (first, last) = (forward.end(), backward.end());
         out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, out)| {
             for (i, out) in out.iter_mut().enumerate().map(|(i, out)| (chunk * CHUNK + i, out)) {
-                let curve = Curve { points: [before[i], begin[i], end[i], after[i]], at_border, x };
-                *out = value(i, curve, last[i] - first[i], share);
+                *out = value(i, last[i] - first[i]);
             }
         });
     }
 }
 
-/// The cubic through the ends of a step, with the slopes of its neighbours.
-struct Curve {
-    points: [Vec2; 4],
-    /// Whether the step is the first, and the last, of its half.
-    at_border: [bool; 2],
-    x: f32,
-}
-
-impl Curve {
-    /// Slopes at both ends, per step: central differences, one-sided of second order at a border.
-    fn slopes(&self) -> [Vec2; 2] {
-        let [before, begin, end, after] = self.points;
-        let chord = end - begin;
-        match self.at_border {
-            [true, true] => [chord, chord],
-            [true, false] => {
-                let slope = 0.5 * (after - begin);
-                [2.0 * chord - slope, slope]
-            }
-            [false, true] => {
-                let slope = 0.5 * (end - before);
-                [slope, 2.0 * chord - slope]
-            }
-            [false, false] => [0.5 * (end - before), 0.5 * (after - begin)],
-        }
-    }
-
-    fn position(&self) -> Vec2 {
-        let ([_, begin, end, _], [a, b], x) = (self.points, self.slopes(), self.x);
-        let (y, chord) = (1.0 - x, end - begin);
-        begin + x * (chord * x * (3.0 - 2.0 * x) + y * (y * a - x * b))
-    }
-
-    /// Per step from the key frame on.
-    fn slope(&self) -> Vec2 {
-        let ([_, begin, end, _], [a, b], x) = (self.points, self.slopes(), self.x);
-        let chord = end - begin;
-        6.0 * x * (1.0 - x) * chord + (1.0 - x) * (1.0 - 3.0 * x) * a + x * (3.0 * x - 2.0) * b
-    }
+/// A time as one of a half.
+struct Half {
+    /// 0 or 1.
+    second: usize,
+    /// Time since its key frame.
+    since: f64,
+    /// 1 in the first half, -1 in the second.
+    sign: f32,
 }
 
 impl Trajectories for MeetingTrajectories<'_> {
@@ -208,26 +175,15 @@ impl Trajectories for MeetingTrajectories<'_> {
 
 impl Kinematics for MeetingTrajectories<'_> {
     fn positions(&self, t: f64, out: &mut [Vec2]) {
-        let second = usize::from(t > 0.5);
-        let since = (if second == 0 { t } else { 1.0 - t }).clamp(0.0, 0.5);
-        let done = ((since * self.fields.steps() as f64) as usize).min(self.fields.steps() / 2 - 1);
-        let walls =
-            WallMotion::new(self.fields, second, done).map(|walls| (walls, self.fields.step(second, done)));
-        let h = if second == 0 { 1.0 } else { -1.0 } / self.fields.steps() as f32;
+        let Some((half, step, x)) = self.place(t) else { return };
         // Also in steps without walls: they may have stood before, or come.
         let detours = self.detours.as_ref().and_then(Option::as_ref);
-        let sign = if second == 0 { 1.0 } else { -1.0 };
-        self.each(t, out, |row, curve, gap, [early, _]| {
-            let [_, begin, ..] = curve.points;
-            let share =
-                detours.map_or(early, |detours| sign * detours.share(second, row, 2.0 * since, sign * early));
-            let at = match &walls {
-                Some((walls, stages)) if !walls.is_far_with(begin, gap) => {
-                    walls.advance(stages, h, begin, curve.x)
-                }
-                _ => curve.position(),
-            };
-            at + share * gap
+        // Half the gap times (2 s)^2.
+        let early = 0.5 * (2.0 * half.since as f32).powi(2);
+        self.each(out, |row, gap| {
+            let share = detours
+                .map_or(early, |detours| detours.share(half.second, row, 2.0 * half.since, early));
+            step.position(row, x) + half.sign * share * gap
         });
         if let Some(detours) = detours {
             detours.place(t, out);
@@ -235,8 +191,11 @@ impl Kinematics for MeetingTrajectories<'_> {
     }
 
     fn velocities(&self, t: f64, out: &mut [Vec2]) {
-        let per_time = if t > 0.5 { -1.0 } else { 1.0 } * self.fields.steps() as f32;
-        self.each(t, out, |_, curve, gap, [_, slope]| per_time * curve.slope() + slope * gap);
+        let Some((half, step, x)) = self.place(t) else { return };
+        let per_time = half.sign * self.fields.steps() as f32;
+        // The slope of the share in forward time, which is the same from either side.
+        let slope = 4.0 * half.since as f32;
+        self.each(out, |row, gap| per_time * step.curve(row).slope(x) + slope * gap);
     }
 }
 

@@ -3,8 +3,9 @@
 use glam::Vec2;
 
 use super::fields::MeetingFields;
-use crate::bridge::CellVelocities;
+use crate::bridge::{CellVelocities, Sight};
 use crate::constraint::barrier::Barriers;
+use super::runge_kutta::runge_kutta;
 use crate::flow::step::StageVelocity;
 use crate::flow::walls::{Clearance, SUBSTEPS, slide};
 
@@ -13,16 +14,13 @@ use crate::flow::walls::{Clearance, SUBSTEPS, slide};
 /// keys' on a C of walls, instead of 3.4).
 const PLANNED: f32 = 3.0;
 const FITTED: f32 = 6.0;
-/// How much farther the cubic between two steps may stray than its photon moves in a step.
-const STRAY: f32 = 1.5;
 
 /// The walls of one step of a half.
 pub(super) struct WallMotion<'a> {
     barriers: &'a Barriers,
     clearance: &'a Clearance,
+    sight: &'a Sight,
     planned: &'a CellVelocities,
-    /// Distance from walls beyond which a photon does not come to feel them within the step.
-    far: f32,
 }
 
 impl<'a> WallMotion<'a> {
@@ -33,43 +31,59 @@ impl<'a> WallMotion<'a> {
         let barriers = obstacles.graph(step)?.barriers();
         let clearance = obstacles.clearance(step)?;
         let planned = fields.planned(half, done)?;
-        let far = FITTED * planned.side() + STRAY * fields.speed_bound(half, done)? / fields.steps() as f32;
-        Some(Self { barriers, clearance, planned, far })
+        let sight = obstacles.sight(step, planned.cells())?;
+        Some(Self { barriers, clearance, sight, planned })
     }
 
-    /// Whether a photon at `p` is so far from walls that it moves as without them.
+    /// Whether no wall is within `reach` of `p`.
     #[inline]
-    pub(super) fn is_far(&self, p: Vec2) -> bool {
-        self.is_far_with(p, Vec2::ZERO)
+    pub(super) fn is_clear(&self, p: Vec2, reach: f32) -> bool {
+        self.clearance.at_least(p) > reach
     }
 
-    /// The same for one that makes up for `gap` besides.
-    #[inline]
-    pub(super) fn is_far_with(&self, p: Vec2, gap: Vec2) -> bool {
-        self.clearance.at(p) > self.far + 0.5 * gap.length()
+    /// Photons at `c` after one Runge-Kutta step of length `h`, and which of them may meet a wall on it.
+    #[inline(always)]
+    pub(super) fn step<const N: usize>(
+        &self,
+        stages: &[StageVelocity; 3],
+        h: f32,
+        c: [Vec2; N],
+    ) -> ([Vec2; N], [bool; N]) {
+        // Next to a wall photons walk, wherever the step leads.
+        let beside = c.map(|p| self.clearance.at_least(p) <= 0.0);
+        // Known well enough at the begin: both velocities are nearly the same.
+        let near: [f32; N] =
+            std::array::from_fn(|i| if beside[i] { 0.0 } else { self.near(self.clearance.at(c[i])) });
+        let (end, reach) = runge_kutta(h, c, |stage, p| {
+            let mut velocities = stages[stage].velocities(p);
+            for i in 0..N {
+                if near[i] > 0.0 {
+                    velocities[i] = velocities[i].lerp(self.planned(p[i]), near[i]);
+                }
+            }
+            velocities
+        });
+        (end, std::array::from_fn(|i| beside[i] || !self.is_clear(c[i], reach[i])))
     }
 
-    /// The position of a photon after the fraction `x` of a step of length `h` from `c`. Each substep is a straight move, or one
-    /// that slides.
-    pub(super) fn advance(&self, stages: &[StageVelocity; 3], h: f32, c: Vec2, x: f32) -> Vec2 {
-        let part = h / SUBSTEPS as f32;
-        let whole = (x * SUBSTEPS as f32) as usize;
-        let at = (0..whole.min(SUBSTEPS)).fold(c, |at, i| self.substep(stages, part, at, i));
-        let rest = x * SUBSTEPS as f32 - whole as f32;
-        if rest <= 0.0 || whole >= SUBSTEPS {
-            return at;
-        }
-        at.lerp(self.substep(stages, part, at, whole), rest)
+    /// A photon at `c` after each substep of a step of length `h`: each is a straight move, or one that slides.
+    pub(super) fn walk(&self, stages: &[StageVelocity; 3], h: f32, c: Vec2) -> [Vec2; SUBSTEPS] {
+        let mut at = c;
+        std::array::from_fn(|i| {
+            at = self.substep(stages, h, at, i);
+            at
+        })
     }
 
-    /// Substep `i` of a step, by the midpoint method.
-    pub(super) fn substep(
+    /// Substep `i` of a step of length `h`, by the midpoint method.
+    fn substep(
         &self,
         [begin, middle, end]: &[StageVelocity; 3],
-        part: f32,
+        h: f32,
         at: Vec2,
         i: usize,
     ) -> Vec2 {
+        let part = h / SUBSTEPS as f32;
         let x = (i as f32 + 0.5) / SUBSTEPS as f32;
         let (a, b, share) = if x < 0.5 { (begin, middle, 2.0 * x) } else { (middle, end, 2.0 * x - 1.0) };
         let distance = self.clearance.at(at);
@@ -91,18 +105,24 @@ impl<'a> WallMotion<'a> {
         if self.may_meet(by, distance) { slide(self.barriers, p, by) } else { p + by }
     }
 
+    /// The planned velocity, as `p` sees it past the walls.
+    #[inline(always)]
+    fn planned(&self, p: Vec2) -> Vec2 {
+        self.planned.seen_from((self.barriers, self.sight), p)
+    }
+
+    /// The share of the planned velocity at a distance from the nearest wall.
+    #[inline(always)]
+    fn near(&self, distance: f32) -> f32 {
+        ((FITTED - distance / self.planned.side()) / (FITTED - PLANNED)).clamp(0.0, 1.0)
+    }
+
     /// The velocity between two stages; beside walls that of the plan. `distance` is that to the nearest wall, or less.
     fn velocity(&self, [a, b]: [&StageVelocity; 2], share: f32, p: Vec2, distance: f32) -> Vec2 {
-        let cells = distance / self.planned.side();
-        let near = ((FITTED - cells) / (FITTED - PLANNED)).clamp(0.0, 1.0);
+        let near = self.near(distance);
         let mut velocity = Vec2::ZERO;
         if near > 0.0 {
-            // All four cells around are in sight of a point two cells from walls.
-            let planned = match cells > 2.0 {
-                true => self.planned.at(p),
-                false => self.planned.seen_from(self.barriers, p),
-            };
-            velocity += near * planned;
+            velocity += near * self.planned(p);
         }
         if near < 1.0 {
             let between = if share == 0.0 {

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::clearance::Clearance;
 use super::path_state::{PathState, PathStatus};
+use crate::bridge::{Cells, Sight};
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{ActiveWall, VisibilityGraph, WallPath, stroke};
 use crate::flow::field::Grid;
@@ -40,6 +41,9 @@ struct Epoch {
     /// Made when first asked for.
     #[serde(skip)]
     clearance: OnceLock<Clearance>,
+    /// In the cells of the plan, which are the same at all times.
+    #[serde(skip)]
+    sight: OnceLock<Sight>,
 }
 
 impl Obstacles {
@@ -123,6 +127,13 @@ impl Obstacles {
         let epoch = &self.epochs[self.index(step)];
         let graph = epoch.graph.as_ref()?;
         Some(epoch.clearance.get_or_init(|| Clearance::new(graph.barriers(), self.extent)))
+    }
+
+    /// Where the walls of step `step` leave the cells of the plan in sight; none where none stands.
+    pub(crate) fn sight(&self, step: usize, cells: &Cells) -> Option<&Sight> {
+        let epoch = &self.epochs[self.index(step)];
+        let graph = epoch.graph.as_ref()?;
+        Some(epoch.sight.get_or_init(|| Sight::new(cells, graph.barriers())))
     }
 
     /// Steps of the photons over the whole segment.
@@ -256,7 +267,7 @@ fn epochs(
             true => None,
             false => Some(Arc::new(VisibilityGraph::new(&here, extent, progress)?)),
         };
-        epochs.push(Epoch { first: step, standing, graph, clearance: OnceLock::new() });
+        epochs.push(Epoch { first: step, standing, graph, clearance: OnceLock::new(), sight: OnceLock::new() });
     }
     Ok(epochs)
 }
