@@ -46,7 +46,10 @@ fn main() {
 
 /// Whether each word on the command line is one of these.
 fn asked(name: &str, what: &str) -> bool {
-    std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).all(|arg| [name, what].contains(&arg.as_str()))
+    std::env::args()
+        .skip(1)
+        .filter(|arg| !arg.starts_with('-'))
+        .all(|arg| [name, what].contains(&arg.as_str()))
 }
 
 /// Edits one after the other, half a second apart: the work of the last is still going on.

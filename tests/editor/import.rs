@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{Key, Modifiers};
+use egui::{HoveredFile, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::access::Access;
 use lightloom::editor::action::Action;
@@ -177,4 +177,26 @@ fn a_glass_a_logo_and_a_plate_from_elsewhere_become_frames_with_the_bytes_of_the
     let made = frames(&by_window);
     assert_eq!(made.len(), 10, "five frames in two formats: {:?}", job.status());
     assert!(made == frames(&by_command), "the command line writes other bytes");
+}
+
+#[test]
+fn what_a_dragged_file_would_become_is_said_before_it_is_let_go() {
+    let folder = examples();
+    let mut harness = window(&folder, "letters_free", Vec::new());
+    harness.run_steps(3);
+    for (file, said) in [
+        ("glass.glb", "Import 'glass.glb' into the scene"),
+        ("logo.png", "Show 'logo.png' at the key frame 1"),
+        ("shot.json", "Open 'shot.json'"),
+        ("scene.usda", "'scene.usda' is USD"),
+        ("notes.txt", "'notes.txt' is not a project, mesh, picture or point file"),
+    ] {
+        let dragged = HoveredFile { path: Some(file.into()), ..HoveredFile::default() };
+        harness.input_mut().hovered_files = vec![dragged];
+        harness.run_steps(2);
+        assert!(harness.query_by_label_contains(said).is_some(), "{said}");
+        harness.input_mut().hovered_files.clear();
+        harness.run_steps(2);
+        assert!(harness.query_by_label_contains(said).is_none(), "{said}");
+    }
 }

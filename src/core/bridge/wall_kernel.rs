@@ -100,8 +100,12 @@ impl StepKernel {
             let values = density[y * width..].iter().zip(&self.scale[y * width..]);
             scaled.iter_mut().zip(values).for_each(|(out, (value, scale))| *out = value * scale);
         };
-        scaled.par_chunks_mut(width).zip(rows.par_chunks_mut(width)).enumerate().with_min_len(per_task).for_each(
-            |(y, (scaled, row))| {
+        scaled
+            .par_chunks_mut(width)
+            .zip(rows.par_chunks_mut(width))
+            .enumerate()
+            .with_min_len(per_task)
+            .for_each(|(y, (scaled, row))| {
                 scaled_row(y, scaled);
                 row.iter_mut().zip(&*scaled).for_each(|(out, value)| *out = self.taps[0] * value);
                 for k in 1..=REACH.min(width - 1) {
@@ -109,8 +113,7 @@ impl StepKernel {
                     row[k..].iter_mut().zip(&*scaled).for_each(|(out, value)| *out += tap * value);
                     row.iter_mut().zip(&scaled[k..]).for_each(|(out, value)| *out += tap * value);
                 }
-            },
-        );
+            });
         let (scaled, rows) = (&*scaled, &*rows);
         out.par_chunks_mut(width).enumerate().with_min_len(per_task).for_each(|(y, out)| {
             let first = self.rows.partition_point(|&cell| (cell as usize) < y * width);

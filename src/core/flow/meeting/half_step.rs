@@ -5,8 +5,8 @@ use glam::Vec2;
 use super::curve::{Curve, Curves};
 use super::fields::MeetingFields;
 use super::tracks::HalfTracks;
-use super::wall_motion::WallMotion;
 use super::walks::Walks;
+use super::wall_motion::WallMotion;
 use crate::flow::walls::SUBSTEPS;
 
 /// One step of a half with the tracks of its photons.

@@ -18,8 +18,8 @@ mod runge_kutta;
 mod segment;
 mod tracks;
 mod trajectories;
-mod wall_motion;
 mod walks;
+mod wall_motion;
 
 pub use fields::MeetingFields;
 pub use fit::{BridgeReport, MeetingFit, fit_meeting, fit_meeting_with};

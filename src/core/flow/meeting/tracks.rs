@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::fields::MeetingFields;
 use super::runge_kutta::runge_kutta;
-use super::wall_motion::WallMotion;
 use super::walks::Walks;
+use super::wall_motion::WallMotion;
 use crate::flow::step::{CHUNK, StageVelocity};
 use crate::flow::walls::SUBSTEPS;
 use crate::{Error, Progress, Result};

@@ -181,8 +181,8 @@ impl Kinematics for MeetingTrajectories<'_> {
         // Half the gap times (2 s)^2.
         let early = 0.5 * (2.0 * half.since as f32).powi(2);
         self.each(out, |row, gap| {
-            let share = detours
-                .map_or(early, |detours| detours.share(half.second, row, 2.0 * half.since, early));
+            let share =
+                detours.map_or(early, |detours| detours.share(half.second, row, 2.0 * half.since, early));
             step.position(row, x) + half.sign * share * gap
         });
         if let Some(detours) = detours {

@@ -3,9 +3,9 @@
 use glam::Vec2;
 
 use super::fields::MeetingFields;
+use super::runge_kutta::runge_kutta;
 use crate::bridge::{CellVelocities, Sight};
 use crate::constraint::barrier::Barriers;
-use super::runge_kutta::runge_kutta;
 use crate::flow::step::StageVelocity;
 use crate::flow::walls::{Clearance, SUBSTEPS, slide};
 
@@ -76,13 +76,7 @@ impl<'a> WallMotion<'a> {
     }
 
     /// Substep `i` of a step of length `h`, by the midpoint method.
-    fn substep(
-        &self,
-        [begin, middle, end]: &[StageVelocity; 3],
-        h: f32,
-        at: Vec2,
-        i: usize,
-    ) -> Vec2 {
+    fn substep(&self, [begin, middle, end]: &[StageVelocity; 3], h: f32, at: Vec2, i: usize) -> Vec2 {
         let part = h / SUBSTEPS as f32;
         let x = (i as f32 + 0.5) / SUBSTEPS as f32;
         let (a, b, share) = if x < 0.5 { (begin, middle, 2.0 * x) } else { (middle, end, 2.0 * x - 1.0) };

@@ -267,7 +267,13 @@ fn epochs(
             true => None,
             false => Some(Arc::new(VisibilityGraph::new(&here, extent, progress)?)),
         };
-        epochs.push(Epoch { first: step, standing, graph, clearance: OnceLock::new(), sight: OnceLock::new() });
+        epochs.push(Epoch {
+            first: step,
+            standing,
+            graph,
+            clearance: OnceLock::new(),
+            sight: OnceLock::new(),
+        });
     }
     Ok(epochs)
 }
