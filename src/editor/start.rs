@@ -17,14 +17,17 @@ use super::templates::{self, TEMPLATES};
 /// Maximum size of a project file.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Opens the window with a project or the first example. Returns when it is closed.
+/// Opens the window with a project or the first example. Returns when it is closed. In `safe_mode` the stored preferences are neither
+/// read nor changed.
 ///
 /// # Errors
 /// There is no display, or no graphics device; the system's message.
-pub fn run(project: Option<&Path>) -> Result<(), String> {
+pub fn run(project: Option<&Path>, safe_mode: bool) -> Result<(), String> {
     let folders = Folders::of_user();
+    let stored = folders.as_ref().filter(|_| !safe_mode);
     let (preferences, note) =
-        folders.as_ref().map_or_else(Default::default, |folders| Preferences::load(&folders.config));
+        stored.map_or_else(Default::default, |folders| Preferences::load(&folders.config));
+    let keeps_preferences = !safe_mode;
     let (document, problem) = first_document(project)?;
     let message = problem.or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
     let options = eframe::NativeOptions {
@@ -40,7 +43,7 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
     let create = move |context: &eframe::CreationContext| {
         let gpu = context.wgpu_render_state.as_ref().map_or(Gpu::None, prepare_gpu);
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, gpu };
+        let setup = Setup { document, message, folders, preferences, keeps_preferences, dialogs, gpu };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     if !has_screen() {

@@ -78,6 +78,7 @@ impl EditorState {
             Action::Playhead(frame) => self.session.playhead = frame,
             Action::Solo(groups) => self.session.solo = groups,
             Action::Probe(row) => self.session.probe = row,
+            Action::SelectObject(object) => self.session.focus.object = Some(object),
             Action::Panel(panel) => self.session.panel = panel,
             Action::Say(message) => self.status = message,
             Action::Paste(text) => match clipboard::paste(self.document.project(), &text) {

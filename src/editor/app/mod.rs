@@ -2,23 +2,27 @@
 
 mod autosave;
 mod commands;
+mod dropped;
 mod file_state;
 mod files;
 mod import;
-mod importing;
 mod layout;
 mod open_windows;
 mod outside;
 mod recents;
+mod task;
 mod windows;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui;
+use lightloom_core::import::Import;
+use lightloom_core::project::Collection;
 
 use super::action::Action;
-use super::dialogs::{Dialogs, Picker};
+use super::dialogs::{Dialogs, Picker, is_on_top};
 use super::document::Document;
 use super::engine::SharedEngine;
 use super::export::{Exports, InterruptedExport, interrupted};
@@ -33,9 +37,9 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::{Details, Files};
-use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
+use task::Task;
 
 /// The window: the editor's state with its views, windows and files.
 pub struct App {
@@ -52,10 +56,13 @@ pub struct App {
     recents: Recents,
     files: Files,
     /// The scene that is being read for the document.
-    importing: Option<Importing>,
+    importing: Option<Task<Import>>,
+    /// The copy of the project with all its files that is being made.
+    collecting: Option<Task<(PathBuf, Collection)>>,
     /// The details of a message in the status bar.
     details: Option<Details>,
     preferences: Preferences,
+    keeps_preferences: bool,
     /// The graphics device.
     gpu: Gpu,
     /// Actions asked for by [`App::ask`].
@@ -83,6 +90,8 @@ pub struct Setup {
     pub folders: Option<Folders>,
     /// The user's preferences.
     pub preferences: Preferences,
+    /// Whether their changes are stored.
+    pub keeps_preferences: bool,
     /// The file dialogs.
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
@@ -114,8 +123,10 @@ impl App {
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             importing: None,
+            collecting: None,
             details: None,
             preferences: setup.preferences,
+            keeps_preferences: setup.keeps_preferences,
             gpu: setup.gpu,
             asked: Vec::new(),
         };
@@ -127,7 +138,7 @@ impl App {
         app.attach();
         let folders: Vec<_> =
             app.preferences.recent.iter().rev().filter_map(|file| file.parent()).map(Into::into).collect();
-        folders.iter().for_each(|folder: &std::path::PathBuf| app.picker.remember(folder));
+        folders.iter().for_each(|folder: &PathBuf| app.picker.remember(folder));
         if let Some((title, text)) = setup.message {
             app.show_message(title, text);
         }
@@ -171,6 +182,7 @@ impl App {
         }
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
+        self.say_what_drops(&ctx);
         for action in actions {
             self.apply(&ctx, action);
         }
@@ -195,6 +207,7 @@ impl App {
         let taker = match self.picker.taker(ctx) {
             Taker::Shown if palette => Taker::Coming,
             Taker::Shown if asking && !self.picker.is_open() => Taker::Gone,
+            Taker::Shown if covered && !is_on_top(ctx) => Taker::Coming,
             taker => taker,
         };
         KeyQueue::set(ctx, taker);
@@ -247,6 +260,8 @@ impl App {
         self.editor.open(document);
         self.views.forget_pictures();
         (self.importing, self.details) = (None, None);
+        // Who begins with something else needs no tour of the example.
+        self.preferences.first_start_seen |= self.windows.tour.end();
         self.files.forget_admitted();
         self.attach();
     }

@@ -112,6 +112,7 @@ impl Purpose {
             Self::Frames => "Choose a rendered frame",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
+            Self::Asset(AssetUse::Plate) => "Choose a background plate",
             Self::Asset(AssetUse::Points(_)) => "Choose a file of points",
         }
     }
