@@ -2,4 +2,5 @@
 
 pub mod cli;
 pub mod editor;
+pub mod log;
 pub mod processor;

@@ -1,5 +1,6 @@
 //! Command-line arguments.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -10,6 +11,7 @@ use lightloom_core::{Error, Result};
 
 use super::progress::Manner;
 use crate::editor::store::{Folders, trusted};
+use crate::log::LogChoice;
 
 /// Paint where caustics shall flow, and export the animation. Without a command, the editor opens.
 #[derive(Parser)]
@@ -17,6 +19,10 @@ use crate::editor::store::{Folders, trusted};
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
+    /// Write what happens into a log: error, warn, info, debug or trace into the folder `logs` of the state folder; or into a
+    /// file, whose name ends in .log. Without it the editor logs on level info, commands do not.
+    #[arg(long, global = true, value_name = "LEVEL|FILE")]
+    pub(crate) log: Option<LogChoice>,
     /// The project to open in the editor.
     #[arg(value_name = "PROJECT")]
     pub(crate) project: Option<PathBuf>,
@@ -395,10 +401,12 @@ impl CommonArgs {
         if !(1..=1024).contains(&threads) {
             return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
         }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .map_err(|e| Error::value("--threads", format!("the system does not start them: {e}")))
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|error| {
+            let refused =
+                std::error::Error::source(&error).and_then(|source| source.downcast_ref::<io::Error>());
+            let kind = refused.map_or(io::ErrorKind::Other, io::Error::kind);
+            Error::io("start the threads of", "--threads")(io::Error::new(kind, error.to_string()))
+        })
     }
 }
 

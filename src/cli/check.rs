@@ -11,6 +11,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<u8> {
     let project = args.project.load()?;
     let assets = args.project.common.assets(args.project.path()?)?;
     let report = Engine::new(assets).check(&project)?;
+    tracing::info!("{}", report.to_text().trim_end());
     let shown = if args.project.common.json { report.to_json() } else { report.to_text() };
     Lines::Out.print(shown.trim_end())?;
     Ok(0)

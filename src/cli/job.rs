@@ -117,7 +117,10 @@ pub(super) fn shown<T>(
     let progress = Progress::new();
     interrupt::stops(&progress);
     let display = Display::start(&progress, lines, manner);
-    let saved = |path: &Path| display.line(&manner.saved(path));
+    let saved = |path: &Path| {
+        tracing::info!("saved '{}'", path.display());
+        display.line(&manner.saved(path));
+    };
     let done = work(&progress, &saved);
     if let Some(line) = done.as_ref().err().and_then(|error| manner.failed(error)) {
         display.line(&line);
@@ -131,6 +134,7 @@ fn conclude<T: Outcome>(summary: &T, dir: &Path, json: bool) -> Result<()> {
     if summary.is_reported() {
         write_report(dir, T::FILE, &text)?;
     }
+    tracing::info!("{}", summary.to_text().trim_end());
     let shown = if json { text } else { summary.to_text() };
     Lines::Out.print(shown.trim_end())
 }

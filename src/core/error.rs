@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::Note;
+
 /// The result type of the core.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
@@ -58,7 +60,7 @@ pub enum Error {
         /// The error itself.
         error: Box<Error>,
         /// Notes for the artist.
-        notes: Vec<String>,
+        notes: Vec<Note>,
     },
     /// The user asked to stop.
     #[error("cancelled")]
@@ -83,7 +85,7 @@ impl Error {
     }
 
     /// The same error with notes, unless there are none, or nothing is wrong.
-    pub fn with_notes(self, more: &[String]) -> Self {
+    pub fn with_notes(self, more: &[Note]) -> Self {
         match self {
             Self::Cancelled => self,
             _ if more.is_empty() => self,

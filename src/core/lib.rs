@@ -163,6 +163,8 @@
 //! # Ok::<(), lightloom_core::Error>(())
 //! ```
 
+pub mod note;
+
 pub mod error;
 pub mod progress;
 pub mod setting;
@@ -200,4 +202,5 @@ pub mod engine;
 pub use error::{Error, Result};
 /// The vectors of this crate's interface.
 pub use glam;
+pub use note::Note;
 pub use progress::Progress;

@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use lightloom_core::note::About;
+
 use super::asset::AssetUse;
 use super::command::Command;
 use super::document::Edit;
@@ -47,6 +49,8 @@ pub enum Action {
     New(usize),
     /// Asks for a file and puts it into the project.
     PickFile(AssetUse),
+    /// Shows and selects what a note is about.
+    Show(About),
     /// Shows a message in the status bar.
     Say(String),
 }

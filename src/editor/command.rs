@@ -65,6 +65,7 @@ pub enum Command {
     Shortcuts,
     Preferences,
     Tour,
+    SaveReport,
     Larger,
     Smaller,
     NormalSize,
@@ -222,6 +223,7 @@ pub const COMMANDS: &[CommandInfo] = &[
     on(Command::Palette, Menu::Help, "Find a command", CTRL, Key::P),
     on(Command::Shortcuts, Menu::Help, "Shortcuts", NONE, Key::F1),
     off(Command::Tour, Menu::Help, "Tour"),
+    off(Command::SaveReport, Menu::Help, "Save report"),
 ];
 
 impl Command {

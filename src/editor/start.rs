@@ -8,6 +8,7 @@ use lightloom_core::project::ProjectFile;
 use lightloom_core::{Result, files};
 
 use super::app::{App, Gpu, Setup};
+use super::device::{self, Device};
 use super::dialogs::Native;
 use super::document::Document;
 use super::preview::gpu::{FEATURES, Renderer};
@@ -17,19 +18,29 @@ use super::templates::{self, TEMPLATES};
 /// Maximum size of a project file.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Opens the window with a project or the first example. Returns when it is closed. In `safe_mode` the stored preferences are neither
-/// read nor changed.
+/// Opens the window with a project or the first example. Returns when it is closed. Where the graphics device is lost
+/// meanwhile, the program starts anew; what was not saved is offered for recovery there. In `safe_mode` the stored
+/// preferences are neither read nor changed.
 ///
 /// # Errors
 /// There is no display, or no graphics device; the system's message.
 pub fn run(project: Option<&Path>, safe_mode: bool) -> Result<(), String> {
+    if !has_screen() {
+        return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
+    }
+    let device = Arc::new(Device::default());
+    let told = (device::lost_before() > 0).then(|| {
+        let text = "The window was opened anew. What was not saved is offered for recovery, and exports that were under way, too.";
+        ("The graphics device was lost".to_owned(), text.to_owned())
+    });
     let folders = Folders::of_user();
     let stored = folders.as_ref().filter(|_| !safe_mode);
     let (preferences, note) =
         stored.map_or_else(Default::default, |folders| Preferences::load(&folders.config));
     let keeps_preferences = !safe_mode;
     let (document, problem) = first_document(project)?;
-    let message = problem.or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
+    let message =
+        problem.or(told).or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Lightloom")
@@ -41,14 +52,24 @@ pub fn run(project: Option<&Path>, safe_mode: bool) -> Result<(), String> {
         ..Default::default()
     };
     let create = move |context: &eframe::CreationContext| {
-        let gpu = context.wgpu_render_state.as_ref().map_or(Gpu::None, prepare_gpu);
+        let card = context.wgpu_render_state.as_ref();
+        let graphics = card.map_or_else(|| "none".to_owned(), described);
+        tracing::info!("graphics: {graphics}");
+        let gpu = card.map_or(Gpu::None, |card| prepare_gpu(card, &device, &context.egui_ctx));
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, keeps_preferences, dialogs, gpu };
+        let setup = Setup {
+            document,
+            message,
+            folders,
+            preferences,
+            keeps_preferences,
+            dialogs,
+            gpu,
+            graphics,
+            device,
+        };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
-    if !has_screen() {
-        return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
-    }
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| in_words(&error))
 }
 
@@ -113,8 +134,24 @@ fn wgpu_setup() -> egui_wgpu::WgpuSetupCreateNew {
     setup
 }
 
+/// Name, kind and driver of a graphics card.
+fn described(state: &egui_wgpu::RenderState) -> String {
+    let card = state.adapter.get_info();
+    let kind = format!("{:?}, {:?}", card.device_type, card.backend);
+    format!("{} ({kind}), driver {} {}", card.name, card.driver, card.driver_info)
+}
+
 /// Installs the photon renderer, and returns the kind of device.
-fn prepare_gpu(state: &egui_wgpu::RenderState) -> Gpu {
+fn prepare_gpu(state: &egui_wgpu::RenderState, device: &Arc<Device>, ctx: &egui::Context) -> Gpu {
+    let (lost, ctx) = (device.clone(), ctx.clone());
+    state.device.set_device_lost_callback(move |reason, why| {
+        // A window that is closed drops its device, too.
+        if reason != wgpu::DeviceLostReason::Destroyed || !lost.is_closed() {
+            tracing::error!("the graphics device is lost ({reason:?}): {why}");
+            lost.lose();
+            ctx.request_repaint();
+        }
+    });
     let Some(renderer) = Renderer::new(&state.device, state.target_format) else { return Gpu::None };
     state.renderer.write().callback_resources.insert(renderer);
     match state.adapter.get_info().device_type {

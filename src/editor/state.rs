@@ -8,6 +8,7 @@ use super::command::Command;
 use super::context::EditorContext;
 use super::document::{Document, Edit};
 use super::engine::SharedEngine;
+use super::jump;
 use super::look;
 use super::preview::LivePreview;
 use super::selection::Selection;
@@ -80,6 +81,7 @@ impl EditorState {
             Action::Probe(row) => self.session.probe = row,
             Action::SelectObject(object) => self.session.focus.object = Some(object),
             Action::Panel(panel) => self.session.panel = panel,
+            Action::Show(about) => jump::jump(self.document.project(), &mut self.session, &about),
             Action::Say(message) => self.status = message,
             Action::Paste(text) => match clipboard::paste(self.document.project(), &text) {
                 Ok(pasted) => self.arrange(Some(pasted)),

@@ -94,6 +94,7 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
         frames_per_second: (24, 1),
         seed: 1,
         passes: 8,
+        is_finished: true,
         camera: None,
         settings: Vec::new(),
     };

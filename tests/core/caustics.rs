@@ -276,7 +276,7 @@ fn naming_a_caustic_without_light_changes_nothing_and_is_noted() {
     assert_eq!(named.tracks, plain.tracks);
     assert_eq!(named.flux, plain.flux);
     for notes in [&named.summary.notes, &check(&stage, &project).unwrap().notes] {
-        assert!(notes.iter().any(|note| note.contains("'none' has no photons")), "{notes:?}");
+        assert!(notes.iter().any(|note| note.text.contains("'none' has no photons")), "{notes:?}");
     }
 }
 
@@ -394,7 +394,7 @@ fn lamps_of_one_name_count_as_one_and_are_noted() {
     project["caustics"][0] = json!({ "name": "left", "light": "lamp" });
     let report = check(&stage, &project).unwrap();
     assert!(
-        report.notes.iter().any(|note| note.contains("2 lights are called 'lamp'")),
+        report.notes.iter().any(|note| note.text.contains("2 lights are called 'lamp'")),
         "{:?}",
         report.notes
     );

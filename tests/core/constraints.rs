@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use lightloom_core::engine::{CheckReport, Engine, Summary};
+use lightloom_core::note::About;
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::{Error, Progress, Result};
 use serde_json::{Value, json};
+
+use crate::scenes::texts;
 
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -51,7 +54,7 @@ fn notes_of(constraint: Value) -> String {
     // What is odd must not stop the flow either.
     let summary = fit(json!([constraint]));
     assert_eq!(summary.flow.unwrap().flow.endpoint_error, 0.0);
-    check(json!([constraint])).notes.join("\n")
+    texts(&check(json!([constraint])).notes).join("\n")
 }
 
 /// The notes on a project with these constraints, or why it is refused.
@@ -59,7 +62,7 @@ pub(crate) fn notes(constraints: Value) -> Result<Vec<String>, String> {
     let project = project(constraints).map_err(|error| error.to_string())?;
     let folder = folder();
     let report = Engine::new(assets(folder.path())).check(&project);
-    report.map(|report| report.notes).map_err(|error| error.to_string())
+    report.map(|report| texts(&report.notes)).map_err(|error| error.to_string())
 }
 
 pub(crate) fn line(points: Value) -> Value {
@@ -95,20 +98,33 @@ fn walls_thinner_than_a_cell_and_at_the_border_are_named() {
     assert!(notes_of(wall(json!([[0, 0.9], [1, 0.9]]))).contains("reaches the border at both ends"));
 }
 
+/// A wall is named by its place among all that was drawn, lines too, and programs read kind and place.
+#[test]
+fn a_note_says_what_it_is_about() {
+    let across = wall(json!([[0, 0.9], [1, 0.9]]));
+    let report = check(json!([line(json!([[0.3, 0.5], [0.7, 0.5]])), across]));
+    let note = report.notes.iter().find(|note| note.text.contains("reaches the border")).unwrap();
+    assert_eq!(note.about, About::Constraint(1));
+    let told: Value = serde_json::from_str(&report.to_json()).unwrap();
+    let [_, note] = &told["notes"].as_array().unwrap()[..] else { panic!("{told}") };
+    assert_eq!((&note["kind"], &note["object"]), (&json!("constraint"), &json!("constraints[1]")));
+    assert!(note["text"].as_str().unwrap().contains("reaches the border"));
+}
+
 #[test]
 fn opposite_lines_in_one_place_are_a_conflict() {
     let report = check(json!([line(json!([[0.3, 0.5], [0.7, 0.5]])), line(json!([[0.7, 0.5], [0.3, 0.5]]))]));
-    assert!(report.notes.join("\n").contains("contradict each other"));
+    assert!(texts(&report.notes).join("\n").contains("contradict each other"));
     // One that crosses itself is no conflict: it goes across, not against.
     let loops = check(json!([line(json!([[0.2, 0.5], [0.8, 0.5], [0.8, 0.8], [0.5, 0.8], [0.5, 0.2]]))]));
-    assert!(!loops.notes.join("\n").contains("contradict"));
+    assert!(!texts(&loops.notes).join("\n").contains("contradict"));
 }
 
 #[test]
 fn light_that_is_shut_off_is_counted_and_said() {
     let summary = fit(json!([wall(json!([[0.5, 0], [0.5, 1]]))]));
     assert_eq!(summary.flow.as_ref().unwrap().flow.unreachable, 300);
-    assert!(summary.notes.join("\n").contains("walls shut 300 photons off"));
+    assert!(texts(&summary.notes).join("\n").contains("walls shut 300 photons off"));
     assert!(summary.to_text().contains("walls: 0 crossings, 300 photons shut off"));
 }
 
@@ -116,7 +132,7 @@ fn light_that_is_shut_off_is_counted_and_said() {
 fn walls_that_touch_are_named_and_a_thick_one_over_all_the_light_does_no_harm() {
     let report =
         check(json!([wall(json!([[0.5, 0.2], [0.5, 0.8]])), wall(json!([[0.2, 0.5], [0.49, 0.5]]))]));
-    assert!(report.notes.join("\n").contains("walls 0 and 1"));
+    assert!(texts(&report.notes).join("\n").contains("walls 0 and 1"));
     let huge = json!({ "type": "wall", "points": [[0.2, 0.2], [0.3, 0.7]], "thickness": 0.5 });
     notes_of(huge);
 }

@@ -28,6 +28,7 @@ fn metadata() -> Metadata {
         frames_per_second: (24, 1),
         seed: u64::MAX,
         passes: 8,
+        is_finished: true,
         camera: None,
         settings: vec![
             ("gamma".into(), "0.5".into()),

@@ -39,6 +39,7 @@ fn victim_writes_frames() {
         frames_per_second: (24, 1),
         seed: 7,
         passes: 1,
+        is_finished: true,
         camera: None,
         settings: vec![("gamma".into(), "0.5".into())],
     };

@@ -42,6 +42,7 @@ mod preview_light;
 mod previews;
 mod project_file;
 mod project_store;
+mod project_versions;
 mod properties;
 mod render;
 mod sampling;

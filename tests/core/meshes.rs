@@ -80,7 +80,7 @@ fn a_material_library_is_only_read_where_the_path_policy_allows() {
     let (scene, notes) = Scene::load(&stage.desc, &policy).unwrap();
     // Beside the mesh, too, but nowhere that the policy does not know of.
     assert!(asked.borrow().contains(&"../../etc/passwd".to_owned()));
-    assert!(notes.iter().any(|note| note.contains("outside the project folder")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.text.contains("outside the project folder")), "{notes:?}");
     assert!(matches!(scene.meshes()[0].material, Material::Diffuse(_)));
     stage.desc.meshes[0].file = "../mesh.obj".into();
     assert!(matches!(Scene::load(&stage.desc, &policy), Err(Error::Value { .. })));

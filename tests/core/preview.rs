@@ -302,7 +302,11 @@ fn long_animations_keep_fewer_photons_and_say_so() {
     project.keys[1].frame = 10_000;
     let preview = draft(&engine, &project);
     assert_eq!(preview.photons(), 2_000);
-    assert!(preview.notes().iter().any(|note| note.contains("fit into memory")), "{:?}", preview.notes());
+    assert!(
+        preview.notes().iter().any(|note| note.text.contains("fit into memory")),
+        "{:?}",
+        preview.notes()
+    );
     assert!(preview.is_ready(5_000));
 }
 

@@ -216,8 +216,7 @@ fn a_file_of_a_later_version_is_read_only_and_saved_whole_under_another_name() {
     let folder = examples();
     let path = project(&folder, "letters_free");
     let text = fs::read_to_string(&path).unwrap();
-    let later =
-        text.replacen("\"lightloom\": 1,", "\"lightloom\": 9, \"minimum_reader\": 1, \"aurora\": [1, 2],", 1);
+    let later = text.replacen("\"lightloom\": 1,", "\"lightloom\": 9, \"aurora\": [1, 2],", 1);
     assert_ne!(text, later);
     fs::write(&path, &later).unwrap();
     let other = folder.path().join("projects/mine.json");

@@ -8,6 +8,7 @@ mod collect;
 mod compare;
 #[path = "../letters/mod.rs"]
 mod letters;
+mod log;
 mod real_window;
 mod report;
 mod resume;

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use glam::Vec3;
+use lightloom_core::Note;
 use lightloom_core::scene::light::{PointLight, RectangleLight};
 use lightloom_core::scene::material::{Glass, Material, Mirror};
 use lightloom_core::scene::{LightDesc, MeshDesc, Scene, SceneDesc};
@@ -37,14 +38,21 @@ impl Stage {
 
     pub fn try_load(&self) -> lightloom_core::Result<(Scene, Vec<String>)> {
         let root = self.folder.path().to_owned();
-        Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
-            Ok(root.join(path))
-        })
+        let loaded =
+            Scene::load(&self.desc, &move |path: &str, _: &str| -> lightloom_core::Result<PathBuf> {
+                Ok(root.join(path))
+            });
+        loaded.map(|(scene, notes)| (scene, texts(&notes)))
     }
 
     pub fn load(&self) -> Scene {
         self.try_load().unwrap().0
     }
+}
+
+/// What notes say.
+pub fn texts(notes: &[Note]) -> Vec<String> {
+    notes.iter().map(|note| note.text.clone()).collect()
 }
 
 pub fn glass(ior: f32) -> Option<Material> {

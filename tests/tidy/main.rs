@@ -15,7 +15,8 @@ use module::Module;
 use package::Package;
 
 /// The core's modules, lowest first: each may use only those before it (and itself).
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
+    "note",
     "error",
     "setting",
     "progress",

@@ -70,6 +70,8 @@ pub fn window_with(
         keeps_preferences: true,
         dialogs: Arc::new(Scripted::new(answers)),
         gpu: Gpu::None,
+        graphics: "none".to_owned(),
+        device: Arc::default(),
     };
     let mut setup = Some(setup);
     Harness::builder()

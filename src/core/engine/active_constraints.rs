@@ -2,8 +2,10 @@
 
 use glam::Vec2;
 
+use crate::Note;
 use crate::constraint::{ActiveLine, ActiveWall, Barriers, Constraint, Window, stroke};
 use crate::export::{MAGENTA, ORANGE, OverlayLine};
+use crate::note::About;
 use crate::project::Project;
 
 /// Cells along the longer side in which lines are looked at for conflicts.
@@ -16,25 +18,35 @@ pub(super) struct ActiveConstraints {
     pub(super) walls: Vec<ActiveWall>,
 }
 
+/// A constraint that acts in one segment.
+enum Acting {
+    Line(ActiveLine),
+    Wall(ActiveWall),
+}
+
 /// The constraints that act from key frame `segment` to the next, on the rectangle `extent`.
 pub(super) fn active(project: &Project, segment: usize, extent: Vec2) -> ActiveConstraints {
     let mut active = ActiveConstraints::default();
-    if !project.fits() {
-        return active;
-    }
-    for constraint in &project.constraints {
-        let Some(window) = window(project, constraint, segment) else { continue };
-        match constraint {
-            Constraint::DirectedLine(line) => active.lines.extend(line.active(window, extent)),
-            Constraint::Wall(wall) => active.walls.extend(wall.active(window)),
+    for (_, acting) in acting(project, segment, extent) {
+        match acting {
+            Acting::Line(line) => active.lines.push(line),
+            Acting::Wall(wall) => active.walls.push(wall),
         }
     }
     active
 }
 
-/// The constraints that act in each segment.
-fn all_active(project: &Project, extent: Vec2) -> Vec<ActiveConstraints> {
-    (1..project.keys.len()).map(|next| active(project, next - 1, extent)).collect()
+/// The same, each with its index among all constraints.
+fn acting(project: &Project, segment: usize, extent: Vec2) -> impl Iterator<Item = (usize, Acting)> {
+    let drawn = project.constraints.iter().enumerate().filter(|_| project.fits());
+    drawn.filter_map(move |(index, constraint)| {
+        let window = window(project, constraint, segment)?;
+        let acting = match constraint {
+            Constraint::DirectedLine(line) => Acting::Line(line.active(window, extent)?),
+            Constraint::Wall(wall) => Acting::Wall(wall.active(window)?),
+        };
+        Some((index, acting))
+    })
 }
 
 /// The window of a segment in which a constraint acts; none where it does not.
@@ -61,7 +73,7 @@ pub(super) fn drawn(project: &Project) -> Vec<OverlayLine> {
 }
 
 /// Notes on constraints that do nothing, contradict each other, or do other than they look.
-pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<String> {
+pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<Note> {
     if !project.fits() || project.keys.len() < 2 {
         return Vec::new();
     }
@@ -77,16 +89,32 @@ pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<String> {
         } else {
             odd(constraint, extent, cell)
         };
-        notes.extend(odd.map(|odd| format!("constraints[{i}]: {odd}")));
+        notes.extend(odd.map(|odd| About::Constraint(i).note(format!("constraints[{i}]: {odd}"))));
     }
-    for active in all_active(project, extent) {
-        let walls: Vec<&ActiveWall> = active.walls.iter().collect();
-        notes.extend(Barriers::new(&walls, extent).notes().iter().cloned());
-        notes.extend(conflict(&active.lines));
+    for segment in 0..project.keys.len() - 1 {
+        notes.extend(notes_on_segment(project, segment, extent));
     }
     notes.sort();
     notes.dedup();
     notes
+}
+
+/// Notes on the constraints that act in one segment.
+fn notes_on_segment(project: &Project, segment: usize, extent: Vec2) -> Vec<Note> {
+    let (mut lines, mut walls, mut drawn_as) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, acting) in acting(project, segment, extent) {
+        match acting {
+            Acting::Line(line) => lines.push((index, line)),
+            Acting::Wall(wall) => {
+                walls.push(wall);
+                drawn_as.push(index);
+            }
+        }
+    }
+    let barriers = Barriers::new(&walls.iter().collect::<Vec<_>>(), extent);
+    let of_walls = barriers.notes().iter();
+    let of_walls = of_walls.map(|(wall, text)| About::Constraint(drawn_as[*wall]).note(text));
+    of_walls.chain(conflict(&lines)).collect()
 }
 
 /// A note on one constraint on the receiver.
@@ -118,17 +146,19 @@ fn odd(constraint: &Constraint, extent: Vec2, cell: f32) -> Option<String> {
 }
 
 /// Lines that ask for opposite directions in one place.
-fn conflict(lines: &[ActiveLine]) -> Option<String> {
+fn conflict(lines: &[(usize, ActiveLine)]) -> Option<Note> {
     let mut seen: std::collections::BTreeMap<[i32; 2], Vec2> = Default::default();
-    let places = lines.iter().flat_map(|line| line.positions.iter().zip(&line.directions));
-    for (place, &direction) in places {
+    let places = lines
+        .iter()
+        .flat_map(|(index, line)| line.positions.iter().zip(&line.directions).map(|of| (*index, of)));
+    for (index, (place, &direction)) in places {
         let cell = (*place * CELLS).floor().as_ivec2().to_array();
         let first = *seen.entry(cell).or_insert(direction);
         if first.dot(direction) < -0.5 {
-            return Some(format!(
+            return Some(About::Constraint(index).note(format!(
                 "directed lines contradict each other near ({:.2}, {:.2}): the field takes the mean of what they ask for",
                 place.x, place.y
-            ));
+            )));
         }
     }
     None

@@ -10,9 +10,10 @@ use super::grouping::notes_on_dark;
 use super::meter::Meter;
 use super::plan::{LeftOut, Plan};
 use super::prepare::Prepared;
+use crate::note::About;
 use crate::photon::Tracer;
 use crate::project::{Project, Shows};
-use crate::{Progress, Result};
+use crate::{Note, Progress, Result};
 
 /// Photons by which caustics are found; one with a thousandth of the light is not missed.
 const PILOT: usize = 20_000;
@@ -32,7 +33,7 @@ pub struct CheckReport {
     /// Expected seconds of all stages.
     pub seconds: f64,
     /// Notes on the project and its files.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// One caustic of the scene: the light of one lamp whose last specular mesh was one.
@@ -143,7 +144,7 @@ fn describe(shows: &Shows) -> String {
 fn cast(
     prepared: &Prepared,
     tracer: &Tracer,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
     progress: &Progress,
 ) -> Result<Vec<CastCaustic>> {
     let Some(scene) = &prepared.scene else { return Ok(Vec::new()) };
@@ -167,6 +168,7 @@ fn cast(
     let lights = shares.iter().map(|share| (share.positions.len(), share.total));
     notes.extend(notes_on_dark(&grouping.lights(lights)));
     let lit = |light: usize| caustics.iter().any(|caustic| caustic.light == scene.lights()[light].name());
-    notes.extend(tracer.idle_lights().into_iter().filter(|(light, _)| !lit(*light)).map(|(_, note)| note));
+    let idle = tracer.idle_lights().into_iter().filter(|(light, _)| !lit(*light));
+    notes.extend(idle.map(|(light, text)| About::Light(light).note(text)));
     Ok(caustics)
 }

@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::files::{read_regular_file, try_hold, write_atomic};
+use crate::note::About;
 use crate::project::Project;
-use crate::{Error, Result};
+use crate::{Error, Note, Result};
 
 /// Begin of the names of the folders.
 const PREFIX: &str = "unfinished-";
@@ -58,7 +59,7 @@ impl Checkpoint {
         out: &Path,
         (project, fingerprint): (&Project, &str),
         wanted: &[i32],
-        notes: &mut Vec<String>,
+        notes: &mut Vec<Note>,
     ) -> Result<Option<Self>> {
         let boot = boot();
         for (folder, mut manifest) in folders_in(out) {
@@ -70,17 +71,18 @@ impl Checkpoint {
             }
             let Some(lock) = lock(&folder)? else {
                 if holds {
-                    notes.push("another process renders the same; this one keeps no unfinished light".into());
+                    let text = "another process renders the same; this one keeps no unfinished light";
+                    notes.push(About::Project.note(text));
                     return Ok(None);
                 }
                 continue;
             };
             if other {
                 remove(&folder)?;
-                notes.push(format!(
+                notes.push(About::Project.note(format!(
                     "the unfinished light of a render with other settings was removed: '{}'",
                     folder.display()
-                ));
+                )));
                 continue;
             }
             let checked = manifest.boot != boot || boot.is_empty();

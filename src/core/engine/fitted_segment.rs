@@ -29,7 +29,7 @@ pub(super) struct FittedFlow {
     /// The light of each group; empty where no caustic is named.
     pub(super) caustics: Vec<CausticFlux>,
     /// Notes on lights that cast no caustic.
-    pub(super) idle_lights: Vec<String>,
+    pub(super) idle_lights: Vec<(usize, String)>,
 }
 
 /// Everything that the fit of a segment depends on.

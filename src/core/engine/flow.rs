@@ -29,8 +29,7 @@ use crate::{Progress, Result};
 pub(super) fn fit(job: &Job) -> Result<FittedFlow> {
     let mut walk = Walk::start(job, 0)?;
     let caustics = job.sources.caustics(walk.light());
-    let idle = job.tracer().map_or(Vec::new(), |tracer| tracer.idle_lights());
-    let idle_lights = idle.into_iter().map(|(_, note)| note).collect();
+    let idle_lights = job.tracer().map_or(Vec::new(), |tracer| tracer.idle_lights());
     let mut flow = FittedFlow { segments: Vec::new(), numbers: None, caustics, idle_lights };
     while let Some(photons) = walk.next(MapsFrom::Own { bounded: true })? {
         flow.push(fit_segment(job, &photons, None)?);

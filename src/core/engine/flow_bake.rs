@@ -19,7 +19,7 @@ use crate::matching::ContinuousMap;
 pub(super) struct BakedFlow {
     segments: Vec<BakedSegment>,
     caustics: Vec<CausticFlux>,
-    idle_lights: Vec<String>,
+    idle_lights: Vec<(usize, String)>,
 }
 
 /// The fitted flow of a segment. Where key frames meet half way, the flow to the meeting has the same layers.

@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use super::pairing::TransportCost;
-use crate::flow::FlowReport;
+use crate::Note;
+use crate::flow::{FlowReport, FlowSettings};
+use crate::note::About;
 
 /// The numbers of the flow, the worst over all segments.
 #[derive(Clone, Debug, Serialize)]
@@ -50,22 +52,22 @@ impl FlowNumbers {
 }
 
 /// A note on photons that walls shut off from their targets.
-pub(super) fn note_on_walls(flow: &FlowReport) -> Option<String> {
+pub(super) fn note_on_walls(flow: &FlowReport) -> Option<Note> {
     (flow.unreachable > 0).then(|| {
-        format!(
+        About::Setting("constraints").note(format!(
             "walls shut {} photons off from their targets: these go straight through; leave a gap, or move the target",
             flow.unreachable
-        )
+        ))
     })
 }
 
 /// A note on a solver that stopped above the tolerance of the project.
-pub(super) fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<String> {
+pub(super) fn note_on_solver(flow: &FlowReport, tolerance: f64) -> Option<Note> {
     (flow.solver_error > tolerance).then(|| {
-        format!(
+        About::Setting(FlowSettings::ALPHA.place).note(format!(
             "the fit stopped after {} iterations with velocities that are {:.1e} off where {tolerance:.0e} is asked for: take a larger alpha, or a lower beta and weight of lines",
             flow.solver_iterations, flow.solver_error
-        )
+        ))
     })
 }
 
@@ -83,7 +85,7 @@ mod tests {
     #[test]
     fn a_solver_that_gave_up_is_noted_and_one_that_arrived_is_not() {
         let flow = |solver_error| FlowReport { solver_error, ..FlowReport::default() };
-        assert!(note_on_solver(&flow(1.5), 1e-4).is_some_and(|note| note.contains("1.5e0")));
+        assert!(note_on_solver(&flow(1.5), 1e-4).is_some_and(|note| note.text.contains("1.5e0")));
         assert_eq!(note_on_solver(&flow(1e-4), 1e-4), None);
     }
 }

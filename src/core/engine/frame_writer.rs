@@ -266,6 +266,7 @@ impl FrameWriter<'_> {
             frames_per_second: (output.fps[0] as i32, output.fps[1]),
             seed: *seed,
             passes: passes as u32,
+            is_finished: passes >= self.planned,
             camera: self.camera,
             settings,
         }

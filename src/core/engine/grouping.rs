@@ -6,10 +6,11 @@ use glam::{DVec3, Vec2, Vec3};
 use serde::Serialize;
 
 use crate::flow::flux;
+use crate::note::About;
 use crate::photon::Photons;
 use crate::project::{CausticDesc, Project, unknown_name};
 use crate::scene::Scene;
-use crate::{Error, Result};
+use crate::{Error, Note, Result};
 
 /// The groups of a project: its named caustics in their order, then the rest. One group where none is named.
 #[derive(Clone)]
@@ -158,26 +159,35 @@ fn of_mesh(caustic: &CausticDesc, mesh: &str) -> bool {
 }
 
 /// Notes on names that several lights or meshes of a scene share.
-pub(super) fn notes_on_names(scene: &Scene) -> Vec<String> {
-    let lights = scene.lights().iter().map(|light| light.name()).collect::<Vec<_>>();
-    let meshes = scene.meshes().iter().map(|mesh| mesh.name.as_str()).collect::<Vec<_>>();
-    let mut notes = Vec::new();
-    for (kind, names) in [("lights", lights), ("meshes", meshes)] {
-        let mut count = BTreeMap::<&str, usize>::new();
-        names.iter().for_each(|name| *count.entry(name).or_default() += 1);
-        let twice = count.into_iter().filter(|(_, count)| *count > 1);
-        notes.extend(twice.map(|(name, count)| {
-            format!("{count} {kind} are called '{name}' and count as one; give each its own name to tell their caustics apart")
-        }));
-    }
+pub(super) fn notes_on_names(scene: &Scene) -> Vec<Note> {
+    let lights = scene.lights().iter().enumerate().map(|(i, light)| (light.name(), About::Light(i)));
+    let meshes = scene.meshes().iter().map(|mesh| (mesh.name.as_str(), About::Mesh(mesh.desc)));
+    let mut notes = notes_on_twins("lights", lights);
+    notes.extend(notes_on_twins("meshes", meshes));
     notes
 }
 
+fn notes_on_twins<'a>(kind: &str, named: impl Iterator<Item = (&'a str, About)>) -> Vec<Note> {
+    let mut by_name = BTreeMap::<&str, Vec<About>>::new();
+    named.for_each(|(name, about)| by_name.entry(name).or_default().push(about));
+    let twice = by_name.into_iter().filter(|(_, all)| all.len() > 1);
+    let note = |(name, mut all): (&str, Vec<About>)| {
+        let text = format!(
+            "{} {kind} are called '{name}' and count as one; give each its own name to tell their caustics apart",
+            all.len()
+        );
+        all.swap_remove(0).note(text)
+    };
+    twice.map(note).collect()
+}
+
 /// Notes on named caustics without a photon.
-pub(super) fn notes_on_dark(caustics: &[CausticFlux]) -> Vec<String> {
+pub(super) fn notes_on_dark(caustics: &[CausticFlux]) -> Vec<Note> {
     let dark = caustics.iter().filter(|caustic| caustic.photons == 0);
     let note = |name: &String| {
-        format!("caustic '{name}' has no photons: none of its light falls on the receiver by way of its mesh")
+        About::Caustic(name.clone()).note(format!(
+            "caustic '{name}' has no photons: none of its light falls on the receiver by way of its mesh"
+        ))
     };
     dark.filter_map(|caustic| caustic.name.as_ref()).map(note).collect()
 }

@@ -11,11 +11,12 @@ use super::key_photons::{GroupLight, KeyPhotons, PassLight, colours};
 use super::memo::{FileStamp, Same};
 use crate::flow::flux;
 use crate::matching::MatchingMethod;
+use crate::note::About;
 use crate::photon::Photons;
 use crate::project::{AssetFolder, Project, Shows};
 use crate::scene::Scene;
 use crate::targets::{PictureSampler, Points, load_points};
-use crate::{Error, Progress, Result};
+use crate::{Error, Note, Progress, Result};
 
 /// The source of a group's light at a key frame.
 pub(super) enum KeySource {
@@ -41,7 +42,7 @@ pub(super) struct KeySources {
     gains: Vec<Vec<Vec3>>,
     grouping: Grouping,
     traces: bool,
-    notes: Vec<String>,
+    notes: Vec<Note>,
     seed: u64,
     rho: f32,
     watts: f32,
@@ -58,23 +59,24 @@ impl KeySources {
     pub(super) fn load(project: &Project, scene: Option<&Scene>, open: &OpenSource<'_>) -> Result<Self> {
         let grouping = Grouping::resolve(project, scene)?;
         let mut notes = Vec::new();
-        let mut open = |shows: &Shows, place: String, slot: usize| -> Result<Arc<KeySource>> {
-            let source = open(shows, &place, slot)?;
-            if let KeySource::Picture(picture) = &*source {
-                notes.extend(picture.notes().iter().cloned());
-            }
-            Ok(source)
-        };
+        let mut open =
+            |shows: &Shows, place: String, (key, slot): (usize, usize)| -> Result<Arc<KeySource>> {
+                let source = open(shows, &place, slot)?;
+                if let KeySource::Picture(picture) = &*source {
+                    notes.extend(About::Key(key).notes(picture.notes().iter().cloned()));
+                }
+                Ok(source)
+            };
         let mut shown = Vec::new();
         let slots = grouping.count() + 1;
         for (i, key) in project.keys.iter().enumerate() {
-            let shared = open(&key.shows, format!("keys[{i}].shows"), i * slots)?;
+            let shared = open(&key.shows, format!("keys[{i}].shows"), (i, i * slots))?;
             let mut groups = vec![shared; grouping.count()];
             for (group, of_group) in groups.iter_mut().enumerate() {
                 let own = grouping.name(group).and_then(|name| Some((name, key.caustics.get(name)?)));
                 if let Some((name, Some(shows))) = own.map(|(name, own)| (name, &own.shows)) {
                     let place = format!("keys[{i}].caustics.{name}.shows");
-                    *of_group = open(shows, place, i * slots + 1 + group)?;
+                    *of_group = open(shows, place, (i, i * slots + 1 + group))?;
                 }
             }
             shown.push(groups);
@@ -94,7 +96,7 @@ impl KeySources {
     }
 
     /// Notes on the pictures, such as on pixels that are not finite.
-    pub(super) fn notes(&self) -> Vec<String> {
+    pub(super) fn notes(&self) -> Vec<Note> {
         self.notes.clone()
     }
 

@@ -15,10 +15,11 @@ use super::stages::Stages;
 use super::{Quality, active_constraints, grouping};
 use crate::export::caustic_layer_names;
 use crate::flow::{FlowSettings, GridSize};
+use crate::note::About;
 use crate::project::{Project, Shows};
 use crate::render::PlaneMaterial;
 use crate::scene::Scene;
-use crate::{Progress, Result};
+use crate::{Note, Progress, Result};
 
 /// A project whose files are open and whose work is planned.
 #[derive(Clone)]
@@ -31,7 +32,7 @@ pub(super) struct Prepared {
     pub(super) sources: KeySources,
     pub(super) times: FrameTimes,
     pub(super) plan: Plan,
-    pub(super) notes: Vec<String>,
+    pub(super) notes: Vec<Note>,
     /// Photons of one pass.
     pub(super) photons: usize,
     /// The files that meshes were read from, in the order of their names.
@@ -59,7 +60,7 @@ impl Stages {
             let slot = Slot { client, quality: Quality::Final, index };
             self.source(slot, (shows, place), extent, progress)
         };
-        let mut notes: Vec<String> = of_scene.iter().flat_map(|notes| &**notes).cloned().collect();
+        let mut notes: Vec<Note> = of_scene.iter().flat_map(|notes| &**notes).cloned().collect();
         let sources =
             KeySources::load(project, scene.as_deref(), &open).map_err(|error| error.with_notes(&notes))?;
         notes.extend(sources.notes());
@@ -67,7 +68,8 @@ impl Stages {
             let slot = Slot { client, quality: Quality::Final, index: 0 };
             let plate =
                 self.plate(slot, &project.render, progress).map_err(|error| error.with_notes(&notes))?;
-            notes.extend(plate.iter().flat_map(|plate| plate.notes.iter().cloned()));
+            let texts = plate.iter().flat_map(|plate| plate.notes.iter().cloned());
+            notes.extend(About::Setting("render.plate").notes(texts));
         }
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
         notes.extend(scene.iter().flat_map(|scene| scene_notes(scene, &project.render)));
@@ -149,26 +151,26 @@ impl Prepared {
 }
 
 /// A grid of long cells smooths more along them than across.
-fn stretch_note(grid: GridSize, extent: Vec2) -> Option<String> {
+fn stretch_note(grid: GridSize, extent: Vec2) -> Option<Note> {
     let [columns, rows] = grid.cells(extent).map(|n| n as f32);
     let [width, height] = [extent.x / columns, extent.y / rows];
     let stretch = width.max(height) / width.min(height);
     (stretch > 2.0).then(|| {
-        format!(
+        About::Setting(FlowSettings::GRID.place).note(format!(
             "flow.grid: its cells are stretched {stretch:.0} : 1, so the flow follows less detail that way"
-        )
+        ))
     })
 }
 
 /// Steps in which photons cross more than a cell of the noise do not follow its swirls.
-fn swirl_note(flow: &FlowSettings) -> Option<String> {
+fn swirl_note(flow: &FlowSettings) -> Option<Note> {
     let turbulence = flow.turbulence.as_ref()?;
     let finest = *turbulence.grids.iter().max()?;
     let needed = (turbulence.speed() * finest as f32).ceil();
     (needed > flow.steps as f32).then(|| {
-        format!(
+        About::Setting(FlowSettings::STEPS.place).note(format!(
             "flow.turbulence: in one step the photons cross {:.1} cells of the {finest} x {finest} noise; give flow.steps {needed} to follow its swirls",
             needed / flow.steps as f32
-        )
+        ))
     })
 }

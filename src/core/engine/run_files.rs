@@ -15,9 +15,10 @@ use super::meter::Meter;
 use super::output::Output;
 use super::prepare::Prepared;
 use super::summary::{Done, Summary};
-use crate::Result;
+use crate::note::About;
 use crate::render::frames::FrameStore;
 use crate::render::{ProgressiveRender, TextureLayout};
+use crate::{Note, Result};
 
 /// What a render keeps, and where its unfinished light is.
 pub(super) struct RunFiles {
@@ -29,7 +30,7 @@ pub(super) struct RunFiles {
     checkpoint: Option<Checkpoint>,
     /// The folder of a scratch file that goes with the process, where there is no checkpoint.
     scratch: PathBuf,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl RunFiles {
@@ -128,9 +129,9 @@ impl RunFiles {
         summary.kept = self.found.kept.len();
         summary.notes.extend(self.notes.iter().cloned());
         if before > 0 {
-            summary.notes.push(format!(
+            summary.notes.push(About::Project.note(format!(
                 "taken up after {before} passes of an earlier run; the figures of the energy are those of the passes since"
-            ));
+            )));
         }
     }
 

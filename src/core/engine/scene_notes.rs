@@ -1,20 +1,24 @@
 //! Notes on scenes in which something is as nobody means it.
 
+use crate::Note;
+use crate::note::About;
 use crate::render::{ReceiverView, RenderSettings, receiver_view};
 use crate::scene::light::LightRole;
 use crate::scene::{LightDesc, Mesh, Scene};
 
 /// Notes on a camera that sees no light, and on lamps around what they shall light.
-pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<String> {
-    let mut notes: Vec<String> = camera_note(scene, render).into_iter().collect();
-    let casts = |light: &&LightDesc| light.is_enabled() && light.role() != LightRole::Background;
-    let lamps = scene.lights().iter().filter(casts);
+pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<Note> {
+    let mut notes: Vec<Note> = camera_note(scene, render).into_iter().collect();
+    let casts = |light: &LightDesc| light.is_enabled() && light.role() != LightRole::Background;
+    let lamps = scene.lights().iter().enumerate().filter(|(_, light)| casts(light));
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
-    notes.extend(lamps.flat_map(|light| specular().filter_map(move |mesh| lamp_note(light, mesh))));
+    notes.extend(lamps.flat_map(|(i, light)| {
+        About::Light(i).notes(specular().filter_map(|mesh| lamp_note(light, mesh)).collect::<Vec<_>>())
+    }));
     notes
 }
 
-fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<String> {
+fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<Note> {
     let why = match receiver_view(scene, [render.width as usize, render.height as usize]) {
         ReceiverView::Seen => return None,
         ReceiverView::Back => {
@@ -31,7 +35,8 @@ fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<String> {
             format!("'{}' stands before it", scene.meshes()[usize::from(mesh)].name)
         }
     };
-    Some(format!("the camera sees nothing of the receiver, so every frame is without caustics: {why}"))
+    let text = format!("the camera sees nothing of the receiver, so every frame is without caustics: {why}");
+    Some(About::Camera.note(text))
 }
 
 /// A ball of light shines outward: what stands in it gets none of its light.

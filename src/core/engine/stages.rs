@@ -18,7 +18,7 @@ use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
 use crate::render::{Background, FirstHits, GatherMatrix, Plate, PlateSettings, RenderSettings};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
-use crate::{Progress, Result};
+use crate::{Note, Progress, Result};
 
 /// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
 pub(super) struct Stages {
@@ -49,7 +49,7 @@ type PlateInput = (PlateSettings, [usize; 2], FileStamp);
 type WithFiles<T> = (T, Arc<Vec<PathBuf>>);
 
 /// A result, and notes for the artist.
-pub(super) type Noted<T> = (Arc<T>, Arc<Vec<String>>);
+pub(super) type Noted<T> = (Arc<T>, Arc<Vec<Note>>);
 
 impl Stages {
     /// Stages that remember nothing and find files through `assets`.
@@ -145,6 +145,6 @@ impl Stages {
     }
 }
 
-fn noted<T>((result, notes): (T, Vec<String>)) -> Noted<T> {
+fn noted<T>((result, notes): (T, Vec<Note>)) -> Noted<T> {
     (Arc::new(result), Arc::new(notes))
 }

@@ -12,9 +12,11 @@ use super::meter::{Meter, StageCost};
 use super::plan::LeftOut;
 use super::prepare::Prepared;
 use super::segment_figures::SegmentContinuity;
+use crate::Note;
 use crate::constraint::Constraint;
 use crate::continuity::FIGURES;
 use crate::export::RepairedSamples;
+use crate::note::About;
 use crate::render::ClampedLight;
 
 /// The conservation of flux.
@@ -93,7 +95,7 @@ pub struct Summary {
     /// Parts that the project did not need.
     pub left_out: Vec<LeftOut>,
     /// Notes for the artist.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl BadValues {
@@ -132,7 +134,8 @@ impl Summary {
         let stages = meter.costs();
         let mut notes = prepared.notes.clone();
         notes.extend(notes_on_dark(&done.flow.caustics));
-        notes.extend(done.flow.idle_lights.iter().cloned());
+        let idle = done.flow.idle_lights.iter();
+        notes.extend(idle.map(|(light, text)| About::Light(*light).note(text)));
         notes.extend(flow.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         let tolerance = project.flow.tolerance.into();
         notes.extend(flow.iter().filter_map(|numbers| note_on_solver(&numbers.flow, tolerance)));

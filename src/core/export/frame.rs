@@ -33,6 +33,8 @@ pub struct Metadata {
     pub seed: u64,
     /// Passes in this frame.
     pub passes: u32,
+    /// Whether these are all; else it will be written again, and is compressed less and faster.
+    pub is_finished: bool,
     /// The camera; none where the plane is seen straight on.
     pub camera: Option<Camera>,
     /// Further names and values, such as settings; each name is prefixed with `lightloom:`.

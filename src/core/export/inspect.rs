@@ -149,6 +149,7 @@ mod tests {
             frames_per_second: (24, 1),
             seed: 7,
             passes: 5,
+            is_finished: false,
             camera: None,
             settings: settings.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec(),
         };

@@ -57,8 +57,8 @@ pub(super) fn complete(mut draft: Draft, path: &Path, progress: &Progress) -> Re
     let (geometry, more) = Geometry::load(&scene.meshes, &assets_of(path)?, progress)?;
     let mut notes = draft.notes;
     more.into_iter().for_each(|note| {
-        if !notes.contains(&note) {
-            notes.push(note);
+        if !notes.contains(&note.text) {
+            notes.push(note.text);
         }
     });
     let triangles = geometry.meshes().iter().map(|mesh| mesh.triangles as u64).sum();

@@ -19,7 +19,8 @@ impl Project {
     /// # Errors
     /// The first invalid value, by its path in the project.
     pub fn check(&self) -> Result<()> {
-        let reader = self.minimum_reader.unwrap_or(self.lightloom);
+        // A later file that names no reader can be looked at, and kept as it is.
+        let reader = self.minimum_reader.unwrap_or(VERSION);
         if self.lightloom < VERSION || reader > VERSION {
             let what = format!(
                 "the file is of version {} and needs a program that reads version {reader}, this one reads up to \

@@ -27,13 +27,12 @@ impl Project {
 /// See [`Project::parse`].
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     let text = text(bytes, path)?;
+    if let Some(newer) = Newer::of(text) {
+        newer.check_sufficient(path)?;
+        return newer.known_part(text, path).map(|(project, _)| project);
+    }
     let mut json = serde_json::Deserializer::from_str(text);
     let read: Result<Project, _> = serde_path_to_error::deserialize(&mut json);
-    if let (Err(_), Some(newer)) = (&read, Newer::of(text)) {
-        newer.check(path)?;
-        // It says itself that the rest is enough.
-        return known_part(text, path).map(|(project, _)| project);
-    }
     let project = read.map_err(|error| {
         let field = error.path().to_string();
         let inner = error.into_inner();
@@ -47,10 +46,14 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
     Ok(project)
 }
 
-/// As [`parse`], but unknown fields are skipped; their paths are returned with the project.
+/// As [`parse`], but unknown fields are skipped; their paths are returned with the project. A file of a later version is read
+/// as far as this program knows it.
 pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Vec<String>)> {
+    if let Some(newer) = Newer::of(text(bytes, path)?) {
+        newer.check_readable(path)?;
+        return newer.known_part(text(bytes, path)?, path);
+    }
     let strict = match parse(bytes, path) {
-        Ok(project) if project.newer().is_some() => return known_part(text(bytes, path)?, path),
         Ok(project) => return Ok((project, Vec::new())),
         Err(error) => error,
     };
@@ -87,17 +90,43 @@ impl Newer {
         serde_json::from_str::<Self>(text).ok().filter(|newer| newer.lightloom > VERSION.into())
     }
 
-    fn check(&self, path: &Path) -> Result<()> {
-        let reader = self.minimum_reader.unwrap_or(self.lightloom);
-        if reader <= VERSION.into() {
-            return Ok(());
+    /// Refuses a file that asks for a later reader.
+    fn check_readable(&self, path: &Path) -> Result<()> {
+        match self.minimum_reader {
+            Some(reader) if reader > VERSION.into() => Err(self.refused(path, reader)),
+            _ => Ok(()),
         }
+    }
+
+    /// Refuses a file that does not say itself that what this program knows is enough: a picture of it may be wrong.
+    fn check_sufficient(&self, path: &Path) -> Result<()> {
+        match self.minimum_reader.unwrap_or(self.lightloom) {
+            reader if reader > VERSION.into() => Err(self.refused(path, reader)),
+            _ => Ok(()),
+        }
+    }
+
+    fn refused(&self, path: &Path, reader: u64) -> Error {
+        let look = if self.minimum_reader.is_none() { "; the editor opens it read-only" } else { "" };
         let what = format!(
             "the file is of version {} and needs a program that reads version {reader}, this one reads up to {VERSION}; use a \
-             newer Lightloom",
+             newer Lightloom{look}",
             self.lightloom
         );
-        Err(Error::format(path, "lightloom", what))
+        Error::format(path, "lightloom", what)
+    }
+
+    /// See [`known_part`]; what is no longer as this program knows it is told to be newer.
+    fn known_part(&self, text: &str, path: &Path) -> Result<(Project, Vec<String>)> {
+        known_part(text, path).map_err(|error| match error {
+            Error::Format { path, place, what } => {
+                let version = self.lightloom;
+                let what =
+                    format!("{what}; the file is of version {version}, later than this program's {VERSION}");
+                Error::Format { path, place, what }
+            }
+            other => other,
+        })
     }
 }
 

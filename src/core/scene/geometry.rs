@@ -11,7 +11,8 @@ use super::media::Media;
 use super::mesh::{self, MeshDesc};
 use super::object::Mesh;
 use super::surface::{Hit, Primitive, Ray, SurfaceId};
-use crate::{Progress, Result};
+use crate::note::About;
+use crate::{Note, Progress, Result};
 
 /// All meshes of a scene with their acceleration structure; independent of lights, camera and receiver.
 pub struct Geometry {
@@ -30,7 +31,7 @@ impl Geometry {
         descs: &[MeshDesc],
         assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
         progress: &Progress,
-    ) -> Result<(Self, Vec<String>)> {
+    ) -> Result<(Self, Vec<Note>)> {
         let mut notes = Vec::new();
         match Self::read(descs, assets, &mut notes, progress) {
             Ok(geometry) => Ok((geometry, notes)),
@@ -41,7 +42,7 @@ impl Geometry {
     fn read(
         descs: &[MeshDesc],
         assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
-        notes: &mut Vec<String>,
+        notes: &mut Vec<Note>,
         progress: &Progress,
     ) -> Result<Self> {
         let mut meshes = Vec::new();
@@ -50,7 +51,10 @@ impl Geometry {
         let mut files = mesh::GltfFiles::default();
         for (index, mesh_desc) in descs.iter().enumerate().filter(|(_, desc)| desc.enabled) {
             let place = format!("scene.meshes[{index}]");
-            for part in mesh::load(mesh_desc, &place, assets, &mut files, notes, progress)? {
+            let mut of_mesh = Vec::new();
+            let parts = mesh::load(mesh_desc, &place, assets, &mut files, &mut of_mesh, progress);
+            notes.extend(About::Mesh(index).notes(of_mesh));
+            for part in parts? {
                 let number = meshes.len() as u16;
                 shells.extend(part.shells.iter().map(|shell| next_shell + shell));
                 next_shell += part.shells.iter().max().map_or(0, |last| last + 1);

@@ -8,7 +8,8 @@ use super::contact::OnReceiver;
 use super::geometry::Geometry;
 use super::object::Mesh;
 use super::{Scene, SceneDesc};
-use crate::{Progress, Result};
+use crate::note::About;
+use crate::{Note, Progress, Result};
 
 impl Scene {
     /// Loads, checks and indexes a scene; with notes for the artist on what was cleaned up, guessed or looks wrong.
@@ -20,7 +21,7 @@ impl Scene {
     pub fn load(
         desc: &SceneDesc,
         assets: &dyn Fn(&str, &str) -> Result<PathBuf>,
-    ) -> Result<(Self, Vec<String>)> {
+    ) -> Result<(Self, Vec<Note>)> {
         desc.check("scene")?;
         let (geometry, mut notes) = Geometry::load(&desc.meshes, assets, &Progress::new())?;
         let (scene, more) = Self::with_geometry(desc, Arc::new(geometry))?;
@@ -32,11 +33,11 @@ impl Scene {
     ///
     /// # Errors
     /// `Value` names the first value that cannot be used.
-    pub fn with_geometry(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<String>)> {
+    pub fn with_geometry(desc: &SceneDesc, geometry: Arc<Geometry>) -> Result<(Self, Vec<Note>)> {
         desc.check("scene")?;
         let receiver = desc.receiver.resolve("scene.receiver")?;
         let size = receiver.metres_per_plane_unit();
-        let mut notes: Vec<String> =
+        let mut notes: Vec<Note> =
             geometry.meshes().iter().filter_map(|mesh| size_hint(mesh, size)).collect();
         let (on_receiver, of_contact) = OnReceiver::new(&geometry, &receiver);
         notes.extend(of_contact);
@@ -76,15 +77,15 @@ const USUAL: std::ops::Range<f32> = 5e-3..20.0;
 const USUAL_MATT: std::ops::Range<f32> = 1e-3..1e3;
 
 /// The note on a mesh far smaller or larger than the receiver: most likely in other units.
-fn size_hint(mesh: &Mesh, receiver: f32) -> Option<String> {
+fn size_hint(mesh: &Mesh, receiver: f32) -> Option<Note> {
     let size = (mesh.upper - mesh.lower).max_element();
     let factor = size / receiver;
     let usual = if mesh.material.is_specular() { USUAL } else { USUAL_MATT };
     (!usual.contains(&factor)).then(|| {
-        format!(
+        About::Mesh(mesh.desc).note(format!(
             "{}: is {size:.3e} m wide, {factor:.1e} times the receiver; is the file in other units? \
              Set transform.scale (0.001 for millimetres, 0.01 for centimetres, 0.0254 for inches)",
             mesh.name
-        )
+        ))
     })
 }

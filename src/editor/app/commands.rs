@@ -60,6 +60,7 @@ impl App {
             Command::Shortcuts => self.windows.shortcuts.open = !self.windows.shortcuts.open,
             Command::Preferences => self.windows.preferences = !self.windows.preferences,
             Command::Tour => self.windows.tour.begin(document.project()),
+            Command::SaveReport => return self.ask_where_to_report(ctx),
             Command::Larger => *scale = preferences::stepped(*scale, 1),
             Command::Smaller => *scale = preferences::stepped(*scale, -1),
             Command::NormalSize => *scale = 1.0,

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
 use eframe::egui;
 use lightloom_core::project::{Project, ProjectFile, moved};
@@ -10,6 +11,7 @@ use super::App;
 use super::file_state::{Leave, Opening, PendingQuestion};
 use crate::editor::dialogs::{self, PickRequest, Purpose, Question};
 use crate::editor::document::Document;
+use crate::editor::export::interrupted;
 use crate::editor::menu::ago;
 use crate::editor::store::{
     Backup, Fingerprint, Hold, Journal, Origin, Recovery, SaveRequest, Saved, Saver, StoreReply, StoreRequest,
@@ -19,6 +21,7 @@ use crate::editor::templates::{self, TEMPLATES};
 impl App {
     /// Handles the replies of threads, file dialogs and questions.
     pub(super) fn receive(&mut self, ctx: &egui::Context) {
+        self.look_again(ctx);
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
         }
@@ -54,6 +57,18 @@ impl App {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.leave(ctx, Leave::Quit);
         }
+    }
+
+    /// Looks once more for what an earlier run left. What is found already is held, and not found again.
+    fn look_again(&mut self, ctx: &egui::Context) {
+        let Some((at, exports)) = self.looks_again.take() else { return };
+        let left = at.saturating_duration_since(Instant::now());
+        if !left.is_zero() {
+            self.looks_again = Some((at, exports));
+            return ctx.request_repaint_after(left);
+        }
+        self.files.request(StoreRequest::LookForLost);
+        self.interrupted.extend(exports.iter().flat_map(|exports| interrupted(exports)));
     }
 
     fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {
@@ -99,8 +114,15 @@ impl App {
             StoreReply::ChangedMeanwhile(path, seen) => self.changed_meanwhile(path, seen),
             StoreReply::Outside(_, files) => self.ask_outside(files),
             StoreReply::Located(path, outside) => self.located(&path, outside),
-            StoreReply::Lost(lost) => self.files.lost = lost,
+            StoreReply::Lost(lost) => self.files.lost.extend(lost),
             StoreReply::Failed(why) => self.editor.status = why,
+            StoreReply::Fault(words) => {
+                (self.files.after_save, self.files.opening) = (None, None);
+                let text = format!(
+                    "A fault of the program: {words}. What was being read or written then was not; the work is unharmed, try again."
+                );
+                self.show_message("A file was not read or written".into(), text);
+            }
         }
     }
 
@@ -178,6 +200,7 @@ impl App {
         match leave {
             Leave::Quit => {
                 self.files.closing = true;
+                self.device.close();
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Leave::Open(path) => self.request(StoreRequest::Open(path)),
@@ -345,6 +368,7 @@ impl App {
             Err(error) => return self.show_message("The project cannot be saved".into(), error.to_string()),
         };
         let project = frames_named_after(document.project(), document.path(), &file, &path);
+        tracing::info!("saves '{}'", path.display());
         let origin = Some(self.origin());
         self.request(StoreRequest::Save(SaveRequest { path, file, project, origin, seen }));
     }
@@ -364,12 +388,14 @@ impl App {
             Purpose::ExportFolder => self.windows.export.set_folder(path),
             Purpose::Frames => self.windows.player.play(ctx, &path),
             Purpose::Import => self.dropped(ctx, path),
+            Purpose::SaveReport => self.save_report(&path),
             Purpose::Asset(pick) => self.locate(pick, path),
         }
     }
 
     /// Shows a message window.
     pub(super) fn show_message(&mut self, title: String, text: String) {
+        tracing::warn!("{title}: {text}");
         self.files.ask(Question::Message { title, text }, PendingQuestion::Nothing);
     }
 }

@@ -10,18 +10,20 @@ mod layout;
 mod open_windows;
 mod outside;
 mod recents;
+mod report;
 mod task;
 mod windows;
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui;
 use lightloom_core::import::Import;
 use lightloom_core::project::Collection;
 
 use super::action::Action;
+use super::device::{self, Device};
 use super::dialogs::{Dialogs, Picker, is_on_top};
 use super::document::Document;
 use super::engine::SharedEngine;
@@ -41,6 +43,10 @@ use open_windows::Windows;
 use recents::Recents;
 use task::Task;
 
+/// When it is looked once more for what an earlier run left: one that was killed just before still holds it while the system
+/// clears it away.
+const LOOKS_AGAIN: Duration = Duration::from_secs(4);
+
 /// The window: the editor's state with its views, windows and files.
 pub struct App {
     editor: EditorState,
@@ -51,6 +57,8 @@ pub struct App {
     exports: Exports,
     /// Exports that an earlier run left, not yet offered.
     interrupted: Vec<InterruptedExport>,
+    /// When it is looked once more for what an earlier run left, and where its exports are.
+    looks_again: Option<(Instant, Option<PathBuf>)>,
     picker: Picker,
     windows: Windows,
     recents: Recents,
@@ -63,8 +71,12 @@ pub struct App {
     details: Option<Details>,
     preferences: Preferences,
     keeps_preferences: bool,
-    /// The graphics device.
+    /// The graphics device, and its name.
     gpu: Gpu,
+    graphics: String,
+    device: Arc<Device>,
+    /// The last message of the status bar that is in the log.
+    logged: String,
     /// Actions asked for by [`App::ask`].
     asked: Vec<Action>,
 }
@@ -96,6 +108,10 @@ pub struct Setup {
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
     pub gpu: Gpu,
+    /// Name, kind and driver of the graphics card; for people.
+    pub graphics: String,
+    /// Whether the card is still there.
+    pub device: Arc<Device>,
 }
 
 impl App {
@@ -118,6 +134,7 @@ impl App {
             views: Views::default(),
             exports: Exports::new(engine, wake()).with_records(records.clone()),
             interrupted: records.as_deref().map(interrupted).unwrap_or_default(),
+            looks_again: Some((Instant::now() + LOOKS_AGAIN, records)),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),
@@ -128,6 +145,9 @@ impl App {
             preferences: setup.preferences,
             keeps_preferences: setup.keeps_preferences,
             gpu: setup.gpu,
+            graphics: setup.graphics,
+            device: setup.device,
+            logged: String::new(),
             asked: Vec::new(),
         };
         app.editor.session.snapping = app.preferences.snapping;
@@ -168,6 +188,12 @@ impl App {
     /// One frame of the window.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
+        if self.device.is_lost() {
+            // What is on its way to the disk gets there; the next window offers it.
+            self.exports = Exports::new(SharedEngine::default(), || ());
+            (self.files.journal, self.files.saver) = (None, None);
+            device::start_anew(self.editor.document.path());
+        }
         let asking = self.picker.is_waiting();
         self.receive(&ctx);
         self.direct_keys(&ctx, asking);
@@ -196,6 +222,7 @@ impl App {
         }
         self.autosave(&ctx);
         self.follow();
+        self.log_status();
         self.direct_keys(&ctx, asking);
     }
 

@@ -8,6 +8,8 @@ use std::time::Duration;
 use eframe::egui;
 use lightloom_core::{Error, Progress, Result};
 
+use crate::editor::guard::Guard;
+
 /// How often the window looks whether the work is done.
 const LOOK: Duration = Duration::from_millis(30);
 
@@ -35,8 +37,12 @@ impl<T: Send + 'static> Task<T> {
         let (sender, result) = channel();
         let progress = Progress::new();
         let theirs = progress.clone();
-        // The window may have given it up.
-        let run = move || drop(sender.send(work(&theirs)));
+        let (path, guard) = (file.to_owned(), Guard::new(doing));
+        let run = move || {
+            let fault = |words| Err(Error::format(&path, "", format!("a fault of the program: {words}")));
+            // The window may have given it up.
+            let _ = sender.send(guard.run(|| work(&theirs)).unwrap_or_else(fault));
+        };
         let thread = std::thread::Builder::new().name(doing.to_lowercase()).spawn(run)?;
         Ok(Self { file: file.to_owned(), doing, result, progress, thread: Some(thread) })
     }
@@ -49,10 +55,7 @@ impl<T: Send + 'static> Task<T> {
                 ctx.request_repaint_after(LOOK);
                 None
             }
-            // The thread ended without an answer: it panicked.
-            Err(TryRecvError::Disconnected) => {
-                Some(Err(Error::format(&self.file, "", "could not be done: a fault of the program")))
-            }
+            Err(TryRecvError::Disconnected) => Some(Err(Error::Cancelled)),
         }
     }
 }
@@ -97,5 +100,29 @@ impl Doing<'_> {
         } else if ui.button("Cancel").on_hover_text("Stops, and leaves everything as it was.").clicked() {
             self.progress.cancel();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::editor::guard;
+
+    #[test]
+    fn a_panic_is_told_and_the_next_work_is_done() {
+        let ctx = egui::Context::default();
+        let start = |name| Task::start(name, Path::new("a.obj"), |_| Ok(7)).unwrap();
+        let result = |task: Task<i32>| {
+            loop {
+                match task.result(&ctx) {
+                    Some(result) => break result,
+                    None => std::thread::yield_now(),
+                }
+            }
+        };
+        let failed = result(guard::planted("Reading", || start("Reading"))).unwrap_err();
+        assert!(failed.to_string().contains("a.obj': a fault of the program: a planted panic"), "{failed}");
+        assert_eq!(result(start("Reading")).unwrap(), 7);
     }
 }

@@ -28,6 +28,8 @@ pub enum Purpose {
     CollectFolder,
     /// A picture of a rendered sequence to play.
     Frames,
+    /// Where to save the report that a user sends.
+    SaveReport,
     /// A file for the project to use.
     Asset(AssetUse),
 }
@@ -110,6 +112,7 @@ impl Purpose {
             Self::Import => "Import a scene or a picture",
             Self::CollectFolder => "Folder for the project and all its files",
             Self::Frames => "Choose a rendered frame",
+            Self::SaveReport => "Save the report",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
             Self::Asset(AssetUse::Plate) => "Choose a background plate",
@@ -124,16 +127,20 @@ impl Purpose {
             Self::ExportFolder | Self::CollectFolder => ("Folders", &[]),
             Self::Import => ("Scenes and pictures", IMPORTED),
             Self::Frames => ("Pictures", &["png", "jpg", "jpeg"]),
+            Self::SaveReport => ("Texts", &["txt"]),
             Self::Asset(pick) => pick.files(),
         }
     }
 
     pub(super) fn saves(&self) -> bool {
-        *self == Self::SaveProject
+        matches!(self, Self::SaveProject | Self::SaveReport)
     }
 }
 
-/// The path with the extension of projects where the user typed none.
+/// The path with the usual extension where the user typed none.
 pub(super) fn with_ending(purpose: &Purpose, path: PathBuf) -> PathBuf {
-    if purpose.saves() && path.extension().is_none() { path.with_extension("json") } else { path }
+    match purpose.files().1.first() {
+        Some(usual) if purpose.saves() && path.extension().is_none() => path.with_extension(usual),
+        _ => path,
+    }
 }

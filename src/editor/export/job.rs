@@ -1,6 +1,5 @@
 //! One export: a frozen project, rendered by the same code as `lightloom render`.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,6 +16,7 @@ use lightloom_core::{Error, Progress, Result};
 
 use crate::editor::access::Access;
 use crate::editor::engine::SharedEngine;
+use crate::editor::guard::Guard;
 
 /// Longest side of the growing picture, pixels.
 const PICTURE: usize = 480;
@@ -237,19 +237,21 @@ impl ExportJob {
     }
 
     /// Renders, and notes what came of it. A panic is a failure like another.
-    pub(super) fn run(&self, wake: &(dyn Fn() + Sync)) {
+    pub(super) fn run(&self, guard: &Guard, wake: &(dyn Fn() + Sync)) {
         if self.progress.is_abandoned() {
             return;
         }
+        tracing::info!("export into '{}' begins", self.settings.folder.display());
         self.state().status = Status::Running;
         let finished = AtomicBool::new(false);
         let done = thread::scope(|scope| {
             let ticker = scope.spawn(|| self.tick(&finished, wake));
-            let done = guarded(|| self.render());
+            let done = status_of(guard.run(|| self.render()));
             finished.store(true, Relaxed);
             ticker.thread().unpark();
             done
         });
+        tracing::info!("export into '{}': {done:?}", self.settings.folder.display());
         self.state().status = done;
         wake();
     }
@@ -319,13 +321,15 @@ impl RenderObserver for ExportJob {
 }
 
 /// What came of the work.
-fn guarded(work: impl FnOnce() -> Result<Summary>) -> Status {
-    match catch_unwind(AssertUnwindSafe(work)) {
+fn status_of(done: Result<Result<Summary>, String>) -> Status {
+    match done {
         Ok(Ok(summary)) => Status::Done(outcome(&summary)),
         Ok(Err(Error::Cancelled)) => Status::Cancelled,
         Ok(Err(Error::Value { place, what })) if place == OCCUPIED => Status::Occupied(what),
         Ok(Err(error)) => Status::Failed(error.to_string()),
-        Err(panic) => Status::Failed(format!("the export failed: {}", words(&*panic))),
+        Err(words) => Status::Failed(format!(
+            "a fault of the program: {words}; what is finished is kept, export again to go on from there"
+        )),
     }
 }
 
@@ -344,23 +348,5 @@ fn outcome(summary: &Summary) -> Outcome {
         passes: summary.passes,
         planned: summary.passes_planned,
         bad: summary.has_bad_frames(),
-    }
-}
-
-/// What a panic says.
-fn words(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "for an unknown reason".into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_panic_is_a_failure_with_its_words() {
-        let failed = guarded(|| panic!("index {} out of range", 7));
-        assert_eq!(failed, Status::Failed("the export failed: index 7 out of range".into()));
-        assert_eq!(guarded(|| Err(Error::Cancelled)), Status::Cancelled);
     }
 }

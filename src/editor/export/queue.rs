@@ -8,6 +8,7 @@ use std::thread::{self, JoinHandle};
 use super::job::{ExportJob, ExportSettings};
 use super::record::ExportRecord;
 use crate::editor::engine::SharedEngine;
+use crate::editor::guard::Guard;
 
 /// The exports of this session, oldest first.
 pub struct Exports {
@@ -26,9 +27,10 @@ impl Exports {
     /// An empty queue. `wake` is called from other threads whenever something may have changed.
     pub fn new(engine: SharedEngine, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let (queue, jobs) = channel::<Queued>();
+        let guard = Guard::new("exports");
         let work = move || {
             for (job, record) in jobs {
-                job.run(&wake);
+                job.run(&guard, &wake);
                 if let Some(record) = record.filter(|_| job.is_settled()) {
                     record.forget();
                 }
@@ -85,5 +87,52 @@ impl Drop for Exports {
             // It catches panics of its jobs; after any other there is nothing to undo.
             let _ = worker.join();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::path::Path;
+
+    use lightloom_core::engine::Existing;
+    use lightloom_core::project::Project;
+
+    use super::*;
+    use crate::editor::access::Access;
+    use crate::editor::export::{Status, interrupted};
+    use crate::editor::guard;
+
+    #[test]
+    fn an_export_that_panics_is_told_and_offered_again_and_the_next_one_is_rendered() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
+        let mut project = Project::load(&file).unwrap();
+        (project.render.width, project.render.height) = (32, 18);
+        (project.render.photons, project.render.passes) = (2000, 1);
+        project.keys[1].frame = 3;
+        let settings = |name: &str| ExportSettings {
+            project: Arc::new(project.clone()),
+            file: file.clone(),
+            access: Access::default(),
+            folder: folder.path().join(name),
+            film: None,
+            limit: None,
+            shown: 1,
+            existing: Existing::Refuse,
+        };
+        let records = folder.path().join("records");
+        let start = || Exports::new(SharedEngine::default(), || ()).with_records(Some(records.clone()));
+        let mut exports = guard::planted("exports", start);
+        let [failed, done] = ["failed", "done"].map(|name| exports.add(settings(name)));
+        while exports.is_busy() {
+            thread::yield_now();
+        }
+        assert!(matches!(failed.status(), Status::Failed(why) if why.contains("a planted panic")));
+        assert!(matches!(done.status(), Status::Done(outcome) if outcome.frames == 3), "{:?}", done.status());
+        drop(exports);
+        let offered = interrupted(&records);
+        assert_eq!(offered.len(), 1);
+        assert_eq!(offered[0].settings.folder, folder.path().join("failed"));
     }
 }

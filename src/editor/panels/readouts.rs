@@ -1,13 +1,17 @@
 //! Readouts: the numbers of the frame that is shown.
 
 use egui::{Color32, RichText, Ui};
+use lightloom_core::Note;
 use lightloom_core::continuity::{Continuity, FIGURES, Figure};
 use lightloom_core::engine::{Preview, Quality, SegmentContinuity};
 use lightloom_core::flow::FlowReport;
+use lightloom_core::note::About;
 use lightloom_core::setting::format::number;
 
+use super::control;
 use super::control::row::LABELS;
 use super::widgets::{fold, section};
+use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::theme;
 
@@ -159,9 +163,11 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     }
     if !preview.notes().is_empty() {
         section(ui, "Notes");
-        preview.notes().iter().for_each(|note| {
-            ui.label(note);
-        });
+        for note in preview.notes() {
+            if show_note(ui, note) {
+                editor.actions.push(Action::Show(note.about.clone()));
+            }
+        }
     }
     fold(ui, "Left out", |ui| {
         if preview.left_out().is_empty() {
@@ -172,6 +178,20 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
             ui.weak(left_out.why);
         }
     });
+}
+
+/// A note, as a link to what it is about; returns whether that is asked for.
+fn show_note(ui: &mut Ui, note: &Note) -> bool {
+    if note.about == About::Project {
+        ui.label(&note.text);
+        return false;
+    }
+    let text = RichText::new(&note.text).color(ui.visuals().text_color());
+    let clicked = ui.link(text).on_hover_text(format!("Show {}", note.about.place())).clicked();
+    if let (true, About::Setting(place)) = (clicked, &note.about) {
+        control::row::seek(ui, place);
+    }
+    clicked
 }
 
 /// How well the light of the segment of a frame holds together.

@@ -10,6 +10,7 @@ use image::RgbImage;
 use image::imageops::thumbnail;
 
 use super::Sequence;
+use crate::editor::guard::Guard;
 
 /// Bytes that all pictures of a sequence may take; larger ones are held smaller.
 const BUDGET: f64 = 768.0 * 1_048_576.0;
@@ -43,8 +44,8 @@ impl Loader {
             wanted: AtomicUsize::new(0),
             stopped: AtomicBool::new(false),
         });
-        let reader = shared.clone();
-        let thread = thread::Builder::new().name("player".into()).spawn(move || reader.read(&wake));
+        let (reader, guard) = (shared.clone(), Guard::new("player"));
+        let thread = thread::Builder::new().name("player".into()).spawn(move || reader.read(&guard, &wake));
         thread.map_err(|error| format!("the system starts no thread to read pictures: {error}"))?;
         Ok(Self { shared })
     }
@@ -73,10 +74,13 @@ impl Shared {
     }
 
     /// Reads until all are there, or nobody wants them.
-    fn read(&self, wake: &dyn Fn()) {
+    fn read(&self, guard: &Guard, wake: &dyn Fn()) {
         while let Some(index) = self.next().filter(|_| !self.stopped.load(Relaxed)) {
-            let picture = picture(&self.files[index], self.files.len()).map(Arc::new);
-            self.lock()[index] = Some(picture);
+            let file = &self.files[index];
+            let fault =
+                |words| Err(format!("'{}' cannot be shown: a fault of the program: {words}", file.display()));
+            let picture = guard.run(|| picture(file, self.files.len())).unwrap_or_else(fault);
+            self.lock()[index] = Some(picture.map(Arc::new));
             wake();
         }
     }
@@ -99,4 +103,29 @@ fn picture(file: &Path, count: usize) -> Result<ColorImage, String> {
         if scale < 1.0 { thumbnail(&read, side(read.width()), side(read.height())) } else { read };
     let size = [held.width() as usize, held.height() as usize];
     Ok(ColorImage::from_rgb(size, held.as_raw()))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::editor::guard;
+
+    #[test]
+    fn a_panic_costs_one_picture_and_the_others_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |number: i32| folder.path().join(format!("{number}.png"));
+        for number in 1..=3 {
+            RgbImage::from_pixel(4, 2, image::Rgb([9, 9, 9])).save(file(number)).unwrap();
+        }
+        let frames = (1..=3).map(|number| (number, file(number))).collect();
+        let sequence = Sequence { frames, frames_per_second: [24, 1] };
+        let loader = guard::planted("player", || Loader::start(&sequence, || ()).unwrap());
+        while loader.count() < 3 {
+            thread::yield_now();
+        }
+        let [first, second, third] = [0, 1, 2].map(|index| loader.get(index).unwrap());
+        assert!(first.unwrap_err().contains("1.png' cannot be shown: a fault of the program: a planted"));
+        assert!(second.is_ok() && third.is_ok());
+    }
 }

@@ -57,6 +57,11 @@ impl LampWorker {
         is_current.then_some(*light)
     }
 
+    /// Lets the next call ask, even if it is for the same.
+    pub(super) fn ask_anew(&mut self) {
+        self.asked = None;
+    }
+
     /// What a panic of the worker said, once.
     pub(super) fn panicked(&self) -> Option<String> {
         self.worker.panicked()

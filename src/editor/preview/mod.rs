@@ -68,6 +68,8 @@ pub struct LivePreview {
     last: Option<Arc<Preview>>,
     coverage: Coverage,
     problem: Option<String>,
+    /// What a panic said, until the next edit.
+    fault: Option<String>,
     activity: Option<Activity>,
 }
 
@@ -102,6 +104,7 @@ impl LivePreview {
             last: None,
             coverage: Coverage::default(),
             problem: None,
+            fault: None,
             activity: None,
         }
     }
@@ -126,6 +129,9 @@ impl LivePreview {
             self.last = self.preview().cloned();
             self.found = Found::default();
             self.subject = Some(subject.clone());
+            if self.fault.take().is_some() {
+                self.ask_anew();
+            }
             self.previews.ask(subject.clone(), self.frame);
             self.age(subject);
         }
@@ -148,6 +154,14 @@ impl LivePreview {
             self.compared = compared.is(&old).then(|| (subject.clone(), with));
         }
         self.requests.relocated(subject);
+    }
+
+    /// Lets all workers do again what one of them may not have done.
+    fn ask_anew(&mut self) {
+        self.requests = Requests::default();
+        self.lamps.ask_anew();
+        self.targets.ask_anew();
+        self.flow.ask_anew();
     }
 
     /// Works out the other side of the wipe.
@@ -187,10 +201,11 @@ impl LivePreview {
             self.other.panicked(),
             self.flow.panicked(),
             self.figures.panicked(),
+            self.targets.panicked(),
         ];
         if let Some(words) = self.previews.panicked().or_else(|| panics.into_iter().flatten().next()) {
-            self.problem = Some(format!(
-                "the preview failed ({words}); the project is unharmed, and the next edit tries again"
+            self.fault = Some(format!(
+                "a fault of the program in the preview: {words}; the project is unharmed, and the next edit tries again"
             ));
             self.coverage.fill(State::Failed);
         }
@@ -298,7 +313,7 @@ impl LivePreview {
 
     /// What is wrong with the project or its files.
     pub fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
+        self.fault.as_deref().or(self.problem.as_deref())
     }
 
     /// What the worker does now; none while it waits.
@@ -314,3 +329,6 @@ fn other(project: &Project, with: Comparison) -> Project {
         Comparison::NothingDrawn => Project { constraints: Vec::new(), ..project.clone() },
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -76,6 +76,16 @@ impl Targets {
         }
     }
 
+    /// Lets the next call ask, even if it is for the same.
+    pub(super) fn ask_anew(&mut self) {
+        self.asked = None;
+    }
+
+    /// What a panic of the thread said, once.
+    pub(super) fn panicked(&self) -> Option<String> {
+        self.worker.panicked()
+    }
+
     pub(super) fn found(&self) -> Option<TargetPicture> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,6 +1,5 @@
 //! A thread that does the newest thing it was asked for: a newer request makes the older one stop.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -8,6 +7,8 @@ use std::time::{Duration, Instant};
 use lightloom_core::Progress;
 use lightloom_core::progress::Snapshot;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::editor::guard::Guard;
 
 /// A thread with one slot for what it shall do next.
 pub struct Worker<Q> {
@@ -102,9 +103,10 @@ impl<Q: Send + 'static> Worker<Q> {
         let state = State { next: None, current: None, shielded: None, closed: false, panicked: None };
         let shared = Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new() });
         let theirs = shared.clone();
+        let guard = Guard::new(name);
         let thread = std::thread::Builder::new().name(name.to_owned()).spawn(move || {
             let _pool = share.pool();
-            while run(&theirs, &make) {
+            while run(&theirs, &guard, &make) {
                 wake();
             }
         });
@@ -143,20 +145,19 @@ impl<Q: Send + 'static> Worker<Q> {
 }
 
 /// Works until there is a panic (then true) or the end.
-fn run<Q, W: FnMut(Q, &Turn)>(shared: &Shared<Q>, make: &impl Fn() -> W) -> bool {
-    let worked = catch_unwind(AssertUnwindSafe(|| {
-        let mut work = make();
-        while let Some((request, progress)) = next(shared) {
-            let shield = |up: bool| shared.shield(up);
-            work(request, &Turn { progress, shield: &shield });
-            shared.state().current = None;
+fn run<Q, W: FnMut(Q, &Turn)>(shared: &Shared<Q>, guard: &Guard, make: &impl Fn() -> W) -> bool {
+    let mut work = make();
+    while let Some((request, progress)) = next(shared) {
+        let shield = |up: bool| shared.shield(up);
+        let worked = guard.run(|| work(request, &Turn { progress, shield: &shield }));
+        let mut state = shared.state();
+        (state.current, state.shielded) = (None, None);
+        if let Err(words) = worked {
+            state.panicked = Some(words);
+            return true;
         }
-    }));
-    let Err(panic) = worked else { return false };
-    let mut state = shared.state();
-    (state.current, state.shielded) = (None, None);
-    state.panicked = Some(what(&*panic));
-    true
+    }
+    false
 }
 
 /// Waits for the next request; none at the end.
@@ -173,12 +174,6 @@ fn next<Q>(shared: &Shared<Q>) -> Option<(Q, Progress)> {
         }
         state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
     }
-}
-
-/// The words of a panic.
-pub fn what(panic: &(dyn std::any::Any + Send)) -> String {
-    let words = panic.downcast_ref::<String>().map(String::as_str);
-    words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason was given").to_owned()
 }
 
 impl<Q> Drop for Worker<Q> {

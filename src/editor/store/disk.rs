@@ -30,7 +30,7 @@ impl Fingerprint {
 }
 
 /// Creates a folder and its parents, accessible to this user only; existing folders stay as they are.
-pub(super) fn make_private(folder: &Path) -> Result<()> {
+pub(crate) fn make_private(folder: &Path) -> Result<()> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
     #[cfg(unix)]

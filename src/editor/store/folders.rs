@@ -48,6 +48,11 @@ impl Folders {
         self.state.join("exports")
     }
 
+    /// Folder of the logs.
+    pub fn logs(&self) -> PathBuf {
+        self.state.join("logs")
+    }
+
     /// Folder of backups: the previous version of each saved file.
     pub fn backups(&self) -> PathBuf {
         self.state.join("backups")

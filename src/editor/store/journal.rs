@@ -12,6 +12,7 @@ use lightloom_core::{Error, Result};
 use super::record::Record;
 use super::slot::JournalSlot;
 use super::{Fingerprint, Recovery, disk};
+use crate::editor::guard::Guard;
 
 /// Delay in which changes are batched.
 const GATHER: Duration = Duration::from_millis(400);
@@ -63,7 +64,7 @@ impl Journal {
     fn run(folder: PathBuf, slot: Option<JournalSlot>) -> Self {
         let (messages, inbox) = channel();
         let problem = Problem::default();
-        let writer = Writer { folder, slot, problem: problem.clone() };
+        let writer = Writer { folder, slot, problem: problem.clone(), guard: Guard::new("journal") };
         let thread = std::thread::Builder::new().name("journal".into());
         let writer = match thread.spawn(move || writer.serve(&inbox)) {
             Ok(writer) => Some(writer),
@@ -130,6 +131,7 @@ struct Writer {
     folder: PathBuf,
     slot: Option<JournalSlot>,
     problem: Problem,
+    guard: Guard,
 }
 
 /// The newest change not written yet, and when it is due.
@@ -171,7 +173,9 @@ impl Writer {
 
     /// Writes a change; returns it for another attempt on failure.
     fn attempt(&mut self, pending: Pending) -> Option<Pending> {
-        let written = self.write(&pending);
+        let guard = self.guard.clone();
+        let written = guard.run(|| self.write(&pending).map_err(|error| error.to_string()));
+        let written = written.unwrap_or_else(|words| Err(format!("a fault of the program: {words}")));
         let failed = written.is_err();
         self.problem.set(
             written.err().map(|error| format!("changes are not kept for recovery: {error}; save often")),

@@ -28,6 +28,7 @@ pub use attached::Hold;
 pub use backups::Backup;
 pub use collect::{CollectRequest, collect};
 pub use disk::Fingerprint;
+pub(crate) use disk::make_private;
 pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
@@ -35,3 +36,6 @@ pub use recovery::{Recovery, recoverable};
 pub use save::{Origin, SaveRequest, Saved};
 pub use saver::{Opened, Saver, StoreReply, StoreRequest};
 pub use trust::trusted;
+
+#[cfg(test)]
+mod tests;

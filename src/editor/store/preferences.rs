@@ -77,6 +77,13 @@ impl Default for Preferences {
 }
 
 impl Preferences {
+    /// The preferences as JSON, without the names of recent files.
+    pub fn without_files(&self) -> String {
+        let told = Self { recent: Vec::new(), ..self.clone() };
+        // Plain values: serialisation has nothing to fail on.
+        serde_json::to_string_pretty(&told).unwrap_or_default()
+    }
+
     /// The preferences in the folder `config`, or the defaults; with a note if the file exists but cannot be used.
     pub fn load(config: &Path) -> (Self, Option<String>) {
         let path = file_in(config);

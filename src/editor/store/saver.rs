@@ -1,12 +1,11 @@
 //! The file thread: opens and saves, so that the window never waits for a disk.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use lightloom_core::project::{AssetFolder, Project, ProjectFile};
 use lightloom_core::{Error, Result, files};
@@ -15,9 +14,12 @@ use super::attached::{Attached, Hold, other_owner};
 use super::backups::{self, Backup};
 use super::save::{MOST_BYTES, Origin, SaveRequest, Saved, save};
 use super::{Fingerprint, Folders, Preferences, Recovery, recoverable, trust};
+use crate::editor::guard::Guard;
 
 /// How often the file of the open document is looked at.
 const TICK: Duration = Duration::from_secs(1);
+/// How long an editor that was killed may still hold its files while the system clears it away.
+const DYING: Duration = Duration::from_millis(1500);
 
 /// A request to the saver; replies come in the same order.
 #[derive(Debug)]
@@ -66,6 +68,8 @@ pub enum StoreReply {
     Lost(Vec<Recovery>),
     /// Another request failed, for this reason.
     Failed(String),
+    /// A fault of the program ended a request; what a panic said.
+    Fault(String),
 }
 
 /// A file that was read.
@@ -95,6 +99,7 @@ impl Saver {
     pub fn start(folders: Folders, wake: impl Fn() + Send + 'static) -> Result<Self> {
         let (requests, inbox) = channel::<StoreRequest>();
         let (outbox, answers) = channel();
+        let guard = Guard::new("saver");
         let serve = move || {
             let mut server = Server { folders, attached: None };
             loop {
@@ -103,13 +108,13 @@ impl Saver {
                     Err(RecvTimeoutError::Timeout) => None,
                     Err(RecvTimeoutError::Disconnected) => return,
                 };
-                let answer = catch_unwind(AssertUnwindSafe(|| match request {
+                let answer = guard.run(|| match request {
                     Some(request) => server.answer(request),
                     None => server.tick(),
-                }));
-                let failed =
-                    || Some(StoreReply::Failed("an internal error; the file may not be saved".into()));
-                let Some(answer) = answer.unwrap_or_else(|_| failed()) else { continue };
+                });
+                let Some(answer) = answer.unwrap_or_else(|words| Some(StoreReply::Fault(words))) else {
+                    continue;
+                };
                 if outbox.send(answer).is_err() {
                     // The window is gone; what it asked for is done all the same.
                     continue;
@@ -188,8 +193,15 @@ impl Server {
     }
 
     fn attach(&mut self, path: PathBuf, seen: Fingerprint) -> StoreReply {
-        let (attached, hold) = Attached::new(path.clone(), seen, self.attached.take());
-        self.attached = Some(attached);
+        let begun = Instant::now();
+        let hold = loop {
+            let (attached, hold) = Attached::new(path.clone(), seen, self.attached.take());
+            self.attached = Some(attached);
+            if matches!(hold, Hold::Here(_)) || begun.elapsed() > DYING {
+                break hold;
+            }
+            std::thread::sleep(DYING / 10);
+        };
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         StoreReply::Attached(path, hold, backups::of(&self.folders, &real))
     }

@@ -9,11 +9,12 @@ use std::thread;
 
 use egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use glam::{Vec2, Vec3};
-use lightloom_core::Result;
 use lightloom_core::project::Shows;
 use lightloom_core::targets::{PictureSampler, Points, load_points};
+use lightloom_core::{Error, Result};
 
 use crate::editor::access::Access;
+use crate::editor::guard::Guard;
 
 /// Pixels along the longer side.
 const SIDE: f32 = 96.0;
@@ -61,9 +62,12 @@ impl Default for Thumbnails {
     fn default() -> Self {
         let (orders, inbox) = channel::<Request>();
         let (outbox, results) = channel();
+        let guard = Guard::new("thumbnails");
         let work = move || {
             for request in inbox {
-                let made = picture(&request);
+                let fault =
+                    |words| Err(Error::value("thumbnail", format!("a fault of the program: {words}")));
+                let made = guard.run(|| picture(&request)).unwrap_or_else(fault);
                 if outbox.send((request, made)).is_err() {
                     return;
                 }
@@ -167,7 +171,30 @@ fn splat(points: &Points, extent: Vec2) -> ColorImage {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::editor::guard;
+
+    #[test]
+    fn a_panic_costs_one_thumbnail_and_the_others_are_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let (ctx, project) = (Context::default(), folder.path().join("a.json"));
+        std::fs::write(folder.path().join("points.csv"), "x,y\n0.5,0.5\n").unwrap();
+        let mut thumbnails = guard::planted("thumbnails", Thumbnails::default);
+        let shows: Shows = serde_json::from_str(r#"{ "points": { "file": "points.csv" } }"#).unwrap();
+        let mut of = |extent: Vec2| {
+            loop {
+                match thumbnails.of(&ctx, &shows, &project, &Access::default(), extent) {
+                    Thumbnail::Waiting => thread::yield_now(),
+                    made => break made,
+                }
+            }
+        };
+        let failed = of(Vec2::ONE);
+        assert!(matches!(&failed, Thumbnail::Failed(why) if why.contains("a planted panic")), "{failed:?}");
+        let made = of(Vec2::new(1.0, 0.5));
+        assert!(matches!(made, Thumbnail::Picture(_)), "{made:?}");
+    }
 
     #[test]
     fn light_stands_where_the_points_are_and_up_is_up() {

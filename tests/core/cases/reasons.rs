@@ -1,12 +1,14 @@
 //! Scenes that show nothing, or not what was meant: the reason is told.
 
 use glam::{Vec3, vec3};
+use lightloom_core::Error;
+use lightloom_core::note::About;
 use lightloom_core::scene::LightDesc;
 use lightloom_core::scene::light::{SphereLight, SpotLight};
 use lightloom_core::scene::material::{Diffuse, Material};
 
 use super::{check, lamp};
-use crate::scenes::{Stage, box_obj, glass, mirror, sphere_obj};
+use crate::scenes::{Stage, box_obj, glass, mirror, sphere_obj, texts};
 
 fn ball() -> Stage {
     let mut stage = Stage::new();
@@ -93,7 +95,7 @@ fn what_is_wrong_is_told() {
         let mut stage = ball();
         change(&mut stage);
         let told = match check(&stage) {
-            Ok(report) => format!("note\n{}", report.notes.join("\n")),
+            Ok(report) => format!("note\n{}", texts(&report.notes).join("\n")),
             Err(error) => format!("error\n{error}"),
         };
         if !words.iter().all(|word| told.contains(word)) {
@@ -104,13 +106,34 @@ fn what_is_wrong_is_told() {
 }
 
 #[test]
+fn what_is_told_is_about_something() {
+    type Row = (fn(&mut Stage), About);
+    let rows: [Row; 4] = [
+        (|s| s.desc.meshes[0].transform.scale = 1000.0, About::Mesh(0)),
+        (|s| s.desc.lights.push(around(0.5)), About::Light(1)),
+        (|s| s.desc.camera.look_at = [0.0, 9.0, 0.0], About::Camera),
+        (|s| s.desc.meshes.push(s.desc.meshes[0].clone()), About::Mesh(0)),
+    ];
+    for (row, (change, about)) in rows.into_iter().enumerate() {
+        let mut stage = ball();
+        change(&mut stage);
+        let notes = match check(&stage) {
+            Ok(report) => report.notes,
+            Err(Error::Noted { notes, .. }) => notes,
+            Err(error) => panic!("row {row}: {error}"),
+        };
+        assert!(notes.iter().any(|note| note.about == about), "row {row}: {notes:?}");
+    }
+}
+
+#[test]
 fn nothing_is_told_where_nothing_is_wrong() {
-    assert_eq!(check(&ball()).unwrap().notes, Vec::<String>::new());
+    assert_eq!(check(&ball()).unwrap().notes, Vec::new());
     // A receiver that is seen in a mirror alone.
     let mut stage = ball();
     stage.mesh("mirror", box_obj(vec3(-1.0, 0.0, -1.1), vec3(1.0, 2.0, -1.0)), mirror(0.9));
     (stage.desc.camera.position, stage.desc.camera.look_at) = ([0.0, 0.8, -0.6], [0.0, 0.7, -2.0]);
-    assert_eq!(check(&stage).unwrap().notes, Vec::<String>::new());
+    assert_eq!(check(&stage).unwrap().notes, Vec::new());
 }
 
 #[test]

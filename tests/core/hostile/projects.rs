@@ -7,6 +7,7 @@ use lightloom_core::project::{AssetFolder, Project, ProjectFile};
 use serde_json::{Value, json};
 
 use super::{Row, told};
+use crate::scenes::texts;
 
 /// A project of two keys of points.
 pub(crate) fn good() -> Value {
@@ -45,7 +46,7 @@ fn check(bytes: &[u8]) -> Result<Vec<String>, String> {
 
 fn checked(path: &Path) -> lightloom_core::Result<Vec<String>> {
     let project = Project::load(path)?;
-    Ok(Engine::new(AssetFolder::new(path, false)?).check(&project)?.notes)
+    Ok(texts(&Engine::new(AssetFolder::new(path, false)?).check(&project)?.notes))
 }
 
 /// The good project with another value at a place.

@@ -14,8 +14,8 @@ const OVERLAP: f32 = 1e-5;
 /// A wall's own ends meet its other parts only from this many clearances along it; nearer parts are just its bend.
 const OWN_BEND: f32 = 8.0;
 
-/// The closing_edges, and messages about them.
-pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<String>) {
+/// The closing edges, and messages about them, each with the number of a wall.
+pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<(usize, String)>) {
     let mut closing_edges = Vec::new();
     let mut notes = Vec::new();
     let coarse: Vec<Vec<Vec2>> =
@@ -32,16 +32,19 @@ pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 
                 .collect();
             if !close.is_empty() {
                 let (i, j) = (i.min(j), i.max(j));
-                notes.push(format!("walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"));
+                let text = format!(
+                    "walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"
+                );
+                notes.push((i, text));
             }
             closing_edges.extend(close);
         }
         closing_edges.extend(own_gaps(wall));
         let outward = border_pieces(wall, extent);
         if outward.len() == 2 {
-            notes.push(format!(
-                "wall {i} (in their order) reaches the border at both ends: no way leads around it"
-            ));
+            let text =
+                format!("wall {i} (in their order) reaches the border at both ends: no way leads around it");
+            notes.push((i, text));
         }
         closing_edges.extend(outward);
     }

@@ -20,7 +20,7 @@ use lookup::Lookup;
 pub struct Barriers {
     edges: Vec<Edge>,
     lookup: Lookup,
-    notes: Vec<String>,
+    notes: Vec<(usize, String)>,
 }
 
 /// The first contact of a move with a wall.
@@ -52,8 +52,8 @@ impl Barriers {
         gap_closing::closed_gaps(walls)
     }
 
-    /// Messages to the artist about gaps that were closed.
-    pub fn notes(&self) -> &[String] {
+    /// Messages to the artist about gaps that were closed, each with the number of a wall.
+    pub fn notes(&self) -> &[(usize, String)] {
         &self.notes
     }
 

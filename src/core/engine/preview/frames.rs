@@ -16,7 +16,7 @@ use crate::engine::meter::StageCost;
 use crate::engine::plan::LeftOut;
 use crate::flow::{SegmentFlow, flux};
 use crate::project::SegmentTime;
-use crate::{Progress, Result};
+use crate::{Note, Progress, Result};
 
 /// Photons at the frames of a project, from the first key to the last, and the fields that moved them. It never changes: while work
 /// goes on, new ones with more frames are handed out, which share what they have in common.
@@ -34,7 +34,7 @@ pub struct Preview {
     pub(super) ends: Vec<Option<Ends>>,
     pub(super) numbers: Option<FlowNumbers>,
     pub(super) stages: Vec<StageCost>,
-    pub(super) notes: Vec<String>,
+    pub(super) notes: Vec<Note>,
 }
 
 /// The key frames of a preview, known before anything flows.
@@ -253,7 +253,7 @@ impl Preview {
     }
 
     /// Notes for the artist.
-    pub fn notes(&self) -> &[String] {
+    pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 

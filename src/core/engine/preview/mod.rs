@@ -24,8 +24,10 @@ use super::prepare::Prepared;
 use super::quality::Quality;
 use super::segment_photons::SegmentPhotons;
 use super::walk::{MapsFrom, Walk};
+use crate::note::About;
 use crate::project::{OutputSettings, Project};
-use crate::{Progress, Result};
+use crate::render::RenderSettings;
+use crate::{Note, Progress, Result};
 use frames::{KeyLight, Keys};
 use growing::Growing;
 
@@ -73,15 +75,15 @@ impl Engine {
 }
 
 /// A prepared project limited to a quality, and a note where memory allows fewer photons.
-fn at_quality(whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<String>)> {
+fn at_quality(whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<Note>)> {
     let project = quality.apply(&whole.project);
     let wanted = quality.photons_of(&project);
     let frames = whole.plan.frames.max(1);
     let kept = (MOST_POSITIONS / frames).clamp(1, wanted);
     let note = (kept < wanted).then(|| {
-        format!(
+        About::Setting(RenderSettings::PHOTONS.place).note(format!(
             "preview: {kept} photons in place of {wanted}, so that {frames} frames fit into memory; what is rendered keeps its photons"
-        )
+        ))
     });
     let limited = whole.limited(quality, kept)?;
     Ok((Prepared { project, ..limited }, note))
@@ -175,7 +177,7 @@ fn finished(growing: Growing, fitted: &[Arc<FittedSegment>]) -> Preview {
 
 impl Preview {
     /// The preview with its stages and notes.
-    fn concluded(mut self, notes: &[String], note: Option<String>, meter: &Meter) -> Self {
+    fn concluded(mut self, notes: &[Note], note: Option<Note>, meter: &Meter) -> Self {
         self.stages = meter.costs();
         self.notes = notes.to_vec();
         self.notes.extend(note);

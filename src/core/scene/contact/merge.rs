@@ -10,7 +10,7 @@ use super::arrangement::{Arrangement, same_corners, same_side};
 use super::interface::Contact;
 use super::notes::{Touch, near_notes, notes};
 use super::touching::{Pairs, touching};
-use crate::{Progress, Result};
+use crate::{Note, Progress, Result};
 
 /// Triangles of which no two lie in one another.
 pub(in crate::scene) struct Merged {
@@ -19,7 +19,7 @@ pub(in crate::scene) struct Merged {
     /// The contacts.
     pub contacts: Vec<Contact>,
     /// What touches, and what that means.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// Merges the triangles that lie in one another. `shells` numbers the connected surfaces, one for each triangle. Without any

@@ -9,6 +9,8 @@ use super::super::material::Material;
 use super::super::receiver::Receiver;
 use super::super::surface::{Hit, Primitive};
 use super::touching::{NEARLY, largest, rounding};
+use crate::Note;
+use crate::note::About;
 
 /// The triangles in the plane of the receiver, some of them on it or on its floor.
 pub(in crate::scene) struct OnReceiver {
@@ -18,7 +20,7 @@ pub(in crate::scene) struct OnReceiver {
 
 impl OnReceiver {
     /// Those of a scene, none where nothing touches the receiver; with notes on what touches it, or nearly does.
-    pub(in crate::scene) fn new(geometry: &Geometry, receiver: &Receiver) -> (Option<Self>, Vec<String>) {
+    pub(in crate::scene) fn new(geometry: &Geometry, receiver: &Receiver) -> (Option<Self>, Vec<Note>) {
         let mut is_on = Vec::new();
         // Whether any of its triangles there faces up, as a table top does.
         let mut touching = BTreeMap::<u16, bool>::new();
@@ -41,7 +43,7 @@ impl OnReceiver {
                 is_on[index] = true;
             }
         });
-        let mut notes: Vec<String> =
+        let mut notes: Vec<Note> =
             touching.into_iter().filter_map(|of| note(geometry, receiver, of)).collect();
         notes.extend(near.into_iter().filter_map(|of| near_note(geometry, of)));
         ((!is_on.is_empty()).then_some(Self { is_on }), notes)
@@ -70,25 +72,25 @@ fn apart(corners: &[Vec3; 3], receiver: &Receiver) -> Option<(f64, bool)> {
     is_over.then_some((distance, distance <= tolerance))
 }
 
-fn near_note(geometry: &Geometry, (mesh, distance): (u16, f64)) -> Option<String> {
+fn near_note(geometry: &Geometry, (mesh, distance): (u16, f64)) -> Option<Note> {
     let mesh = &geometry.meshes()[usize::from(mesh)];
     matches!(mesh.material, Material::Glass(_)).then(|| {
-        format!(
+        About::Mesh(mesh.desc).note(format!(
             "'{}' nearly touches the receiver, up to {distance:.0e} m apart: where it stands above there is a film of air, \
              where it reaches below there is contact; set it exactly on the receiver, or 1e-4 m above, if that is not meant",
             mesh.name
-        )
+        ))
     })
 }
 
 /// What it means; none for a matt thing that merely stands there.
-fn note(geometry: &Geometry, receiver: &Receiver, (mesh, is_top): (u16, bool)) -> Option<String> {
+fn note(geometry: &Geometry, receiver: &Receiver, (mesh, is_top): (u16, bool)) -> Option<Note> {
     let mesh = &geometry.meshes()[usize::from(mesh)];
     let is_flat = [mesh.lower, mesh.upper].iter().all(|corner| {
         receiver.height(*corner).abs()
             <= rounding(corner.abs().max_element().max(receiver.largest_coordinate()))
     });
-    match mesh.material {
+    let text = match mesh.material {
         Material::Glass(_) => Some(format!(
             "'{}' touches the receiver: light goes from it to the receiver without air between; raise it by 1e-4 m for a gap",
             mesh.name
@@ -99,5 +101,6 @@ fn note(geometry: &Geometry, receiver: &Receiver, (mesh, is_top): (u16, bool)) -
                 mesh.name
             )
         }),
-    }
+    };
+    text.map(|text| About::Mesh(mesh.desc).note(text))
 }

@@ -8,6 +8,7 @@ use std::thread;
 use egui::Context;
 
 use crate::editor::dialogs::request::{Purpose, with_ending};
+use crate::editor::guard::Guard;
 
 /// Maximum number of listed entries of a folder.
 const MOST: usize = 5_000;
@@ -64,9 +65,12 @@ pub(super) fn read(folder: PathBuf, path: Option<PathBuf>, purpose: Purpose, wak
 fn on_thread(wake: &Context, work: impl FnOnce() -> Read + Send + 'static) -> Listing {
     let (sender, receiver) = channel();
     let wake = wake.clone();
+    let guard = Guard::new("folder");
     let work = move || {
+        let fault =
+            |words| Read { problem: Some(format!("a fault of the program: {words}")), ..Read::default() };
         // The dialog may be closed by now.
-        let _ = sender.send(work());
+        let _ = sender.send(guard.run(work).unwrap_or_else(fault));
         wake.request_repaint();
     };
     // Without a thread the sender is dropped, which shows as a message.
@@ -148,6 +152,19 @@ mod tests {
             std::fs::write(folder.path().join(name), "{}").unwrap();
         }
         folder
+    }
+
+    #[test]
+    fn a_panic_is_told_and_the_next_folder_is_read() {
+        let (folder, ctx) = (place(), Context::default());
+        let listed = || read(folder.path().into(), None, Purpose::OpenProject, &ctx);
+        let result = |listing| match listing {
+            Listing::Reading(results) => results.recv().unwrap(),
+            Listing::Read(read) => read,
+        };
+        let failed = result(crate::editor::guard::planted("folder", listed));
+        assert!(failed.problem.is_some_and(|problem| problem.contains("a planted panic")));
+        assert_eq!(result(listed()).entries.len(), 3);
     }
 
     #[test]

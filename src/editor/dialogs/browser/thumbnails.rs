@@ -1,7 +1,6 @@
 //! Thumbnails of listed pictures, decoded one after another on a thread of its own, within limits.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
@@ -9,6 +8,8 @@ use std::thread;
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use image::{ImageReader, Limits};
 use lightloom_core::targets::{Brightness, ImageTarget};
+
+use crate::editor::guard::Guard;
 
 /// Pixels along the longer side.
 const SIDE: u32 = 96;
@@ -35,10 +36,11 @@ impl Thumbnails {
         let (orders, inbox) = channel::<PathBuf>();
         let (outbox, results) = channel();
         let wake = ctx.clone();
+        let guard = Guard::new("dialog thumbnails");
         let work = move || {
             for path in inbox {
                 // Decoders have had panics on hostile files; such a file has no thumbnail.
-                let decoded = catch_unwind(AssertUnwindSafe(|| decode(&path))).ok().flatten();
+                let decoded = guard.run(|| decode(&path)).ok().flatten();
                 if let Some(picture) = decoded
                     && outbox.send((path, picture)).is_err()
                 {
@@ -97,6 +99,23 @@ fn decode(path: &Path) -> Option<ColorImage> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::editor::guard;
+
+    #[test]
+    fn a_panic_costs_one_thumbnail_and_the_others_are_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = ["a.png", "b.png"].map(|name| folder.path().join(name));
+        for file in &files {
+            image::RgbImage::from_pixel(8, 8, image::Rgb([255, 0, 0])).save(file).unwrap();
+        }
+        let ctx = Context::default();
+        let mut thumbnails = guard::planted("dialog thumbnails", || Thumbnails::new(&ctx));
+        let first = thumbnails.of(&ctx, &files[0]).is_some();
+        while thumbnails.of(&ctx, &files[1]).is_none() {
+            thread::yield_now();
+        }
+        assert!(!first && thumbnails.of(&ctx, &files[0]).is_none());
+    }
 
     #[test]
     fn pictures_become_small_and_what_is_none_or_too_large_has_no_thumbnail() {

@@ -1,7 +1,8 @@
 //! A row of a panel: the label on the left, the value on the right, both aligned over the whole panel.
 
 use egui::{
-    Align2, Id, PointerButton, RectAlign, Response, Role, Sense, TextStyle, Tooltip, Ui, WidgetInfo, vec2,
+    Align, Align2, Id, PointerButton, RectAlign, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
+    Tooltip, Ui, WidgetInfo, vec2,
 };
 
 use super::Control;
@@ -28,6 +29,34 @@ fn beside_panel(response: &Response, content: impl FnOnce(&mut Ui)) {
 /// Where the left border of the panel is kept, points.
 pub(in crate::editor::panels) fn panel_left() -> Id {
     Id::unique("left border of the panel")
+}
+
+/// Where the place of the setting is kept that was asked for by name.
+fn sought() -> Id {
+    Id::unique("setting that is sought")
+}
+
+/// Scrolls to the setting at this place of the project, and marks it until the next click.
+pub(in crate::editor::panels) fn seek(ui: &Ui, place: &'static str) {
+    ui.data_mut(|data| data.insert_temp(sought(), (place, true)));
+}
+
+/// Marks the row of the setting that is sought.
+fn mark_sought(ui: &Ui, response: &Response, place: &str) {
+    let Some((wanted, is_new)) = ui.data(|data| data.get_temp::<(&'static str, bool)>(sought())) else {
+        return;
+    };
+    if wanted != place {
+        return;
+    }
+    if is_new {
+        response.scroll_to_me(Some(Align::Center));
+        ui.data_mut(|data| data.insert_temp(sought(), (wanted, false)));
+    } else if ui.input(|input| input.pointer.any_pressed()) {
+        ui.data_mut(|data| data.remove::<(&'static str, bool)>(sought()));
+    }
+    let stroke = Stroke::new(1.5, theme::ACCENT);
+    ui.painter().rect_stroke(response.rect.expand(1.0), 3.0, stroke, StrokeKind::Outside);
 }
 
 /// The result of a row.
@@ -86,6 +115,7 @@ impl Control {
             painter.circle_filled(rect.left_center() + vec2(3.0, 0.0), 2.5, theme::ACCENT);
         }
         response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), self.label));
+        mark_sought(ui, &response, self.setting.place);
         self.with_tooltip(response);
     }
 

@@ -80,6 +80,11 @@ impl FlowViewer {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
+    /// Lets the next call ask, even if it is for the same.
+    pub(super) fn ask_anew(&mut self) {
+        self.asked = None;
+    }
+
     /// What a panic said, once.
     pub(super) fn panicked(&self) -> Option<String> {
         self.worker.panicked()

@@ -1,0 +1,82 @@
+//! A panic in each thread of the preview.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use lightloom_core::flow::GridSize;
+
+use super::*;
+use crate::editor::access::Access;
+use crate::editor::guard;
+
+/// A small version of an example with a scene and a picture at its end; another one for each gamma.
+fn subject(gamma: f32) -> Subject {
+    let base: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/dark_glass.json");
+    let mut project = Project::load(&base).unwrap();
+    (project.render.width, project.render.height, project.render.photons) = (64, 36, 2000);
+    (project.flow.gamma, project.flow.grid, project.flow.steps) = (gamma, GridSize::Longer(16), 8);
+    project.keys[1].frame = 4;
+    Subject { project: Arc::new(project), base, access: Access::default() }
+}
+
+/// A session that needs the thread with this name, and the pictures it wants.
+fn needing(name: &str, of: &Subject) -> (Session, Wanted) {
+    let mut session = Session { playhead: 3, ..Session::default() };
+    let mut wanted = Wanted { plane: Plane::Picture(32), shot: Some([32, 18]), look: None };
+    match name {
+        "orbit view" => {
+            let camera = of.project.scene.as_ref().unwrap().camera.clone();
+            wanted.look = Some((camera, [32, 18]));
+        }
+        "lamp" => {
+            (session.panel, session.focus.object) = (Panel::Scene, Some(SceneObject::Light(0)));
+        }
+        "flow view" => session.overlays.arrows = true,
+        "figures" => session.panel = Panel::Numbers,
+        _ => (),
+    }
+    (session, wanted)
+}
+
+/// Whether the work of the thread with this name is there.
+fn is_done(name: &str, preview: &LivePreview) -> bool {
+    match name {
+        "pictures" => preview.painted().number > 0,
+        "background" => preview.shot().is_some(),
+        "orbit view" => preview.look().number > 0,
+        "lamp" => preview.lamp(0).is_some(),
+        "flow view" => !preview.flow().arrows.is_empty(),
+        "figures" => preview.continuity().is_some(),
+        "target" => preview.target().is_some(),
+        _ => preview.is_shown(),
+    }
+}
+
+#[test]
+fn a_panic_in_any_thread_is_told_until_the_next_edit_which_is_answered() {
+    let names =
+        ["animation", "pictures", "background", "orbit view", "lamp", "flow view", "figures", "target"];
+    for name in names {
+        let engine = SharedEngine::default();
+        let mut preview = guard::planted(name, || LivePreview::new(engine, || ()));
+        let mut follow = |gamma: f32, what: &str, holds: &dyn Fn(&LivePreview) -> bool| {
+            let subject = subject(gamma);
+            let (session, wanted) = needing(name, &subject);
+            let begun = Instant::now();
+            while !holds(&preview) {
+                assert!(begun.elapsed() < Duration::from_secs(120), "{name}: waited in vain: {what}");
+                preview.follow(&subject, &session, &wanted);
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            // What is told stays there to be read.
+            (0..20).for_each(|_| preview.follow(&subject, &session, &wanted));
+            assert!(holds(&preview), "{name}: {what}");
+        };
+        let is_told = |preview: &LivePreview| {
+            preview.problem().is_some_and(|told| told.contains("planted") && told.contains("unharmed"))
+        };
+        follow(0.25, "the message", &is_told);
+        follow(0.75, "the answer", &|preview| preview.problem().is_none() && is_done(name, preview));
+    }
+}
