@@ -26,6 +26,9 @@ pub(crate) struct Cli {
     /// The project to open in the editor.
     #[arg(value_name = "PROJECT")]
     pub(crate) project: Option<PathBuf>,
+    /// Open the editor with default preferences; the stored ones are neither read nor changed.
+    #[arg(long)]
+    pub(crate) safe_mode: bool,
 }
 
 #[derive(Subcommand)]

@@ -46,7 +46,7 @@ pub fn main() -> ExitCode {
 
 fn run(cli: &Cli) -> Result<u8, Error> {
     match &cli.command {
-        None => edit(cli.project.as_deref()),
+        None => edit(cli.project.as_deref(), cli.safe_mode),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Fit(args)) => fit::run(args),
         Some(Command::Photons(args)) => photons::run(args),
@@ -98,13 +98,13 @@ fn begin_log(cli: &Cli) -> Result<(), Error> {
 }
 
 /// Opens the window. A project that is not there is told here, where a mistyped command is seen.
-fn edit(project: Option<&Path>) -> Result<u8, Error> {
+fn edit(project: Option<&Path>, safe_mode: bool) -> Result<u8, Error> {
     if let Some(path) = project.filter(|path| !path.is_file()) {
         let what =
             format!("'{}' is neither a command nor a project file; see lightloom --help", path.display());
         return Err(Error::value("PROJECT", what));
     }
-    match crate::editor::run(project) {
+    match crate::editor::run(project, safe_mode) {
         Ok(()) => Ok(0),
         Err(why) => {
             eprintln!(

@@ -8,6 +8,7 @@ use lightloom_core::note::About;
 use super::asset::AssetUse;
 use super::command::Command;
 use super::document::Edit;
+use super::look::object::SceneObject;
 use super::selection::Selection;
 use super::session::Panel;
 
@@ -30,6 +31,8 @@ pub enum Action {
     Paste(String),
     /// Replaces the selection.
     Select(Selection),
+    /// Selects an object of the scene.
+    SelectObject(SceneObject),
     /// Moves the playhead to a frame.
     Playhead(i32),
     /// Shows these caustics only, by group; empty shows all.

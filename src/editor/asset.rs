@@ -1,6 +1,7 @@
 //! Asset files: their use in the project, and the edit that puts a picked file there.
 
 use lightloom_core::project::{KeyFrame, Project, Shows};
+use lightloom_core::render::{PlateSettings, RenderSettings};
 use lightloom_core::targets::{ImageTarget, PointsTarget};
 
 use super::document::Edit;
@@ -16,6 +17,8 @@ pub enum AssetUse {
     Picture(TargetSlot),
     /// Target points of a key frame.
     Points(TargetSlot),
+    /// The picture behind the caustics.
+    Plate,
 }
 
 /// A target: of a key frame, or of one caustic in it.
@@ -48,7 +51,9 @@ impl AssetUse {
     pub fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Mesh | Self::MeshFile(_) => ("Meshes", &["glb", "gltf", "obj"]),
-            Self::Picture(_) => ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"]),
+            Self::Picture(_) | Self::Plate => {
+                ("Pictures", &["png", "jpg", "jpeg", "webp", "tif", "tiff", "exr", "hdr"])
+            }
             Self::Points(_) => ("Points", &["csv", "npy"]),
         }
     }
@@ -75,6 +80,13 @@ impl AssetUse {
             Self::Points(at) => {
                 at.shows(&project.keys)?;
                 Some(show(project, at, Shows::Points(PointsTarget { file })))
+            }
+            Self::Plate => {
+                let plate = match &project.render.plate {
+                    Some(plate) => PlateSettings { file, ..plate.clone() },
+                    None => PlateSettings::new(file),
+                };
+                Some(Edit::Render(RenderSettings { plate: Some(plate), ..project.render.clone() }))
             }
         }
     }

@@ -19,11 +19,12 @@ use super::templates::{self, TEMPLATES};
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Opens the window with a project or the first example. Returns when it is closed. Where the graphics device is lost
-/// meanwhile, the program starts anew; what was not saved is offered for recovery there.
+/// meanwhile, the program starts anew; what was not saved is offered for recovery there. In `safe_mode` the stored
+/// preferences are neither read nor changed.
 ///
 /// # Errors
 /// There is no display, or no graphics device; the system's message.
-pub fn run(project: Option<&Path>) -> Result<(), String> {
+pub fn run(project: Option<&Path>, safe_mode: bool) -> Result<(), String> {
     if !has_screen() {
         return Err("no screen: neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned());
     }
@@ -33,8 +34,10 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         ("The graphics device was lost".to_owned(), text.to_owned())
     });
     let folders = Folders::of_user();
+    let stored = folders.as_ref().filter(|_| !safe_mode);
     let (preferences, note) =
-        folders.as_ref().map_or_else(Default::default, |folders| Preferences::load(&folders.config));
+        stored.map_or_else(Default::default, |folders| Preferences::load(&folders.config));
+    let keeps_preferences = !safe_mode;
     let (document, problem) = first_document(project)?;
     let message =
         problem.or(told).or_else(|| note.map(|note| ("The preferences are reset".to_owned(), note)));
@@ -54,7 +57,17 @@ pub fn run(project: Option<&Path>) -> Result<(), String> {
         tracing::info!("graphics: {graphics}");
         let gpu = card.map_or(Gpu::None, |card| prepare_gpu(card, &device, &context.egui_ctx));
         let dialogs = Arc::new(Native);
-        let setup = Setup { document, message, folders, preferences, dialogs, gpu, graphics, device };
+        let setup = Setup {
+            document,
+            message,
+            folders,
+            preferences,
+            keeps_preferences,
+            dialogs,
+            gpu,
+            graphics,
+            device,
+        };
         Ok(Box::new(App::new(&context.egui_ctx, setup)) as Box<dyn eframe::App>)
     };
     eframe::run_native("lightloom", options, Box::new(create)).map_err(|error| in_words(&error))

@@ -79,6 +79,7 @@ impl EditorState {
             Action::Playhead(frame) => self.session.playhead = frame,
             Action::Solo(groups) => self.session.solo = groups,
             Action::Probe(row) => self.session.probe = row,
+            Action::SelectObject(object) => self.session.focus.object = Some(object),
             Action::Panel(panel) => self.session.panel = panel,
             Action::Show(about) => jump::jump(self.document.project(), &mut self.session, &about),
             Action::Say(message) => self.status = message,

@@ -63,6 +63,11 @@ impl Tour {
         *self = Self { step: Some(0), drawn: drawn(project) };
     }
 
+    /// Ends it; whether a step was shown.
+    pub fn end(&mut self) -> bool {
+        self.step.take().is_some()
+    }
+
     /// Whether a step is shown.
     pub fn is_open(&self) -> bool {
         self.step.is_some()

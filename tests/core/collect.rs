@@ -9,6 +9,7 @@ use lightloom_core::engine::Engine;
 use lightloom_core::project::{
     Admitted, AssetFolder, Collect, Collection, Missing, Project, ProjectFile, collect_into,
 };
+use lightloom_core::render::PlateSettings;
 use lightloom_core::{Error, Progress, Result};
 
 /// A triangle of a material that is glass.
@@ -133,6 +134,19 @@ fn material_files_are_found_again_however_a_mesh_names_them() {
         let text = Engine::new(AssetFolder::new(&there, false).unwrap()).check(&project).unwrap().to_text();
         assert!(!text.contains("was not used") && !text.contains("has no material"), "{name}: {text}");
     }
+}
+
+#[test]
+fn the_plate_goes_along() {
+    let place = Place::new(&[("far/plate.exr", "light")]);
+    let file = place.project("work/shot.json", &[], &[]);
+    let mut project = file.project().clone();
+    project.render.plate = Some(PlateSettings::new("../far/plate.exr"));
+    file.save(&place.at("work/shot.json"), &project).unwrap();
+    let (there, _) = collect(&place, "work/shot.json", "out", true).unwrap();
+    let collected = ProjectFile::open(&there).unwrap().0.project().clone();
+    assert_eq!(collected.render.plate, Some(PlateSettings::new("assets/plate.exr")));
+    assert_eq!(place.files("out")["assets/plate.exr"], b"light");
 }
 
 #[test]

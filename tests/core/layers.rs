@@ -9,6 +9,7 @@ use half::f16;
 use lightloom_core::Progress;
 use lightloom_core::engine::Engine;
 use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::render::{Plate, PlateSettings};
 use lightloom_core::scene::CameraDesc;
 
 /// A goblet in the light of two lamps under an even sky; the caustic of the first lamp is named.
@@ -111,6 +112,37 @@ fn every_layer_is_a_part_whose_channels_bear_its_name() {
     assert!(sum("background.G", "caustic.G") < 2e-3);
     let light = |name: &str| read.channel(name).iter().sum::<f32>();
     assert!(light("caustic_first_light.G") > 0.0 && light("caustic_rest.G") > 0.0);
+}
+
+#[test]
+fn a_plate_takes_the_place_of_the_background_and_leaves_the_caustics_alone() {
+    let all = r#"["beauty", "caustic", "background", "depth"]"#;
+    let (mut project, place) = project(all);
+    let traced = last_frame(&project, &place);
+    let file = "../assets/pictures/dark_glass.png";
+    project.render.plate = Some(PlateSettings { exposure: 2.0, ..PlateSettings::new(file) });
+    let read = last_frame(&project, &place);
+    for channel in ["caustic.R", "caustic.G", "caustic.B", "depth.Z"] {
+        assert_eq!(read.channel(channel), traced.channel(channel));
+    }
+    assert!(!read.stages.contains(&"background"), "{:?}", read.stages);
+    assert!(read.channel("A").iter().all(|alpha| *alpha == 1.0), "a plate covers everything");
+    let path = place.parent().unwrap().join(file);
+    let settings = project.render.plate.clone().unwrap();
+    let plate = Plate::load(&path, &settings, [64, 36], &Progress::new()).unwrap();
+    for (i, light) in plate.image.pixels.iter().enumerate() {
+        let sum = light.y + traced.channel("caustic.G")[i];
+        // Both are rounded to 11 bits, and small ones to multiples of 6e-8.
+        assert!((read.channel("G")[i] - sum).abs() <= 1e-3 * sum + 1e-7);
+        assert!((read.channel("background.G")[i] - light.y).abs() <= 5e-4 * light.y + 6e-8);
+    }
+    project.render.plate = Some(PlateSettings::new("../assets/meshes/goblet.obj"));
+    let engine = Engine::new(AssetFolder::new(&place, false).unwrap());
+    let wrong = engine.check(&project).unwrap_err().to_string();
+    assert!(wrong.contains("goblet.obj") && wrong.contains("no picture"), "{wrong}");
+    project.render.plate = Some(PlateSettings::new("nowhere.png"));
+    let wrong = engine.check(&project).unwrap_err().to_string();
+    assert!(wrong.starts_with("render.plate.file: 'nowhere.png'"), "{wrong}");
 }
 
 #[test]

@@ -258,3 +258,23 @@ fn what_is_typed_while_a_dialog_opens_is_its_name_and_no_tool() {
     let typed = harness.get_by_label("Path").value().unwrap_or_default();
     assert!(typed.ends_with("wdekwebk"), "{typed}");
 }
+
+#[test]
+fn keys_of_one_frame_go_through_windows_that_they_open_and_close() {
+    let folder = examples();
+    let other = project(&folder, "bottles");
+    // The system has no dialog: the list of answers is empty.
+    let mut harness = window(&folder, "letters_free", Vec::new());
+    harness.run_steps(3);
+    let press = |harness: &mut Harness<App>, key, modifiers| {
+        for pressed in [true, false] {
+            harness.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+        }
+    };
+    press(&mut harness, Key::N, Modifiers::COMMAND);
+    press(&mut harness, Key::Escape, Modifiers::NONE);
+    press(&mut harness, Key::O, Modifiers::COMMAND);
+    harness.event(Event::Text(other.to_string_lossy().into_owned()));
+    press(&mut harness, Key::Enter, Modifiers::NONE);
+    until(&mut harness, "the other project", |app| app.document().path() == Some(&other));
+}

@@ -317,6 +317,13 @@ fn every_action_is_one_step_of_undo() {
         let changes = command != Command::AimAtReceiver;
         editor.apply(command.into());
         assert_eq!(*editor.document.project() != before, changes, "{command:?}");
+        if command == Command::DuplicateObject {
+            assert_eq!(
+                editor.session.focus.object,
+                Some(SceneObject::Light(3)),
+                "the copy is what is moved next"
+            );
+        }
         editor.apply(Command::Undo.into());
         assert_eq!(*editor.document.project(), before, "{command:?}");
     }

@@ -191,6 +191,8 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     assert_eq!(fs::read(&path).unwrap(), original);
 
     screen.key("ctrl+e");
+    // A busy machine shows the window late; a click before would go to what lies beneath.
+    std::thread::sleep(Duration::from_millis(1500));
     let middle = |place: Rect| [place.center().x, place.center().y];
     screen.click(middle(frames));
     screen.key("ctrl+a");

@@ -67,6 +67,7 @@ pub fn window_with(
         message: None,
         folders: Some(folders(folder.path())),
         preferences,
+        keeps_preferences: true,
         dialogs: Arc::new(Scripted::new(answers)),
         gpu: Gpu::None,
         graphics: "none".to_owned(),

@@ -30,7 +30,7 @@ settings! { Span {
     FADE = Setting::whole("constraints[].span.fade", [0.0, 100_000.0], &[0.0]).unit("frames");
 } }
 
-/// A span in the flow time of one segment: rises over the first pair of times, falls over the second.
+/// A span in time, that of the flow of one segment or frames: rises over the first pair of times, falls over the second.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Window {
     /// Nothing before the first, full from the second on.
@@ -58,7 +58,6 @@ impl Span {
         if self.to < keys[0] || self.from > keys[1] {
             return None;
         }
-        let fade = f64::from(self.fade).min(0.5 * (f64::from(self.to) - f64::from(self.from)));
         let time = |frame: f64| {
             let share = (frame - f64::from(keys[0])) / (f64::from(keys[1]) - f64::from(keys[0]));
             // What lies beside the segment is over or not yet begun at any of its times.
@@ -70,8 +69,19 @@ impl Span {
                 time_of(share)
             }
         };
+        let Window { rise, fall } = self.in_frames();
+        Some(Window { rise: rise.map(time), fall: fall.map(time) })
+    }
+
+    /// Strength of a directed line at a frame, 0..=1, for display: within a segment the fade runs in its flow time.
+    pub fn strength(&self, frame: i32) -> f64 {
+        self.in_frames().at(f64::from(frame))
+    }
+
+    fn in_frames(&self) -> Window {
         let (from, to) = (f64::from(self.from), f64::from(self.to));
-        Some(Window { rise: [time(from), time(from + fade)], fall: [time(to - fade), time(to)] })
+        let fade = f64::from(self.fade).min(0.5 * (to - from));
+        Window { rise: [from, from + fade], fall: [to - fade, to] }
     }
 }
 
@@ -141,6 +151,11 @@ mod tests {
     fn a_fade_rises_and_falls_within_the_span() {
         let window = Span { from: 1, to: 41, fade: 10 }.window([1, 41], linear).unwrap();
         assert_eq!([0.0, 0.125, 0.25, 0.75, 1.0].map(|t| window.at(t)), [0.0, 0.5, 1.0, 1.0, 0.0]);
+        let span = Span { from: 1, to: 41, fade: 10 };
+        assert_eq!(
+            [0, 1, 6, 11, 31, 41, 42].map(|frame| span.strength(frame)),
+            [0.0, 0.0, 0.5, 1.0, 1.0, 0.0, 0.0]
+        );
     }
 
     #[test]

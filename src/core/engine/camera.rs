@@ -104,8 +104,9 @@ impl Stages {
     ) -> Result<CameraPictures> {
         let CameraView { project, scene, extent, layout, background, surfaces, bake } = *view;
         let (render, seed) = (&project.render, project.seed);
-        // Photons change nothing here but the layout, and the view transform changes nothing at all.
-        let seen = RenderSettings { passes: 1, photons: 1, view: Default::default(), ..render.clone() };
+        // Photons change nothing here but the layout, and the view transform and the plate change nothing at all.
+        let seen =
+            RenderSettings { passes: 1, photons: 1, view: Default::default(), plate: None, ..render.clone() };
         let rough = background == BackgroundQuality::Rough;
         let input = ViewInput { scene: scene.map(Same::of), render: seen, extent, seed, layout: None, rough };
         let exact = ViewInput { rough: false, ..input.clone() };
@@ -123,7 +124,10 @@ impl Stages {
             let make = || baked(bake, "surfaces", make).map(Arc::new);
             self.first_hits.get(slot, exact, progress, |_| meter.measure("visible", make))
         });
-        let first_hits = first_hits.transpose()?;
+        // A plate covers the whole frame.
+        let covered = render.plate.is_some() && background != BackgroundQuality::None;
+        let first_hits =
+            first_hits.transpose()?.map(|hits| if covered { Arc::new(hits.all_covered()) } else { hits });
         let background = self.without_caustics(slot, view, input.clone(), meter, progress)?;
         let still = match scene {
             Some(scene) if project.traces() => {
@@ -149,6 +153,14 @@ impl Stages {
         progress: &Progress,
     ) -> Result<Arc<Background>> {
         let Project { render, seed, .. } = project;
+        let plate = match quality {
+            BackgroundQuality::None => None,
+            BackgroundQuality::Rough | BackgroundQuality::Final => self.plate(slot, render, progress)?,
+        };
+        if let Some(plate) = plate {
+            let image = plate.image.clone();
+            return Ok(Arc::new(Background { image, clamped: Default::default() }));
+        }
         let draw = match quality {
             BackgroundQuality::Rough => rough_background,
             BackgroundQuality::None | BackgroundQuality::Final => background,

@@ -127,6 +127,7 @@ fn left_out(project: &Project, fixed: bool) -> Vec<LeftOut> {
         (!scene, "background and camera", "the project has no scene; the plane is seen straight on"),
         (!scene, "photon tracing", "the project has no scene"),
         (scene && !project.output.shows_background(), "background", "output.layers asks for caustics alone"),
+        (scene && has_plate(project), "background", "render.plate stands behind the caustics"),
         (scene && !traces, "photon tracing", "no key shows the physical caustic"),
         (still, "matching, fit and advection", "there is one key frame, so nothing moves"),
         (
@@ -172,6 +173,11 @@ fn unneeded_in_motion(project: &Project) -> [Unneeded; 11] {
     ]
 }
 
+/// Whether a picture takes the place of the background.
+fn has_plate(project: &Project) -> bool {
+    project.output.shows_background() && project.render.plate.is_some()
+}
+
 /// Textures of each frame: the named caustics and the rest, where they are written apart.
 fn textures(project: &Project) -> usize {
     if project.output.separates_caustics() { project.caustics.len() + 1 } else { 1 }
@@ -194,7 +200,7 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     let trace = if traced { photons / pace::TRACE } else { 0.0 };
     let mut stages = Vec::new();
     stages.push(("visible", pixels * f64::from(render.camera_samples) / pace::LOOKS));
-    if project.scene.is_some() && project.output.shows_background() {
+    if project.scene.is_some() && project.output.shows_background() && !has_plate(project) {
         stages.push(("background", pixels * f64::from(render.background_samples) / pace::PATHS));
     }
     if traced {

@@ -64,6 +64,13 @@ impl Stages {
         let sources =
             KeySources::load(project, scene.as_deref(), &open).map_err(|error| error.with_notes(&notes))?;
         notes.extend(sources.notes());
+        if project.output.shows_background() {
+            let slot = Slot { client, quality: Quality::Final, index: 0 };
+            let plate =
+                self.plate(slot, &project.render, progress).map_err(|error| error.with_notes(&notes))?;
+            let texts = plate.iter().flat_map(|plate| plate.notes.iter().cloned());
+            notes.extend(About::Setting("render.plate").notes(texts));
+        }
         notes.extend(scene.iter().flat_map(|scene| grouping::notes_on_names(scene)));
         notes.extend(scene.iter().flat_map(|scene| scene_notes(scene, &project.render)));
         notes.extend(stretch_note(project.flow.grid, extent));

@@ -16,7 +16,7 @@ use super::segment_photons::{MatchInput, Matched};
 use super::still_light::StillLight;
 use crate::photon::{EmissionGuide, Photons};
 use crate::project::{AssetFolder, Shows};
-use crate::render::{Background, FirstHits, GatherMatrix};
+use crate::render::{Background, FirstHits, GatherMatrix, Plate, PlateSettings, RenderSettings};
 use crate::scene::{Geometry, MeshDesc, Scene, SceneDesc};
 use crate::{Note, Progress, Result};
 
@@ -26,6 +26,7 @@ pub(super) struct Stages {
     geometry: Memo<MeshInput, WithFiles<Noted<Geometry>>>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
+    plates: Memo<PlateInput, Arc<Plate>>,
     pub(super) guides: Memo<GuideInput, Arc<EmissionGuide>>,
     pub(super) photons: Memo<(Same<EmissionGuide>, usize), Arc<Photons>>,
     pub(super) matchings: Memo<MatchInput, Arc<Matched>>,
@@ -41,6 +42,9 @@ pub(super) struct Stages {
 /// The meshes of a scene, and the state of their files.
 type MeshInput = (Vec<MeshDesc>, Vec<FileStamp>);
 
+/// A plate, the size of the frame, and the state of the plate's file.
+type PlateInput = (PlateSettings, [usize; 2], FileStamp);
+
 /// A result, and the files that meshes were read from.
 type WithFiles<T> = (T, Arc<Vec<PathBuf>>);
 
@@ -55,6 +59,7 @@ impl Stages {
             geometry: Memo::default(),
             scenes: Memo::default(),
             sources: Memo::default(),
+            plates: Memo::default(),
             guides: Memo::default(),
             photons: Memo::default(),
             matchings: Memo::default(),
@@ -118,6 +123,25 @@ impl Stages {
             key_sources::open(shows, file.as_deref(), (place, extent), progress).map(Arc::new)
         };
         self.sources.get(slot, input, progress, open)
+    }
+
+    /// The plate of a picture, where it has one, read again only if its file changed.
+    ///
+    /// # Errors
+    /// A file that cannot be read; cancelled.
+    pub(super) fn plate(
+        &self,
+        slot: Slot,
+        render: &RenderSettings,
+        progress: &Progress,
+    ) -> Result<Option<Arc<Plate>>> {
+        let Some(settings) = &render.plate else { return Ok(None) };
+        let file = self.assets.resolve(&settings.file, PlateSettings::FILE.place)?;
+        let size = [render.width as usize, render.height as usize];
+        let input = (settings.clone(), size, FileStamp::of(&file));
+        let read =
+            |(settings, size, _): &PlateInput| Plate::load(&file, settings, *size, progress).map(Arc::new);
+        self.plates.get(slot, input, progress, read).map(Some)
     }
 }
 

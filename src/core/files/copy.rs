@@ -10,7 +10,8 @@ use crate::{Error, Progress, Result};
 /// Bytes that are copied or compared at once.
 const CHUNK: usize = 1 << 20;
 
-/// Copies a regular file to a path where nothing stands, in one step: there is never a part of it. Returns its size.
+/// Copies a regular file to a path where nothing stands, in one step: there is never a part of it. Progress counts bytes. Returns
+/// the file's size.
 ///
 /// # Errors
 /// `Io` where the system refuses or something stands there; `Format` where it is no regular file; cancelled.
@@ -28,6 +29,7 @@ pub(crate) fn copy_new(from: &Path, to: &Path, progress: &Progress) -> Result<u6
         }
         file.write_all(&chunk[..count]).map_err(Error::io("write", to))?;
         bytes += count as u64;
+        progress.advance(count as u64);
     }
     file.sync_all().map_err(Error::io("write", to))?;
     temporary.persist_noclobber(to).map_err(|failed| Error::io("write", to)(failed.error))?;

@@ -44,7 +44,7 @@ pub fn into_folder(path: &Path, folder: &Path, progress: &Progress) -> Result<(I
         if let Some(folder) = to.parent() {
             std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
         }
-        copy_new(file, &to, progress)?;
+        copy_new(file, &to, &progress.inner())?;
     }
     ProjectFile::new(project.clone())?.save(&project_path, &project)?;
     Ok((import, project_path))

@@ -28,7 +28,7 @@ pub(super) fn read(path: &Path, progress: &Progress) -> Result<Draft> {
     if !unsaid.is_empty() {
         draft.notes.push(format!("no material, or an empty one: taken as glass: {}", shortened(&unsaid)));
     }
-    let mut lost = Vec::new();
+    let (mut lost, mut bare) = (Vec::new(), Vec::new());
     for node in file.nodes() {
         draft.lights.extend(file.light(node, &mut draft.notes)?);
         if let Some(camera) = file.camera(node, &mut draft.notes)? {
@@ -38,6 +38,8 @@ pub(super) fn read(path: &Path, progress: &Progress) -> Result<Draft> {
         if file.is_lost_lamp(node) {
             draft.lost_lamps.push(node.world.transform_point3(DVec3::ZERO).as_vec3());
             lost.push(node.name.clone());
+        } else if file.is_bare(node) {
+            bare.push(node.name.clone());
         }
     }
     if !lost.is_empty() {
@@ -45,6 +47,12 @@ pub(super) fn read(path: &Path, progress: &Progress) -> Result<Draft> {
             "looks like a lamp that was lost: {}; glTF has no area lights: use a point or a spot, or Lightloom's add-on \
              for Blender, which keeps them",
             shortened(&lost)
+        ));
+    }
+    if !bare.is_empty() {
+        draft.notes.push(format!(
+            "holds nothing: {}; was it an area light, set it anew: glTF has none, and Lightloom's add-on for Blender keeps them",
+            shortened(&bare)
         ));
     }
     if draft.cameras > 1 {

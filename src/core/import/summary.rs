@@ -54,14 +54,19 @@ impl Summary {
             more => format!("{more} cameras"),
         };
         format!(
-            "{} triangles, {} materials, {} objects cast caustics; lamps: {}; {camera}; the light falls on {}",
+            "{} triangles, {}, {}; lamps: {}; {camera}; the light falls on {}",
             self.triangles,
-            self.materials,
-            self.casters,
+            counted(self.materials, "material", "materials"),
+            counted(self.casters, "object casts caustics", "objects cast caustics"),
             self.lamps.join(", "),
             self.receiver
         )
     }
+}
+
+/// "1 material", "2 materials"
+fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
 }
 
 /// "key 2.54 W", "sun 3 W/m²"

@@ -122,12 +122,16 @@ impl Collect<'_> {
         let mut files = project.files();
         files.sort_unstable();
         files.dedup();
-        progress.begin("copy", files.len() as u64);
+        // Bytes: one large mesh can be nearly all of them.
+        let size = |written: &&str| {
+            let real = self.assets.resolve(written, written).ok().filter(|real| !(self.stays)(real));
+            real.and_then(|real| real.metadata().ok()).map_or(0, |file| file.len())
+        };
+        progress.begin("copy", files.iter().map(size).sum());
         for written in files {
             progress.check()?;
             let new = self.place(written, &mut copied, &mut made, &mut done, progress)?;
             done.renamed.insert(written.to_owned(), new);
-            progress.advance(1);
         }
         done.project.rename_files(|file| done.renamed.get(file).cloned().unwrap_or_else(|| file.to_owned()));
         let written = write(&done.project)?;

@@ -196,7 +196,8 @@ impl Project {
             Shows::Image(image) => Some(image.file.as_str()),
             Shows::Points(points) => Some(points.file.as_str()),
         });
-        meshes.chain(shown).collect()
+        let plate = self.render.plate.iter().map(|plate| plate.file.as_str());
+        meshes.chain(shown).chain(plate).collect()
     }
 
     /// Replaces the paths of all files by `rename`.
@@ -211,7 +212,8 @@ impl Project {
             Shows::Image(image) => Some(&mut image.file),
             Shows::Points(points) => Some(&mut points.file),
         });
-        meshes.chain(shown).for_each(|file| *file = rename(file));
+        let plate = self.render.plate.iter_mut().map(|plate| &mut plate.file);
+        meshes.chain(shown).chain(plate).for_each(|file| *file = rename(file));
     }
 
     /// The frames to render: the list in `output.frames`, or all from the first key to the last.

@@ -4,8 +4,8 @@ use super::{CausticDesc, CausticKey, KeyFrame, OutputSettings, PlaneSettings, Pr
 use crate::constraint::{Common, DirectedLine, Span, Wall};
 use crate::flow::{Fade, FlowSettings, MotionMethod, TurbulenceSettings};
 use crate::matching::MatchingMethod;
-use crate::render::RenderSettings;
 use crate::render::view::ViewSettings;
+use crate::render::{PlateSettings, RenderSettings};
 use crate::scene::camera::CameraDesc;
 use crate::scene::environment::EnvironmentDesc;
 use crate::scene::light::{self, DirectionalLight, LightDesc, RectangleLight, SphereLight, SpotLight};
@@ -23,7 +23,7 @@ pub fn settings() -> impl Iterator<Item = &'static Setting> {
         Common::SETTINGS, DirectedLine::SETTINGS, Wall::SETTINGS, Span::SETTINGS,
         KeyFrame::SETTINGS, ImageTarget::SETTINGS, Placement::SETTINGS, PointsTarget::SETTINGS,
         CausticDesc::SETTINGS, CausticKey::SETTINGS,
-        RenderSettings::SETTINGS, ViewSettings::SETTINGS, OutputSettings::SETTINGS, Project::SETTINGS,
+        RenderSettings::SETTINGS, PlateSettings::SETTINGS, ViewSettings::SETTINGS, OutputSettings::SETTINGS, Project::SETTINGS,
         MeshDesc::SETTINGS, Transform::SETTINGS, Material::SETTINGS, Diffuse::SETTINGS, Mirror::SETTINGS, Glass::SETTINGS,
         LightDesc::SETTINGS, light::Common::SETTINGS, SpotLight::SETTINGS, DirectionalLight::SETTINGS, RectangleLight::SETTINGS, SphereLight::SETTINGS,
         CameraDesc::SETTINGS, ReceiverDesc::SETTINGS, EnvironmentDesc::SETTINGS, PlaneSettings::SETTINGS,

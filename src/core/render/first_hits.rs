@@ -64,4 +64,9 @@ impl FirstHits {
         })?;
         Ok(Self { coverage, depth })
     }
+
+    /// The same depth in a picture that is covered all over.
+    pub fn all_covered(&self) -> Self {
+        Self { coverage: vec![1.0; self.coverage.len()], depth: self.depth.clone() }
+    }
 }

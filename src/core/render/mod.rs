@@ -2,7 +2,8 @@
 //!
 //! On a plane, progressive photon mapping is a histogram of each pass ([`splat`]) filtered with the kernel of the pass
 //! ([`density`]), summed per frame in a scratch file ([`frames`]). A sparse matrix ([`gather_matrix`]) maps the texture to
-//! the camera's pixels; a frame is [`mod@background`] + matrix x texture. [`view`] is the view transform for screens.
+//! the camera's pixels; a frame is [`mod@background`], or a [`plate`], + matrix x texture. [`view`] is the view transform for
+//! screens.
 //! [`still_light`] is what does not flow. [`orbit_view`] is an immediate picture of the scene from anywhere, for orientation.
 
 pub mod background;
@@ -15,6 +16,7 @@ pub mod image;
 pub mod orbit_view;
 pub mod plane_image;
 pub mod plane_view;
+pub mod plate;
 pub mod progressive;
 pub mod settings;
 pub mod splat;
@@ -37,6 +39,7 @@ pub use in_view::{ReceiverView, receiver_view};
 pub use orbit_view::{OrbitLight, orbit_image};
 pub use plane_image::{PlaneMaterial, plane_image};
 pub use plane_view::PlaneView;
+pub use plate::{Plate, PlateSettings};
 pub use progressive::{ProgressiveRender, Workspace, first_radius};
 pub use settings::RenderSettings;
 pub use still_light::{StillPictures, StillTextures, still_layout, still_pictures, watts_at};

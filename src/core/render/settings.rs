@@ -3,10 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::plate::PlateSettings;
 use super::view::ViewSettings;
 use crate::Result;
 use crate::setting::schema::Describe;
-use crate::setting::{Setting, settings};
+use crate::setting::{Choice, Setting, settings};
 
 /// Size and quality of the pictures.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +32,9 @@ pub struct RenderSettings {
     pub background_samples: u32,
     /// Share of the physical caustic that glass keeps ([`Self::KEPT_IN_GLASS`]).
     pub kept_in_glass: f32,
+    /// The picture behind the caustics, in place of a traced background.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateSettings>,
     /// How the PNG pictures show the light.
     pub view: ViewSettings,
 }
@@ -58,6 +62,11 @@ settings! { RenderSettings {
     /// Share of the physical caustic that glass still shows once the light has left for a picture, beside the light of the
     /// moment. At 0 the glass goes dark with the table; so it should where one looks through glass at the picture.
     KEPT_IN_GLASS = Setting::real("render.kept_in_glass", [0.0, 1.0], &[1.0]);
+    /// What stands behind the caustics. A plate is seen as it is, and the caustics are added to it.
+    PLATE = Setting::choice("render.plate", &[
+        Choice { value: "", help: "the scene, traced without caustics" },
+        Choice { value: "", help: "a plate: a picture of yours, such as a photograph of the set" },
+    ]);
 } }
 
 impl Default for RenderSettings {
@@ -72,6 +81,7 @@ impl Default for RenderSettings {
             camera_samples: Self::CAMERA_SAMPLES.value(),
             background_samples: Self::BACKGROUND_SAMPLES.value(),
             kept_in_glass: Self::KEPT_IN_GLASS.value(),
+            plate: None,
             view: ViewSettings::default(),
         }
     }
@@ -89,6 +99,7 @@ impl RenderSettings {
         Self::BACKGROUND_SAMPLES.check(self.background_samples, place)?;
         Self::RADIUS.check(self.radius, place)?;
         Self::KEPT_IN_GLASS.check(self.kept_in_glass, place)?;
+        self.plate.iter().try_for_each(|plate| plate.check(&format!("{place}.plate")))?;
         self.view.check(&format!("{place}.view"))
     }
 }

@@ -212,7 +212,7 @@ fn attraction(colour: Vec3, alpha: f32, invert: bool, channel: Channel) -> (f32,
 }
 
 /// Values that are no amounts of light become 0; returns whether there were any.
-fn clean(pixel: &mut [f32; 4]) -> bool {
+pub(super) fn clean(pixel: &mut [f32; 4]) -> bool {
     let mut bad = false;
     for value in pixel {
         if !(value.is_finite() && *value >= 0.0) {

@@ -17,7 +17,7 @@ impl App {
             let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
             preferences::apply(ctx, &self.preferences);
             self.recents.ask(self.preferences.recent.clone());
-            if !first {
+            if !first && self.keeps_preferences {
                 self.files.request(StoreRequest::Remember(Box::new(self.preferences.clone())));
             }
         }

@@ -38,11 +38,14 @@ impl App {
             self.offer(recovery);
         } else if let Some(export) = self.interrupted.pop() {
             let settings = &export.settings;
-            let (title, folder) = (settings.project.name.clone(), settings.folder.display().to_string());
+            let own = settings.project.name.trim();
+            let title = if own.is_empty() { name(&settings.file) } else { own.to_owned() };
+            let folder = settings.folder.display().to_string();
             let question = Question::Export { title, folder };
             self.files.question = Some((question, PendingQuestion::Export(Box::new(export))));
         }
         self.imported(ctx);
+        self.collected(ctx);
         if std::mem::take(&mut self.files.asks_outside) {
             self.find_outside();
         }
@@ -109,7 +112,6 @@ impl App {
             }
             StoreReply::Attached(path, hold, backups) => self.attached(&path, hold, backups),
             StoreReply::ChangedMeanwhile(path, seen) => self.changed_meanwhile(path, seen),
-            StoreReply::Collected(result) => self.collected(result),
             StoreReply::Outside(_, files) => self.ask_outside(files),
             StoreReply::Located(path, outside) => self.located(&path, outside),
             StoreReply::Lost(lost) => self.files.lost.extend(lost),

@@ -1,22 +1,19 @@
 //! Scenes of other programs: read on a thread of their own, then put into the open project in one step.
 
 use std::path::Path;
-use std::time::Duration;
 
 use eframe::egui;
+use lightloom_core::Error;
 use lightloom_core::import::{self, Import};
 use lightloom_core::project::relative;
 
 use super::App;
 use super::file_state::Details;
 use super::files::name;
-use super::importing::Importing;
+use super::task::Task;
 use crate::editor::document::{Document, Edit};
 use crate::editor::session::Panel;
 use crate::editor::templates;
-
-/// How often the window looks whether the file is read.
-const LOOK: Duration = Duration::from_millis(30);
 
 impl App {
     /// Replaces the document by an empty project, with its scene in the panel.
@@ -27,9 +24,10 @@ impl App {
 
     /// Begins to read a scene for the open project; one that is still being read is given up.
     pub(super) fn import(&mut self, file: &Path) {
-        match Importing::start(file) {
+        let path = file.to_owned();
+        match Task::start("Reading", file, move |progress| import::read(&path, progress)) {
             Ok(importing) => {
-                self.editor.status = format!("Reading '{}'", name(file));
+                self.editor.status.clear();
                 self.importing = Some(importing);
             }
             Err(error) => self.editor.status = format!("no thread could be started to read it: {error}"),
@@ -39,11 +37,14 @@ impl App {
     /// Takes over a scene that was read.
     pub(super) fn imported(&mut self, ctx: &egui::Context) {
         let Some(importing) = &self.importing else { return };
-        let Some(result) = importing.result() else { return ctx.request_repaint_after(LOOK) };
+        let Some(result) = importing.result(ctx) else { return };
         let file = importing.file.clone();
         self.importing = None;
         match result {
             Ok(import) => self.put_in(&import, &file),
+            Err(Error::Cancelled) => {
+                self.editor.status = format!("'{}' was not imported: cancelled", name(&file));
+            }
             Err(error) => {
                 self.editor.status.clear();
                 self.show_message(format!("'{}' cannot be imported", name(&file)), error.to_string());

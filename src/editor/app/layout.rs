@@ -5,6 +5,7 @@ use egui::{Align, CentralPanel, Frame, Layout, Margin, Panel, RichText, Ui};
 use lightloom_core::import::awaits_glass;
 
 use super::file_state::Details;
+use super::task::{Doing, Task};
 use super::{App, Gpu};
 use crate::editor::action::Action;
 use crate::editor::command::Command;
@@ -30,12 +31,13 @@ impl App {
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
             let told = self.details.as_ref().is_some_and(|details| details.status == *editor.status);
+            let tasks = [self.importing.as_ref().map(Task::shown), self.collecting.as_ref().map(Task::shown)];
             let clicked = status(
                 ui,
                 editor,
                 self.gpu,
                 self.preferences.photon_renderer,
-                (&self.exports, told, self.views.pixel()),
+                (&self.exports, &tasks, told, self.views.pixel()),
             );
             if clicked.export {
                 editor.ask(Command::Export);
@@ -113,7 +115,7 @@ fn status(
     editor: &EditorContext,
     gpu: Gpu,
     renderer: PhotonRenderer,
-    (exports, has_details, pixel): (&export::Exports, bool, Option<glam::Vec3>),
+    (exports, tasks, has_details, pixel): (&export::Exports, &[Option<Doing>], bool, Option<glam::Vec3>),
 ) -> Clicked {
     let mut clicked = Clicked::default();
     ui.horizontal_centered(|ui| {
@@ -141,6 +143,7 @@ fn status(
             }
             ui.separator();
             clicked.export = export::status_line(ui, exports);
+            tasks.iter().flatten().for_each(|task| task.show(ui));
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 clicked.details = has_details && ui.small_button("Details").clicked();
                 ui.add(egui::Label::new(editor.status).truncate());

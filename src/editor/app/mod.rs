@@ -2,15 +2,16 @@
 
 mod autosave;
 mod commands;
+mod dropped;
 mod file_state;
 mod files;
 mod import;
-mod importing;
 mod layout;
 mod open_windows;
 mod outside;
 mod recents;
 mod report;
+mod task;
 mod windows;
 
 use std::path::PathBuf;
@@ -18,10 +19,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
+use lightloom_core::import::Import;
+use lightloom_core::project::Collection;
 
 use super::action::Action;
 use super::device::{self, Device};
-use super::dialogs::{Dialogs, Picker};
+use super::dialogs::{Dialogs, Picker, is_on_top};
 use super::document::Document;
 use super::engine::SharedEngine;
 use super::export::{Exports, InterruptedExport, interrupted};
@@ -36,9 +39,9 @@ use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
 use file_state::{Details, Files};
-use importing::Importing;
 use open_windows::Windows;
 use recents::Recents;
+use task::Task;
 
 /// When it is looked once more for what an earlier run left: one that was killed just before still holds it while the system
 /// clears it away.
@@ -61,10 +64,13 @@ pub struct App {
     recents: Recents,
     files: Files,
     /// The scene that is being read for the document.
-    importing: Option<Importing>,
+    importing: Option<Task<Import>>,
+    /// The copy of the project with all its files that is being made.
+    collecting: Option<Task<(PathBuf, Collection)>>,
     /// The details of a message in the status bar.
     details: Option<Details>,
     preferences: Preferences,
+    keeps_preferences: bool,
     /// The graphics device, and its name.
     gpu: Gpu,
     graphics: String,
@@ -96,6 +102,8 @@ pub struct Setup {
     pub folders: Option<Folders>,
     /// The user's preferences.
     pub preferences: Preferences,
+    /// Whether their changes are stored.
+    pub keeps_preferences: bool,
     /// The file dialogs.
     pub dialogs: Arc<dyn Dialogs>,
     /// What the graphics card can do.
@@ -132,8 +140,10 @@ impl App {
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
             importing: None,
+            collecting: None,
             details: None,
             preferences: setup.preferences,
+            keeps_preferences: setup.keeps_preferences,
             gpu: setup.gpu,
             graphics: setup.graphics,
             device: setup.device,
@@ -198,6 +208,7 @@ impl App {
         }
         self.layout(ui, &mut actions);
         self.windows(&ctx, &tools, &mut actions);
+        self.say_what_drops(&ctx);
         for action in actions {
             self.apply(&ctx, action);
         }
@@ -223,6 +234,7 @@ impl App {
         let taker = match self.picker.taker(ctx) {
             Taker::Shown if palette => Taker::Coming,
             Taker::Shown if asking && !self.picker.is_open() => Taker::Gone,
+            Taker::Shown if covered && !is_on_top(ctx) => Taker::Coming,
             taker => taker,
         };
         KeyQueue::set(ctx, taker);
@@ -275,6 +287,8 @@ impl App {
         self.editor.open(document);
         self.views.forget_pictures();
         (self.importing, self.details) = (None, None);
+        // Who begins with something else needs no tour of the example.
+        self.preferences.first_start_seen |= self.windows.tour.end();
         self.files.forget_admitted();
         self.attach();
     }

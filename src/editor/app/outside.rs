@@ -4,16 +4,16 @@
 use std::path::{Path, PathBuf};
 
 use eframe::egui;
-use lightloom_core::Result;
-use lightloom_core::project::{Collection, relative};
-use lightloom_core::scene::mesh;
+use lightloom_core::Error;
+use lightloom_core::project::relative;
 
 use super::App;
-use super::file_state::{Elsewhere, Leave, PendingQuestion};
+use super::file_state::{Elsewhere, PendingQuestion};
 use super::files::name;
-use crate::editor::asset::{AssetUse, TargetSlot};
+use super::task::Task;
+use crate::editor::asset::AssetUse;
 use crate::editor::dialogs::{Answer, PickRequest, Purpose, Question};
-use crate::editor::store::{CollectRequest, StoreRequest};
+use crate::editor::store::{CollectRequest, StoreRequest, collect};
 use crate::editor::templates;
 
 /// Most files that a question lists.
@@ -134,26 +134,36 @@ impl App {
         self.picker.ask(PickRequest::new(Purpose::CollectFolder).in_folder(folder), ctx);
     }
 
-    /// Copies the project as it is now, with all its files, into a folder.
+    /// Copies the project as it is now, with all its files, into a folder; a copy that is still being made is given up.
     pub(super) fn collect(&mut self, folder: PathBuf) {
         let mut origin = self.origin();
         if self.editor.document.path().is_none() {
             origin.file.set_file_name(self.file_name());
         }
-        match self.editor.document.file() {
-            Ok(file) => {
-                let project = self.editor.document.project().clone();
-                self.request(StoreRequest::Collect(CollectRequest { folder, file, project, origin }));
+        let file = match self.editor.document.file() {
+            Ok(file) => file,
+            Err(error) => {
+                return self.show_message("The project cannot be collected".into(), error.to_string());
             }
-            Err(error) => self.show_message("The project cannot be collected".into(), error.to_string()),
+        };
+        let project = self.editor.document.project().clone();
+        let path = folder.clone();
+        let request = CollectRequest { folder, file, project, origin };
+        match Task::start("Collecting into", &path, move |progress| collect(&request, progress)) {
+            Ok(task) => {
+                self.editor.status.clear();
+                self.collecting = Some(task);
+            }
+            Err(error) => self.editor.status = format!("no thread could be started to copy it: {error}"),
         }
     }
 
-    /// The project was collected, or not.
-    pub(super) fn collected(&mut self, result: Result<Box<(PathBuf, Collection)>>) {
+    /// Tells that the project was collected, or not.
+    pub(super) fn collected(&mut self, ctx: &egui::Context) {
+        let Some(result) = self.collecting.as_ref().and_then(|task| task.result(ctx)) else { return };
+        self.collecting = None;
         match result {
-            Ok(collected) => {
-                let (path, collection) = *collected;
+            Ok((path, collection)) => {
                 let count = collection.copied.len();
                 let megabytes = collection.bytes as f64 / 1e6;
                 self.editor.status =
@@ -162,38 +172,10 @@ impl App {
                     self.show_message("The project was collected, but".into(), collection.notes.join("\n"));
                 }
             }
+            Err(Error::Cancelled) => {
+                self.editor.status = "Collecting was cancelled; what was copied is removed".into();
+            }
             Err(error) => self.show_message("The project was not collected".into(), error.to_string()),
-        }
-    }
-
-    /// A file that was dropped on the window: a project is opened, a folder of frames is played, a mesh comes into the scene,
-    /// a picture or points become what the key frame after the playhead shows.
-    pub(super) fn dropped(&mut self, ctx: &egui::Context, file: PathBuf) {
-        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let ends = |pick: &AssetUse| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
-        let keys = &self.editor.document.project().keys;
-        let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
-        let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };
-        if file.is_dir() {
-            return self.windows.player.play(ctx, &file);
-        }
-        if matches!(ending.as_deref(), Some("json" | "lightloom")) {
-            return self.leave(ctx, Leave::Open(file));
-        }
-        match [AssetUse::Mesh, AssetUse::Picture(at.clone()), AssetUse::Points(at)]
-            .iter()
-            .find(|pick| ends(pick))
-        {
-            Some(pick) => self.locate(pick.clone(), file),
-            None => match mesh::advice(&file) {
-                Some(advice) => {
-                    self.show_message(format!("'{}' is not read", name(&file)), format!("It {advice}."));
-                }
-                None => {
-                    self.editor.status =
-                        format!("'{}' is not a project, mesh, picture or point file", name(&file));
-                }
-            },
         }
     }
 }

@@ -12,7 +12,7 @@ mod question;
 mod request;
 mod system;
 
-pub(super) use modal::modal;
+pub(super) use modal::{is_on_top, modal};
 pub use native::Native;
 pub use picker::Picker;
 pub use question::{Answer, Question};

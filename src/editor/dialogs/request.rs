@@ -115,6 +115,7 @@ impl Purpose {
             Self::SaveReport => "Save the report",
             Self::Asset(AssetUse::Mesh | AssetUse::MeshFile(_)) => "Choose a mesh",
             Self::Asset(AssetUse::Picture(_)) => "Choose a picture",
+            Self::Asset(AssetUse::Plate) => "Choose a background plate",
             Self::Asset(AssetUse::Points(_)) => "Choose a file of points",
         }
     }

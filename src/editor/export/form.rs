@@ -49,13 +49,14 @@ pub(super) fn show(
             }
         });
         let tip = "What EXR files hold. Without beauty and background none is traced: PNG files show the caustics on black.";
-        row(ui, "Layers", tip, &mut options.layers, &own.layers, |ui, layers| {
-            ui.vertical(|ui| {
-                ui.set_max_width(LAYERS_WIDTH);
-                let named = !editor.document.project().caustics.is_empty();
-                ui.horizontal_wrapped(|ui| layer_boxes(ui, layers, named));
-            });
+        reset_label(ui, "Layers", tip, &mut options.layers, &own.layers);
+        // Two lines: in a row of one the next would lie over them.
+        ui.vertical(|ui| {
+            ui.set_max_width(LAYERS_WIDTH);
+            let named = !editor.document.project().caustics.is_empty();
+            ui.horizontal_wrapped(|ui| layer_boxes(ui, &mut options.layers, named));
         });
+        ui.end_row();
         let tip = "Without a limit all passes are rendered. The first pass is always completed.";
         ui.label("Time").on_hover_text(tip);
         ui.horizontal(|ui| {

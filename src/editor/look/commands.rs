@@ -124,7 +124,8 @@ fn duplicate(editor: &mut EditorContext, scene: &SceneDesc, object: SceneObject,
     match arrange::duplicated(scene, object, loaded) {
         Ok((scene, copy)) => {
             step(editor, Ok(scene));
-            editor.session.focus.object = Some(copy);
+            // Not before it is there.
+            editor.ask(Action::SelectObject(copy));
         }
         Err(reason) => say(editor, reason),
     }

@@ -4,12 +4,15 @@ use egui::Ui;
 use lightloom_core::export::{FrameFormat, FrameLayer};
 use lightloom_core::project::{OutputSettings, Project};
 use lightloom_core::render::view::ViewSettings;
-use lightloom_core::render::{RenderSettings, ViewTransform};
+use lightloom_core::render::{PlateSettings, RenderSettings, ViewTransform};
 use lightloom_core::setting::format::number;
 
 use super::control::Control;
 use super::control::choice::preset_menu;
+use super::shows::file;
 use super::widgets::{aside, fold, section};
+use crate::editor::action::Action;
+use crate::editor::asset::AssetUse;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
@@ -37,6 +40,9 @@ const CAMERA: Control = Control::new("Camera samples", RenderSettings::CAMERA_SA
 const BACKGROUND: Control =
     Control::new("Background", RenderSettings::BACKGROUND_SAMPLES).log_slider(1.0, 1024.0);
 const KEPT: Control = Control::new("Kept in glass", RenderSettings::KEPT_IN_GLASS).slider(0.0, 1.0);
+const PLATE: Control = Control::new("Behind", RenderSettings::PLATE).labels(&["The scene", "A plate"]);
+const PLATE_FILE: Control = Control::new("Plate", PlateSettings::FILE);
+const PLATE_EXPOSURE: Control = Control::new("Plate exposure", PlateSettings::EXPOSURE).slider(-6.0, 6.0);
 const FILE: Control = Control::new("File name", OutputSettings::NAME);
 const FRAMES: Control = Control::new("Frames", OutputSettings::FRAMES);
 const FPS: Control = Control::new("Frames per s", OutputSettings::FPS);
@@ -60,6 +66,9 @@ pub(super) const CONTROLS: &[Control] = &[
     CAMERA,
     BACKGROUND,
     KEPT,
+    PLATE,
+    PLATE_FILE,
+    PLATE_EXPOSURE,
     FILE,
     FRAMES,
     FPS,
@@ -81,6 +90,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     EXPOSURE.number(ui, &mut render.view.exposure);
     TRANSFORM.choose(ui, &mut render.view.transform, &[ViewTransform::Agx, ViewTransform::Standard]);
     KEPT.number(ui, &mut render.kept_in_glass);
+    plate(ui, editor, &mut render.plate);
     section(ui, "Quality");
     quality(ui, &mut render);
     section(ui, "Files");
@@ -104,6 +114,20 @@ fn size(ui: &mut Ui, render: &mut RenderSettings) {
             [render.width, render.height] = SIZES[taken].1;
         }
     });
+}
+
+/// What stands behind the caustics. A plate begins once its file is picked.
+fn plate(ui: &mut Ui, editor: &mut EditorContext, plate: &mut Option<PlateSettings>) {
+    match PLATE.pick(ui, usize::from(plate.is_some())) {
+        Some(1) => editor.ask(Action::PickFile(AssetUse::Plate)),
+        Some(_) => *plate = None,
+        None => {}
+    }
+    let Some(plate) = plate else { return };
+    if file(ui, &PLATE_FILE, &plate.file) {
+        editor.ask(Action::PickFile(AssetUse::Plate));
+    }
+    PLATE_EXPOSURE.number(ui, &mut plate.exposure);
 }
 
 fn quality(ui: &mut Ui, render: &mut RenderSettings) {

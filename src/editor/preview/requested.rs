@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lightloom_core::engine::{Preview, Shot};
 use lightloom_core::project::{CausticDesc, Project};
-use lightloom_core::render::{PlaneMaterial, ViewSettings};
+use lightloom_core::render::{PlaneMaterial, PlateSettings, ViewSettings};
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
 use super::picture_worker::Plane;
@@ -73,6 +73,7 @@ pub(super) struct BackgroundKey {
     /// By key frame: what each caustic, and the rest, has of its physical light; none where it shows something else.
     pub(super) physical: Vec<Vec<Option<[f32; 3]>>>,
     pub(super) kept_in_glass: f32,
+    pub(super) plate: Option<PlateSettings>,
     /// The project file, and the files that may be read outside of its folder.
     pub(super) files: (PathBuf, Access),
 }

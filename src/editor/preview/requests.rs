@@ -96,6 +96,7 @@ fn background_key(subject: &Subject, size: [u32; 2]) -> BackgroundKey {
         caustics: caustics.clone(),
         physical: physical(&subject.project),
         kept_in_glass: render.kept_in_glass,
+        plate: render.plate.clone(),
         files: (subject.base.clone(), subject.access.clone()),
     }
 }

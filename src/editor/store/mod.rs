@@ -17,6 +17,7 @@ pub mod trust;
 
 mod attached;
 mod backups;
+mod collect;
 mod disk;
 mod lock;
 mod record;
@@ -25,6 +26,7 @@ mod slot;
 
 pub use attached::Hold;
 pub use backups::Backup;
+pub use collect::{CollectRequest, collect};
 pub use disk::Fingerprint;
 pub(crate) use disk::make_private;
 pub use folders::Folders;
@@ -32,7 +34,7 @@ pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
 pub use save::{Origin, SaveRequest, Saved};
-pub use saver::{CollectRequest, Opened, Saver, StoreReply, StoreRequest};
+pub use saver::{Opened, Saver, StoreReply, StoreRequest};
 pub use trust::trusted;
 
 #[cfg(test)]

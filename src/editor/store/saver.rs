@@ -7,8 +7,8 @@ use std::thread::JoinHandle;
 
 use std::time::{Duration, Instant};
 
-use lightloom_core::project::{AssetFolder, Collection, Project, ProjectFile, collect_into};
-use lightloom_core::{Error, Progress, Result, files};
+use lightloom_core::project::{AssetFolder, Project, ProjectFile};
+use lightloom_core::{Error, Result, files};
 
 use super::attached::{Attached, Hold, other_owner};
 use super::backups::{self, Backup};
@@ -28,8 +28,6 @@ pub enum StoreRequest {
     Open(PathBuf),
     /// Writes a project file.
     Save(SaveRequest),
-    /// Copies a project with its files.
-    Collect(CollectRequest),
     /// Holds and watches the file of the open document, which has this fingerprint; none releases the last one.
     Attach(Option<(PathBuf, Fingerprint)>),
     /// Finds the files of a project that lie outside of its folder and are not admitted.
@@ -48,19 +46,6 @@ pub enum StoreRequest {
     Remember(Box<Preferences>),
 }
 
-/// A request to copy a project with all its files into a folder.
-#[derive(Clone, Debug)]
-pub struct CollectRequest {
-    /// The folder.
-    pub folder: PathBuf,
-    /// The file it was read from.
-    pub file: Arc<ProjectFile>,
-    /// The current project.
-    pub project: Arc<Project>,
-    /// Where its paths hold; its file name is that of the collected project.
-    pub origin: Origin,
-}
-
 /// The reply to a request.
 #[derive(Debug)]
 pub enum StoreReply {
@@ -71,8 +56,6 @@ pub enum StoreReply {
     /// Nothing was written: another program changed the file since it was last read or written. Repeated with `seen`
     /// none, the request overwrites it.
     ChangedOnDisk(SaveRequest),
-    /// A project was collected into this file, or why not.
-    Collected(Result<Box<(PathBuf, Collection)>>),
     /// The file of the open document: whether it may be saved there, and its backups, newest first.
     Attached(PathBuf, Hold, Vec<Backup>),
     /// Another program changed the file of the open document; its new fingerprint.
@@ -188,7 +171,6 @@ impl Server {
                 Some(StoreReply::Opened(path, opened))
             }
             StoreRequest::Save(request) => Some(self.save(request)),
-            StoreRequest::Collect(request) => Some(StoreReply::Collected(collect(&request).map(Box::new))),
             StoreRequest::Attach(None) => {
                 self.attached = None;
                 None
@@ -240,12 +222,6 @@ impl Server {
             Err(error) => StoreReply::Saved(request, Err(error)),
         }
     }
-}
-
-fn collect(request: &CollectRequest) -> Result<(PathBuf, Collection)> {
-    let Origin { file, admitted, .. } = &request.origin;
-    let assets = AssetFolder::new(file, false)?.admitting(admitted.clone());
-    collect_into(&request.folder, (&request.file, &request.project), (file, &assets), &Progress::new())
 }
 
 /// The files of a project that are there, but outside of its folder and not admitted.

@@ -14,6 +14,7 @@ use super::thumbnails::Thumbnail;
 use super::{Timeline, edits, icons};
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::session::Panel;
 use crate::editor::templates;
 use crate::editor::theme;
 
@@ -74,6 +75,7 @@ impl Timeline {
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         if response.clicked() {
             editor.session.focus.key = Some(index);
+            editor.session.panel = Panel::Keys;
             go(editor, key.frame);
         }
         if response.drag_started() {

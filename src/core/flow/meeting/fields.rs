@@ -21,6 +21,8 @@ pub struct MeetingFields {
     halves: [Vec<Field>; 2],
     /// The planned velocities near walls, by half and step; empty where no wall stands.
     planned: [Vec<CellVelocities>; 2],
+    /// What directed lines change about the fields, by half and step; empty where no wall stands.
+    lines: [Vec<Option<Field>>; 2],
     steps: usize,
     mean_way: f32,
     hold: f32,
@@ -39,6 +41,7 @@ impl MeetingFields {
         Self {
             halves: Default::default(),
             planned: Default::default(),
+            lines: Default::default(),
             steps,
             mean_way,
             hold: 0.0,
@@ -75,9 +78,17 @@ impl MeetingFields {
         self.hold
     }
 
-    /// Appends the next field of a half, with the planned velocities where walls stand.
-    pub(super) fn push(&mut self, half: usize, field: Field, planned: Option<CellVelocities>) {
-        self.planned[half].extend(planned);
+    /// Appends the next field of a half; where walls stand, with the planned velocities and what directed lines change.
+    pub(super) fn push(
+        &mut self,
+        half: usize,
+        field: Field,
+        beside_walls: Option<(CellVelocities, Option<Field>)>,
+    ) {
+        if let Some((planned, lines)) = beside_walls {
+            self.planned[half].push(planned);
+            self.lines[half].push(lines);
+        }
         self.halves[half].push(field);
     }
 
@@ -135,6 +146,11 @@ impl MeetingFields {
     /// The planned velocities of step `done` of a half, forward in time; none where no wall stands.
     pub(super) fn planned(&self, half: usize, done: usize) -> Option<&CellVelocities> {
         self.planned[half].get(done)
+    }
+
+    /// What directed lines change about the field of step `done` of a half; none where none acts, or no wall stands.
+    pub(super) fn lines(&self, half: usize, done: usize) -> Option<&Field> {
+        self.lines[half].get(done)?.as_ref()
     }
 
     /// The length of a step of a half; negative in the second, which runs against time.

@@ -209,11 +209,12 @@ impl<'a> MeetingFitter<'a> {
         let rows = lines.act_at(t).then(|| lines.rows(t, &positions, &velocities));
         let lines = rows.as_ref().map(|(rows, mask)| LineTerm { rows, mask });
         let part = 2.0 * done as f64 / steps as f64;
-        let (field, report) = self.fits[side].fit(part, (&positions, &velocities), lines, progress)?;
+        let (field, pull, report) = self.fits[side].fit(part, (&positions, &velocities), lines, progress)?;
         self.statistics.fitted((&field, &self.fields.noise(t)), &report, &positions, &velocities);
         // One plan stands beside walls for all groups that share the field: that of the first, whose walls are the same.
-        let planned = self.fields.obstacles().is_some().then(|| self.bridges[0].velocities(side, sign));
-        self.fields.push(side, field, planned);
+        let walls = self.fields.obstacles().is_some();
+        let beside_walls = walls.then(|| (self.bridges[0].velocities(side, sign), pull));
+        self.fields.push(side, field, beside_walls);
         self.plan.seconds[1] += start.elapsed().as_secs_f64();
         Ok(())
     }

@@ -62,7 +62,8 @@ impl LeadingFit {
         Ok(Self { leading: alone(leads, smooth)?, following: alone(follows, 0.0)?, lines, share })
     }
 
-    /// Fits both potentials to velocities at positions; `part`, 0 to 1, is how far the half is done.
+    /// Fits both potentials to velocities at positions; `part`, 0 to 1, is how far the half is done. Returns the field, with what
+    /// the lines change about it.
     ///
     /// # Errors
     /// As [`Fitter::fit`].
@@ -72,7 +73,7 @@ impl LeadingFit {
         (positions, velocities): (&[Vec2], &[Vec2]),
         lines: Option<LineTerm>,
         progress: &Progress,
-    ) -> Result<(Field, FitReport)> {
+    ) -> Result<(Field, Option<Field>, FitReport)> {
         let (leading, report) = self.leading.fit(positions, velocities, progress)?;
         let share = self.share + (1.0 - self.share) * smoothstep(part / RISE);
         let (mut field, mut report) = (leading, report);
@@ -90,9 +91,9 @@ impl LeadingFit {
             let still = vec![Vec2::ZERO; positions.len()];
             let (pull, other) = fitter.fit_with(positions, &still, Some(term), progress)?;
             add(&mut field, &pull, 1.0);
-            report = report.worst(other);
+            return Ok((field, Some(pull), report.worst(other)));
         }
-        Ok((field, report))
+        Ok((field, None, report))
     }
 }
 

@@ -30,6 +30,7 @@ fn everything() -> Value {
             { "type": "wall", "points": points },
         ],
         "flow": { "fade": { "type": "smooth" }, "turbulence": {} },
+        "render": { "plate": { "file": "a.png" } },
     });
     full(given)
 }

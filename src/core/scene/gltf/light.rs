@@ -96,12 +96,16 @@ impl GltfFile {
 
     /// Whether a node is empty and called as a lamp: what Blender leaves of an area light, of which the format knows nothing.
     pub fn is_lost_lamp(&self, node: &Node) -> bool {
+        let name = node.name.to_lowercase();
+        self.is_bare(node) && LAMPS.iter().any(|word| name.contains(word))
+    }
+
+    /// Whether a node holds nothing: neither mesh, camera, lamp nor other nodes.
+    pub fn is_bare(&self, node: &Node) -> bool {
         let Some(given) = self.root.nodes.get(node.index) else { return false };
         let lit = given.extensions.as_ref().is_some_and(|given| given.khr_lights_punctual.is_some());
         let parent = given.children.as_ref().is_some_and(|children| !children.is_empty());
-        let empty = given.mesh.is_none() && given.camera.is_none() && !lit && !parent;
-        let name = node.name.to_lowercase();
-        empty && LAMPS.iter().any(|word| name.contains(word))
+        given.mesh.is_none() && given.camera.is_none() && !lit && !parent
     }
 }
 

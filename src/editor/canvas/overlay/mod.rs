@@ -45,28 +45,35 @@ pub struct Overlay<'a> {
 struct ConstraintStyle {
     /// Disabled: drawn dashed.
     off: bool,
-    /// Active at the playhead; otherwise dimmed.
-    acts: bool,
+    /// Strength at the playhead, 0..=1: what does not act is dimmed.
+    strength: f32,
     selected: bool,
     hovered: bool,
 }
 
 impl ConstraintStyle {
-    const DRAWING: Self = Self { off: false, acts: true, selected: false, hovered: false };
+    const DRAWING: Self = Self { off: false, strength: 1.0, selected: false, hovered: false };
 
     fn of(constraint: &Constraint, index: usize, session: &Session, hovered: Option<usize>) -> Self {
         let frame = session.playhead;
-        let stands = constraint.span().is_none_or(|span| (span.from..=span.to).contains(&frame));
+        let strength = match (constraint.is_enabled(), constraint.span(), constraint) {
+            (false, ..) => 0.0,
+            (true, None, _) => 1.0,
+            (true, Some(span), Constraint::DirectedLine(_)) => span.strength(frame) as f32,
+            (true, Some(span), Constraint::Wall(_)) => {
+                f32::from(u8::from((span.from..=span.to).contains(&frame)))
+            }
+        };
         Self {
             off: !constraint.is_enabled(),
-            acts: constraint.is_enabled() && stands,
+            strength,
             selected: session.selection.contains(index),
             hovered: hovered == Some(index),
         }
     }
 
     fn tint(self, colour: Color32) -> Color32 {
-        if self.acts { colour } else { colour.gamma_multiply(DIM) }
+        colour.gamma_multiply(DIM + (1.0 - DIM) * self.strength)
     }
 }
 
