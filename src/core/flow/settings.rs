@@ -70,7 +70,8 @@ pub struct FlowSettings {
 
 settings! { FlowSettings {
     /// Kind of flow. At 0 light sets out like a liquid (divergence-free): it swirls, keeps its brightness, and gathers
-    /// only on the way; at 1 it spreads and gathers like a gradient (irrotational), without swirls. Adjust it first.
+    /// only on the way; at 1 it spreads and gathers like a gradient (irrotational), without swirls. Beside walls it follows
+    /// the plan, whatever gamma is. Adjust it first.
     GAMMA = Setting::real("flow.gamma", [0.0, 1.0], &[0.5]);
     /// Smoothness of the field, over a length of about sqrt(alpha) of the plane's longer side (1e-5: 0.003, 1e-4: 0.01,
     /// 1e-3: 0.03, 1e-2: 0.1). Low values follow the plan, high ones carry all light along in wide folds and tear it.
