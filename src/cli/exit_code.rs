@@ -4,6 +4,8 @@ use std::io::ErrorKind;
 
 use lightloom_core::Error;
 
+use crate::editor::device::TRY_AGAIN;
+
 /// Exit code where all frames are there, but some hold values that had to be replaced.
 pub(super) const BAD_FRAMES: u8 = 4;
 /// Exit code where there is no screen, or nothing that draws on it.
@@ -11,8 +13,6 @@ pub(super) const NO_WINDOW: u8 = 1;
 
 /// Exit code of a fault of the program.
 pub(super) const INTERNAL: u8 = 70;
-/// Exit code where the same command may succeed a little later.
-const TRY_AGAIN: u8 = 75;
 
 /// One code per cause, so that a render farm can tell a bad project from a full disk.
 pub(super) fn exit_code(error: &Error) -> u8 {

@@ -9,7 +9,7 @@ const LOST: &str = "LIGHTLOOM_DEVICES_LOST";
 /// Most programs that take the place of others.
 const MOST: u32 = 3;
 /// The exit code where the same may succeed a little later.
-const TRY_AGAIN: i32 = 75;
+pub(crate) const TRY_AGAIN: u8 = 75;
 
 /// Tells the window that its graphics device is lost.
 #[derive(Debug, Default)]
@@ -58,7 +58,7 @@ pub(super) fn start_anew(project: Option<&Path>) -> ! {
     eprintln!(
         "lightloom: the graphics device was lost ({why}); what was not saved is offered at the next start"
     );
-    exit(TRY_AGAIN)
+    exit(TRY_AGAIN.into())
 }
 
 /// Runs a command in place of this program; returns only where that is refused.

@@ -1,5 +1,8 @@
 //! Square cells over the plane: densities and velocities at their centres.
 
+use std::iter::Sum;
+use std::ops::Mul;
+
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -66,7 +69,7 @@ impl Cells {
 
     /// The four cells around a point with their bilinear weights.
     #[inline]
-    pub fn around(&self, p: Vec2) -> [(usize, f32); 4] {
+    pub(super) fn around(&self, p: Vec2) -> [(usize, f32); 4] {
         let Place { index, x, y } = self.place(p);
         let width = self.size[0];
         [
@@ -99,11 +102,23 @@ impl Cells {
         all
     }
 
+    /// The bilinear value at a point, in single precision.
+    #[inline]
+    pub fn single_value<T: Copy + Mul<f32, Output = T> + Sum>(&self, values: &[T], p: Vec2) -> T {
+        weighted(values, self.around(p))
+    }
+
     /// The bilinear value at a point.
     #[inline]
     pub fn value(&self, values: &[f64], p: Vec2) -> f64 {
         self.around(p).iter().map(|&(cell, weight)| f64::from(weight) * values[cell]).sum()
     }
+}
+
+/// The sum of the values of some cells, each times its weight.
+#[inline]
+pub(super) fn weighted<T: Copy + Mul<f32, Output = T> + Sum>(values: &[T], cells: [(usize, f32); 4]) -> T {
+    cells.iter().map(|&(cell, weight)| values[cell] * weight).sum()
 }
 
 #[cfg(test)]

@@ -73,6 +73,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 pub use self::cells::Cells;
+use self::cells::weighted;
 use self::free_plan::FreePlan;
 pub use self::settings::{BridgeSettings, WallsFrom};
 pub use self::sight::Sight;
@@ -151,8 +152,7 @@ impl<'a> Bridge<'a> {
             None => self.cells.around(p),
             Some(walls) => walls.around(p),
         };
-        let velocity = around.iter().map(|&(cell, weight)| self.velocities[side][cell] * weight).sum();
-        limited(velocity, self.limit)
+        limited(weighted(&self.velocities[side], around), self.limit)
     }
 
     /// The velocities of `side` in all cells, see [`Self::velocity`], times `sign`.

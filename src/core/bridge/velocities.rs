@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::cells::Cells;
+use super::cells::{Cells, weighted};
 use super::sight::Sight;
 use crate::constraint::barrier::Barriers;
 
@@ -34,7 +34,7 @@ impl CellVelocities {
     pub fn seen_from(&self, (barriers, sight): (&Barriers, &Sight), p: Vec2) -> Vec2 {
         let around = self.cells.around(p);
         match sight.is_open(around[0].0) {
-            true => around.iter().map(|&(cell, weight)| self.velocities[cell] * weight).sum(),
+            true => weighted(&self.velocities, around),
             false => self.past(barriers, p, around),
         }
     }

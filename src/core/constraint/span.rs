@@ -73,6 +73,11 @@ impl Span {
         Some(Window { rise: rise.map(time), fall: fall.map(time) })
     }
 
+    /// Whether a frame is within it.
+    pub fn contains(&self, frame: i32) -> bool {
+        (self.from..=self.to).contains(&frame)
+    }
+
     /// Strength of a directed line at a frame, 0..=1, for display: within a segment the fade runs in its flow time.
     pub fn strength(&self, frame: i32) -> f64 {
         self.in_frames().at(f64::from(frame))

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 
 use super::decode;
-use super::picture::clean;
+use super::picture::{clean, note_on_bad};
 use crate::{Progress, Result};
 
 /// The linear light of a picture file; transparent parts are black.
@@ -41,13 +41,11 @@ impl PictureLight {
                 pixels.push(Vec3::from_slice(pixel));
             }
         }
-        let mut tell = |count: usize, what: &str| {
-            if count > 0 {
-                notes.push(format!("'{}': {count} pixels {what}", path.display()));
-            }
-        };
-        tell(bad, "hold NaN, infinite or negative values, which count as 0");
-        tell(clear, "are transparent, which count as lying over black");
+        notes.extend(note_on_bad(path, bad));
+        if clear > 0 {
+            let path = path.display();
+            notes.push(format!("'{path}': {clear} pixels are transparent, which count as lying over black"));
+        }
         let size = [picture.width, picture.height];
         Ok(Self { size, shown: picture.shown_size(), pixels, notes })
     }

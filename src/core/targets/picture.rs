@@ -56,13 +56,7 @@ impl PictureSampler {
         let picture = decode::read(path, progress)?;
         let mut notes = picture.notes.clone();
         let mut cells = Cells::of(&picture, target, target.channel, progress)?;
-        if cells.bad_pixels > 0 {
-            notes.push(format!(
-                "'{}': {} pixels hold NaN, infinite or negative values, which count as 0",
-                path.display(),
-                cells.bad_pixels
-            ));
-        }
+        notes.extend(note_on_bad(path, cells.bad_pixels));
         if target.channel == Channel::Brightness && cells.black_with_shape {
             cells = Cells::of(&picture, target, Channel::Alpha, progress)?;
             notes.push(format!("'{}' is black all over: its opacity is used as brightness", path.display()));
@@ -209,6 +203,14 @@ fn attraction(colour: Vec3, alpha: f32, invert: bool, channel: Channel) -> (f32,
         Channel::Alpha if invert => (1.0 - alpha, colour),
         Channel::Alpha => (alpha, colour),
     }
+}
+
+/// A note on the pixels of a file that [`clean`] changed.
+pub(super) fn note_on_bad(path: &Path, pixels: usize) -> Option<String> {
+    (pixels > 0).then(|| {
+        let path = path.display();
+        format!("'{path}': {pixels} pixels hold NaN, infinite or negative values, which count as 0")
+    })
 }
 
 /// Values that are no amounts of light become 0; returns whether there were any.

@@ -10,6 +10,7 @@ use super::App;
 use super::file_state::Leave;
 use super::files::name;
 use crate::editor::asset::{AssetUse, TargetSlot};
+use crate::editor::dialogs::Purpose;
 
 /// What a file becomes that is dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,10 +69,11 @@ impl App {
             return Becomes::Frames;
         }
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if matches!(ending.as_deref(), Some("json" | "lightloom")) {
+        let is_one_of = |endings: &[&str]| ending.as_deref().is_some_and(|ending| endings.contains(&ending));
+        if is_one_of(Purpose::OpenProject.files().1) {
             return Becomes::Document;
         }
-        let ends = |pick: &AssetUse| ending.as_deref().is_some_and(|ending| pick.files().1.contains(&ending));
+        let ends = |pick: &AssetUse| is_one_of(pick.files().1);
         let keys = &self.editor.document.project().keys;
         let after = keys.iter().position(|key| key.frame >= self.editor.session.playhead);
         let at = TargetSlot { key: after.unwrap_or(keys.len().saturating_sub(1)), caustic: None };

@@ -13,8 +13,8 @@ use crate::log;
 impl App {
     /// Asks for a file for the report.
     pub(super) fn ask_where_to_report(&mut self, ctx: &egui::Context) {
-        let folder = self.editor.document.path().and_then(Path::parent).map(Path::to_owned);
-        let request = PickRequest::new(Purpose::SaveReport).in_folder(folder).named("lightloom_report.txt");
+        let request =
+            PickRequest::new(Purpose::SaveReport).in_folder(self.own_folder()).named("lightloom_report.txt");
         self.picker.ask(request, ctx);
     }
 

@@ -121,7 +121,7 @@ impl Purpose {
     }
 
     /// Name and extensions of the wanted files; no extension means a folder.
-    pub(super) fn files(&self) -> (&'static str, &'static [&'static str]) {
+    pub(in crate::editor) fn files(&self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::OpenProject | Self::SaveProject => ("Lightloom projects", &["json", "lightloom"]),
             Self::ExportFolder | Self::CollectFolder => ("Folders", &[]),

@@ -57,11 +57,12 @@ impl<'a> WallMotion<'a> {
         h: f32,
         c: [Vec2; N],
     ) -> ([Vec2; N], [bool; N]) {
-        // Next to a wall photons walk, wherever the step leads.
-        let beside = c.map(|p| self.clearance.at_least(p) <= 0.0);
-        // Known well enough at the begin: both velocities are nearly the same.
+        let free = c.map(|p| self.clearance.at_least(p));
+        // Known well enough at the begin: both velocities are nearly the same. Next to a wall photons walk, wherever the step
+        // leads.
         let distance = c.map(|p| self.clearance.at(p));
-        let near: [f32; N] = std::array::from_fn(|i| if beside[i] { 0.0 } else { self.near(distance[i]) });
+        let near: [f32; N] =
+            std::array::from_fn(|i| if free[i] > 0.0 { self.near(distance[i]) } else { 0.0 });
         let (end, reach) = runge_kutta(h, c, |stage, p| {
             let mut velocities = stages[stage].velocities(p);
             for i in 0..N {
@@ -72,7 +73,8 @@ impl<'a> WallMotion<'a> {
             }
             velocities
         });
-        (end, std::array::from_fn(|i| beside[i] || !self.is_clear(c[i], reach[i])))
+        let is_clear = |i: usize| free[i] > reach[i];
+        (end, std::array::from_fn(|i| !is_clear(i)))
     }
 
     /// A photon at `c` after each substep of a step of length `h`: each is a straight move, or one that slides.

@@ -37,7 +37,6 @@ impl Clearance {
     #[inline]
     pub(crate) fn at(&self, p: Vec2) -> f32 {
         let within = p.clamp(Vec2::ZERO, self.extent);
-        let around = self.cells.around(within);
-        around.iter().map(|&(cell, weight)| weight * self.distances[cell]).sum::<f32>() - p.distance(within)
+        self.cells.single_value(&self.distances, within) - p.distance(within)
     }
 }

@@ -60,9 +60,7 @@ impl ConstraintStyle {
             (false, ..) => 0.0,
             (true, None, _) => 1.0,
             (true, Some(span), Constraint::DirectedLine(_)) => span.strength(frame) as f32,
-            (true, Some(span), Constraint::Wall(_)) => {
-                f32::from(u8::from((span.from..=span.to).contains(&frame)))
-            }
+            (true, Some(span), Constraint::Wall(_)) => f32::from(u8::from(span.contains(frame))),
         };
         Self {
             off: !constraint.is_enabled(),

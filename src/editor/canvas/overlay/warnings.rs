@@ -56,7 +56,7 @@ fn warnings(context: &ToolContext, ghosts: &[Ghost]) -> Vec<Warning> {
         Constraint::Wall(wall) => Some((i, wall)),
         Constraint::DirectedLine(_) => None,
     });
-    let stands = |wall: &Wall| wall.span.as_ref().is_none_or(|span| (span.from..=span.to).contains(&frame));
+    let stands = |wall: &Wall| wall.span.as_ref().is_none_or(|span| span.contains(frame));
     let chosen = |i: usize| context.session.selection.contains(i);
     let standing: Vec<(bool, ActiveWall)> = walls
         .filter(|(_, wall)| stands(wall))

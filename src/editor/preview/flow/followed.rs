@@ -66,7 +66,7 @@ impl WallGraph {
 
 /// The walls that stand at a frame.
 fn standing(project: &Arc<Project>, frame: i32) -> Vec<ActiveWall> {
-    let now = |c: &&Constraint| c.span().is_none_or(|span| (span.from..=span.to).contains(&frame));
+    let now = |c: &&Constraint| c.span().is_none_or(|span| span.contains(frame));
     let walls = project.constraints.iter().filter(now).filter_map(|constraint| match constraint {
         Constraint::Wall(wall) => wall.active(Window::ALWAYS),
         Constraint::DirectedLine(_) => None,
