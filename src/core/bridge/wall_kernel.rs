@@ -141,6 +141,8 @@ pub(super) struct WallKernel {
     of_step: Vec<usize>,
     /// Most light of each cell.
     cap: Vec<f64>,
+    /// The share of light that is let stay beside walls in one step, by kernel and cell.
+    soft: Vec<Vec<f64>>,
     /// Factors at the begin of each step, at most 1, and the densities from both sides there.
     factors: Vec<Vec<f64>>,
     from: [Vec<Vec<f64>>; 2],
@@ -153,14 +155,20 @@ pub(super) struct WallKernel {
 }
 
 impl WallKernel {
-    pub(super) fn new(kernels: Vec<StepKernel>, of_step: Vec<usize>, cap: Vec<f64>) -> Self {
+    pub(super) fn new(
+        (kernels, soft): (Vec<StepKernel>, Vec<Vec<f64>>),
+        of_step: Vec<usize>,
+        cap: Vec<f64>,
+    ) -> Self {
         let (steps, count) = (of_step.len(), cap.len());
         let columns = |value: f64| vec![vec![value; count]; steps + 1];
+        let factors = (0..=steps).map(|k| soft[of_step[k.min(steps - 1)]].clone()).collect();
         Self {
             kernels,
             of_step,
             cap,
-            factors: columns(1.0),
+            soft,
+            factors,
             from: [columns(1.0), columns(1.0)],
             work: [vec![0.0; count], vec![0.0; count]],
             current: vec![0.0; count],
@@ -184,10 +192,11 @@ impl WallKernel {
                 break;
             }
             let [a, b] = &self.from;
+            let soft = &self.soft[self.of_step[to]];
             let columns = self.current.iter_mut().zip(&mut self.factors[to]).zip(&self.cap);
             for (i, ((current, factor), cap)) in columns.enumerate() {
                 if capped {
-                    *factor = (cap / (a[to][i] * b[to][i]).max(LEAST)).min(1.0);
+                    *factor = (cap / (a[to][i] * b[to][i]).max(LEAST)).min(soft[i]);
                 }
                 *current = *factor * self.from[side][to][i];
             }

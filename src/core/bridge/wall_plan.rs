@@ -1,6 +1,7 @@
 //! The plan of motion around walls, made once and followed.
 
 use glam::Vec2;
+use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::ends::{End, scale_in_turn};
@@ -8,7 +9,7 @@ use super::free_plan::finer_scale;
 use super::gradient::{BLUR, floor, gather, gradients};
 use super::regions::Regions;
 use super::settings::BridgeSettings;
-use super::wall_cells::StandingWalls;
+use super::wall_cells::{StandingWalls, WallCells};
 use super::wall_kernel::{StepKernel, WallKernel};
 use crate::{Progress, Result};
 
@@ -21,6 +22,10 @@ const RELAXATION: f64 = 1.6;
 const COARSEST: usize = 48;
 /// Least variance of a step in squared cells: a narrower kernel is none on the grid.
 const LEAST_VARIANCE: f64 = 0.36;
+/// Reach of the softness of walls, over the size of the pieces that hold together, and the logarithm of how much light less there is
+/// at a wall that stands all the time.
+const REACH: f64 = 0.6;
+const SOFTNESS: f64 = 20.0;
 /// Diffusion down the density over the planned one, over that of the bridge. With 1 the gap at the meeting is .0037 and .0159 in
 /// place of .0026 and .0139 (*letters*, *bottles*); with 4 it is no smaller.
 const FEEDBACK: f64 = 2.0;
@@ -96,9 +101,10 @@ impl Made {
         let whole = f64::from(settings.hold / cells.side).powi(2);
         let step = (whole / steps as f64).max(LEAST_VARIANCE);
         let kernels = walls.runs().map(|walls| StepKernel::new(cells, walls, step)).collect();
+        let soft = walls.runs().map(|walls| soft(settings, cells, walls)).collect();
         let of_step = (0..steps).map(|step| walls.run_of(step)).collect();
         let mut kernel =
-            WallKernel::new(kernels, of_step, cap(settings, [&ends[0].density, &ends[1].density]));
+            WallKernel::new((kernels, soft), of_step, cap(settings, [&ends[0].density, &ends[1].density]));
         ends[1].scale = match coarse {
             Some(coarse) => finer_scale(coarse, (cells, &ends[1].density)),
             None if settings.cells <= COARSEST => {
@@ -175,4 +181,16 @@ fn cap(settings: &BridgeSettings, densities: [&[f64]; 2]) -> Vec<f64> {
     let [a, b] = densities;
     let most = typical(a).max(typical(b));
     a.iter().zip(b).map(|(a, b)| f64::from(settings.density) * a.max(*b).max(most)).collect()
+}
+
+/// The share of the light of each cell that is let stay in one step: less towards a wall, so that light fades there.
+fn soft(settings: &BridgeSettings, cells: &Cells, walls: Option<&WallCells>) -> Vec<f64> {
+    let Some(walls) = walls else { return vec![1.0; cells.count()] };
+    let reach = REACH * f64::from(settings.hold);
+    let per_step = SOFTNESS / settings.steps as f64;
+    let share = |cell: usize| {
+        let near = (1.0 - f64::from(walls.barriers().distance(cells.centre(cell))) / reach).max(0.0);
+        (-per_step * near * near).exp()
+    };
+    (0..cells.count()).into_par_iter().map(share).collect()
 }
