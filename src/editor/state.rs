@@ -93,7 +93,8 @@ impl EditorState {
             | Action::OpenBackup(_)
             | Action::PlayFrames(_)
             | Action::New(_)
-            | Action::PickFile(_) => {
+            | Action::PickFile(_)
+            | Action::PlacePicture(_) => {
                 return Some(action);
             }
         }

@@ -49,6 +49,7 @@ mod output_folder;
 mod pairing;
 mod passes;
 mod photon_files;
+mod placing;
 mod plan;
 mod prepare;
 mod preview;

@@ -7,6 +7,7 @@ use eframe::egui;
 use super::App;
 use crate::editor::preferences;
 use crate::editor::store::{Note, StoreRequest};
+use crate::editor::templates;
 
 impl App {
     /// Sends changes since the last frame to the file threads. Copies pointers only.
@@ -53,6 +54,8 @@ impl App {
             file,
             project,
             seen: self.editor.document.seen(),
+            base: templates::file_of(&self.editor.document),
+            admitted: self.files.admitted.files(),
         });
     }
 }

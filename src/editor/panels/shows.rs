@@ -59,6 +59,12 @@ pub(super) fn show(
                 editor.ask(Action::PickFile(AssetUse::Picture(at.clone())));
             }
             picture(ui, editor, &mut changed);
+            if editor.document.project().scene.is_some() {
+                let what = "Lays the picture where the caustic falls that becomes it, as large, upright for the camera and in its view.";
+                if ui.button("Fit to the light").on_hover_text(what).clicked() {
+                    editor.ask(Action::PlacePicture(at.clone()));
+                }
+            }
             if changed != *image {
                 new = Some(Some(Shows::Image(changed)));
             }
