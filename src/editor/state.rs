@@ -17,6 +17,7 @@ use super::session::{
 };
 use super::timeline;
 use super::tools::arrange::{self, Arranged};
+use super::tools::groups;
 
 /// Factor of one zoom step.
 const ZOOM_STEP: f32 = 1.25;
@@ -155,6 +156,8 @@ impl EditorState {
             Command::Reverse => self.arrange(arrange::reverse(&project, &selection)),
             Command::Join => self.arrange(arrange::join(&project, &selection)),
             Command::Split => self.arrange(arrange::split(&project, &selection)),
+            Command::Group => self.arrange(groups::group(&project, &selection)),
+            Command::Ungroup => self.arrange(groups::ungroup(&project, &selection)),
             Command::SelectAll => self.session.selection = Selection::all(0..project.constraints.len()),
             Command::SelectNone => self.session.selection = Selection::default(),
             _ => return false,

@@ -179,6 +179,7 @@ fn large_project() -> ProjectFile {
         span: None,
         enabled: true,
         locked: false,
+        group: String::new(),
     }));
     ProjectFile::new(project).unwrap()
 }
