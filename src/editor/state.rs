@@ -63,6 +63,11 @@ impl EditorState {
             Session { layout, overlays, snapping, looping, speed, panel, tool, ..start_of(&document) };
         self.document = document;
         self.status.clear();
+        self.begin_preview();
+    }
+
+    /// Makes the preview anew.
+    pub fn begin_preview(&mut self) {
         let old = std::mem::replace(&mut self.preview, (self.new_preview)());
         // Its workers stop soon; the window does not wait for them.
         let _ = std::thread::Builder::new().name("old preview".into()).spawn(move || drop(old));

@@ -103,12 +103,18 @@ use stages::Stages;
 pub struct Engine {
     stages: Arc<Stages>,
     client: Client,
+    /// Bytes that the positions of a preview may take.
+    preview_bytes: usize,
 }
 
 impl Engine {
     /// An engine that remembers nothing and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self { stages: Arc::new(Stages::new(assets)), client: Client::Main }
+        Self {
+            stages: Arc::new(Stages::new(assets)),
+            client: Client::Main,
+            preview_bytes: preview::PREVIEW_BYTES,
+        }
     }
 
     /// An engine that finds the same files and remembers nothing.
@@ -118,7 +124,12 @@ impl Engine {
 
     /// The same engine on behalf of another user: results are shared, and each user keeps those it needs.
     pub fn on_behalf_of(&self, client: Client) -> Self {
-        Self { stages: self.stages.clone(), client }
+        Self { client, ..self.clone() }
+    }
+
+    /// The same engine whose previews take at most so many bytes for the positions of their photons, by fewer photons.
+    pub fn with_preview_memory(self, bytes: usize) -> Self {
+        Self { preview_bytes: bytes, ..self }
     }
 
     fn prepare(&self, project: &Project, meter: &Meter, progress: &Progress) -> Result<Prepared> {

@@ -17,6 +17,9 @@ impl App {
         if last_sent.preferences.as_ref() != Some(&self.preferences) {
             let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
             preferences::apply(ctx, &self.preferences);
+            if self.engine.limit_previews(self.preferences.preview_megabytes) {
+                self.editor.begin_preview();
+            }
             self.recents.ask(self.preferences.recent.clone());
             if !first && self.keeps_preferences {
                 self.files.request(StoreRequest::Remember(Box::new(self.preferences.clone())));

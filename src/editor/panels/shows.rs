@@ -114,6 +114,6 @@ fn picture(ui: &mut Ui, editor: &EditorContext, image: &mut ImageTarget) {
     } else if centre != placement.centre.unwrap_or(middle.into()) {
         placement.centre = Some(centre);
     }
-    WIDTH.optional(ui, &mut placement.width, "fit", 0.5);
+    WIDTH.optional(ui, &mut placement.width, "fill", 0.5);
     TURN.number(ui, &mut placement.rotate);
 }
