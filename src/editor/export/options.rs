@@ -30,7 +30,7 @@ pub struct ExportOptions {
 
 /// Numbers for a purpose, made from the project's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
+pub(super) enum Purpose {
     /// To see the movement: half the size, one pass of few photons.
     Draft,
     /// To show it around: the whole size, two passes.
@@ -41,7 +41,7 @@ pub enum Purpose {
 
 impl Purpose {
     /// All of them, with their names and what they are for.
-    pub const ALL: [(Self, &str, &str); 3] = [
+    pub(super) const ALL: [(Self, &str, &str); 3] = [
         (Self::Draft, "Draft", "To see the movement: half the size, one pass of at most 200 000 photons."),
         (
             Self::Review,
@@ -52,7 +52,7 @@ impl Purpose {
     ];
 
     /// The options for it, where `own` are those of the project.
-    pub fn apply(self, options: &ExportOptions, own: &ExportOptions) -> ExportOptions {
+    pub(super) fn apply(self, options: &ExportOptions, own: &ExportOptions) -> ExportOptions {
         // Films want even sides.
         let half = |pixels: u32| if pixels < 64 { pixels } else { (pixels / 2).next_multiple_of(2) };
         let (size, passes, photons) = match self {

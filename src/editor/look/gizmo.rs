@@ -10,6 +10,8 @@ use super::viewpoint::Viewpoint;
 
 /// Length of an arrow, points.
 const ARROW: f32 = 78.0;
+/// Length of its head, beyond that, points.
+const HEAD: f32 = 11.0;
 /// Where an arrow begins to be one, points from the middle.
 const GAP: f32 = 14.0;
 /// Radius of a ring, points.
@@ -17,7 +19,7 @@ const RING: f32 = 56.0;
 /// Corners of a ring.
 const CORNERS: usize = 64;
 /// Reach of arrows and rings, points.
-const REACH: f32 = 6.0;
+const REACH: f32 = 7.0;
 
 /// A handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +82,10 @@ impl<'a> Gizmo<'a> {
 
     /// The handle at a point of the screen; arrows win over rings.
     pub fn hit(&self, at: Pos2) -> Option<Handle> {
-        let arrow = |&axis: &usize| self.arrow(axis).is_some_and(|[a, b]| distance(at, a, b) <= REACH);
+        // To the tip of its head, where one takes hold of an arrow.
+        let arrow = |&axis: &usize| {
+            self.arrow(axis).is_some_and(|[from, to]| distance(at, from, tip(from, to)) <= REACH)
+        };
         let ring =
             |&axis: &usize| self.ring(axis).windows(2).any(|piece| distance(at, piece[0], piece[1]) <= REACH);
         let found = |kind, axis| Handle { kind, axis };
@@ -102,12 +107,16 @@ impl<'a> Gizmo<'a> {
                 painter.line_segment([from, to], stroke(TransformKind::Move));
                 let along = (to - from).normalized();
                 let across = along.rot90() * 4.5;
-                let tip = to + along * 11.0;
-                let head = vec![tip, to + across, to - across];
+                let head = vec![tip(from, to), to + across, to - across];
                 painter.add(Shape::convex_polygon(head, axis::COLOURS[axis], Stroke::NONE));
             }
         }
     }
+}
+
+/// The tip of the head of an arrow.
+fn tip(from: Pos2, to: Pos2) -> Pos2 {
+    to + (to - from).normalized() * HEAD
 }
 
 /// Distance of a point from a segment.
