@@ -42,7 +42,7 @@ fn in_world(project: &Project, placement: &Placement) -> (f32, Vec2) {
 
 #[test]
 fn a_picture_is_as_large_as_its_light_however_large_the_table() {
-    let (small, large) = (goblet(0.6), goblet(2.4));
+    let (small, large) = (goblet(1.0), goblet(1.6));
     let [(width, centre), (on_large, there)] =
         [&small, &large].map(|project| in_world(project, &placed(project, 0.0)));
     // The soft border takes light of the small table, and other photons tell where it lies.

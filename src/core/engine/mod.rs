@@ -98,6 +98,9 @@ use meter::Meter;
 use prepare::Prepared;
 use stages::Stages;
 
+/// Bytes that the positions of a preview may take unless another number is set: 150 000 photons in 133 frames.
+const PREVIEW_BYTES: usize = 160_000_000;
+
 /// The stages of projects in one folder, with what they remember. Clones share it.
 #[derive(Clone)]
 pub struct Engine {
@@ -110,11 +113,7 @@ pub struct Engine {
 impl Engine {
     /// An engine that remembers nothing and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self {
-            stages: Arc::new(Stages::new(assets)),
-            client: Client::Main,
-            preview_bytes: preview::PREVIEW_BYTES,
-        }
+        Self { stages: Arc::new(Stages::new(assets)), client: Client::Main, preview_bytes: PREVIEW_BYTES }
     }
 
     /// An engine that finds the same files and remembers nothing.

@@ -25,7 +25,7 @@ const STRAY_PIXELS: f32 = 0.002;
 const QUALITY: Quality = Quality::Preview;
 const POINTS: usize = 4_000;
 /// The smallest box of light counted as such, plane units: a picture in the focus of a lens could not be seen.
-const SMALLEST: f32 = 0.12;
+const SMALLEST: f32 = 0.08;
 /// Share of the frame's half width and height within which the picture lies.
 const SAFE: f32 = 0.88;
 /// Share of the soft border that stays free: beyond, little of the light flows.

@@ -39,9 +39,8 @@ use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
-use file_state::{Details, Elsewhere, Files};
+use file_state::{Details, Elsewhere, Files, Placing};
 use open_windows::Windows;
-use placing::Placing;
 use recents::Recents;
 use task::Task;
 

@@ -8,16 +8,10 @@ use lightloom_core::project::{Shows, relative};
 use lightloom_core::targets::{ImageTarget, Placement};
 
 use super::App;
+use super::file_state::Placing;
 use super::task::Task;
 use crate::editor::asset::{AssetUse, TargetSlot, show};
 use crate::editor::templates;
-
-/// A picture whose place is being found.
-pub(super) struct Placing {
-    at: TargetSlot,
-    target: ImageTarget,
-    pub(super) task: Task<Placement>,
-}
 
 impl App {
     /// Puts a picked picture into the project: a new one where the light is that becomes it, at its size.

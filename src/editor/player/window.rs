@@ -165,7 +165,6 @@ impl Show {
             let rect = Rect::from_min_max(at(part.min), at(part.max));
             ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, theme::ACCENT), StrokeKind::Outside);
         }
-        response.clone().on_hover_text("Drag over a part that stands still: its noise from frame to frame is told below. A click ends that.");
     }
 
     /// How steady the marked part is, in words.
@@ -243,7 +242,9 @@ impl Show {
         let count = self.sequence.frames.len();
         let read = self.loader.count();
         ui.weak(if read < count { format!("{read} of {count} read") } else { format!("{count} pictures") });
-        if let Some(words) = self.steady_words(index) {
+        if self.part.is_none() {
+            ui.weak("Drag over a part that stands still for its noise.");
+        } else if let Some(words) = self.steady_words(index) {
             let tip = "Root mean square of what changes from frame to frame in the marked part, on the screen's scale of 0 to 255; even \
                        movement does not count. Below about 1 nobody sees it; more passes lower it.";
             ui.label(words).on_hover_text(tip);

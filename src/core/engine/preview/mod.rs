@@ -39,9 +39,6 @@ pub use light::{PreviewExposure, covered_area};
 pub use orbit::OrbitView;
 pub use shot::Shot;
 
-/// Bytes that the positions of a preview may take unless another number is set: 150 000 photons in 133 frames.
-pub(super) const PREVIEW_BYTES: usize = 160_000_000;
-
 impl Engine {
     /// The photons at all frames of a project, at one of [`Quality::LIVE`]. `ready` gets the preview as it grows: first the
     /// key frames, then frame after frame, those of the segment around the frame `first` before the others. The same
