@@ -125,3 +125,27 @@ fn distance(at: Pos2, a: Pos2, b: Pos2) -> f32 {
     let share = ((at - a).dot(along) / along.length_sq().max(1e-6)).clamp(0.0, 1.0);
     at.distance(a + along * share)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use egui::{Rect, pos2, vec2};
+    use lightloom_core::scene::CameraDesc;
+
+    use super::*;
+
+    #[test]
+    fn an_arrow_is_taken_hold_of_along_all_that_is_drawn_and_not_beyond() {
+        let place = Rect::from_min_size(pos2(0.0, 0.0), vec2(800.0, 600.0));
+        let camera = CameraDesc { position: [0.7, 1.2, 1.6], ..CameraDesc::default() };
+        let view = Viewpoint::new(&camera, place).unwrap();
+        let gizmo = Gizmo::new(&view, SceneObject::Mesh(0), Vec3::ZERO, (false, true));
+        for axis in 0..3 {
+            let [from, to] = gizmo.arrow(axis).unwrap();
+            let tip = tip(from, to);
+            let is_move = |at: Pos2| gizmo.hit(at) == Some(Handle { kind: TransformKind::Move, axis });
+            assert!(is_move(to) && is_move(tip) && is_move(from + (to - from) * 0.8), "{axis}");
+            assert!(!is_move(tip + (to - from).normalized() * (REACH + 1.0)), "{axis}");
+        }
+    }
+}
