@@ -104,7 +104,7 @@ fn a_trusted_picture_stays_where_it_is_and_is_read_ever_after() {
 fn work_that_was_cut_off_reads_the_picked_files_again_without_a_question() {
     let folder = examples();
     let (_far, logo) = logo();
-    let mut harness = window(&folder, "letters_free", vec![PickResult::Picked(logo.clone())]);
+    let mut harness = window(&folder, "letters_free", vec![PickResult::Picked(logo)]);
     pick_picture(&mut harness);
     click(&mut harness, "Copy beside the project");
     until(&mut harness, "the picture", |app| app.document().is_unsaved());
