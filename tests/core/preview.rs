@@ -309,7 +309,7 @@ fn long_animations_keep_fewer_photons_and_say_so() {
     );
     assert!(preview.is_ready(5_000));
     // Twice the memory holds twice the photons: eight bytes for each in each frame.
-    let roomy = draft(&engine.clone().with_preview_memory(320_000_000), &project);
+    let roomy = draft(&engine.with_preview_memory(320_000_000), &project);
     assert_eq!(roomy.photons(), 4_000);
 }
 
