@@ -77,7 +77,8 @@ fn plot(ui: &Ui, rect: Rect, points: &[Point]) {
         (low, (high - low).max(0.1))
     };
     let ((left, width), (low, height)) = (ends(&|p| log(p).0), ends(&|p| log(p).1));
-    let inner = rect.shrink(7.0);
+    // The times stand below the curve.
+    let inner = rect.shrink(7.0).with_max_y(rect.bottom() - WORDS);
     let at = |point: &Point| -> Pos2 {
         let (x, y) = (((log(point).0 - left) / width) as f32, ((log(point).1 - low) / height) as f32);
         pos2(inner.left() + x * inner.width(), inner.bottom() - y * inner.height())
