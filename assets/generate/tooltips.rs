@@ -14,7 +14,7 @@ use lightloom_core::Progress;
 use lightloom_core::constraint::{Constraint, DirectedLine};
 use lightloom_core::engine::Engine;
 use lightloom_core::export::FrameFormat;
-use lightloom_core::flow::{FitKind, GridSize, TurbulenceSettings};
+use lightloom_core::flow::{Fade, FitKind, GridSize, MotionMethod, TurbulenceSettings};
 use lightloom_core::project::{AssetFolder, Project, Shows};
 use lightloom_core::targets::{ImageTarget, Placement};
 
@@ -48,6 +48,12 @@ const PICTURES: &[Picture] = &[
     Picture { name: "turbulence_low", change: |p| swirl(p, 0.0) },
     Picture { name: "turbulence_middle", change: |p| swirl(p, 20.0) },
     Picture { name: "turbulence_high", change: |p| swirl(p, 60.0) },
+    Picture { name: "rho_low", change: |p| brighten(p, 0.3) },
+    Picture { name: "rho_middle", change: |p| brighten(p, 1.0) },
+    Picture { name: "rho_high", change: |p| brighten(p, 3.0) },
+    Picture { name: "tau_low", change: |p| draw_from(p, 0.1) },
+    Picture { name: "tau_middle", change: |p| draw_from(p, 0.4) },
+    Picture { name: "tau_high", change: |p| draw_from(p, 0.85) },
     Picture { name: "preset_liquid", change: |p| p.flow.gamma = 0.0 },
     Picture { name: "preset_gradient", change: |p| p.flow.gamma = 1.0 },
     Picture { name: "preset_silk", change: |p| (p.flow.gamma, p.flow.alpha) = (0.5, 0.1) },
@@ -65,6 +71,19 @@ fn with_line(project: &mut Project, beta: f32) {
 fn swirl(project: &mut Project, strength: f32) {
     let turbulence = TurbulenceSettings { strength, grids: vec![12, 24], ..TurbulenceSettings::default() };
     project.flow.turbulence = (strength > 0.0).then_some(turbulence);
+}
+
+/// So dark that no brightness is the brightest a screen shows.
+fn brighten(project: &mut Project, rho: f32) {
+    project.flow.rho = rho;
+    project.render.view.exposure -= 2.5;
+}
+
+/// The paper's method, whose photons are drawn to their targets from `tau` on; a field that cannot spread them shows when.
+fn draw_from(project: &mut Project, tau: f32) {
+    project.method = MotionMethod::Guided;
+    project.flow.gamma = 0.0;
+    project.flow.fade = Fade::Paper { tau };
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

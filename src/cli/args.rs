@@ -222,6 +222,9 @@ pub(crate) struct ImportArgs {
     /// The scene: .glb, .gltf or .obj.
     #[arg(value_name = "SCENE")]
     pub(crate) file: PathBuf,
+    /// What the light becomes at the last key frame: a picture, such as a logo. It is laid where the caustic falls.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) picture: Option<PathBuf>,
     /// Folder for the project SCENE.json and a copy of the scene; made if it is not there.
     #[arg(long, value_name = "DIR")]
     pub(crate) into: PathBuf,

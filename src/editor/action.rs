@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use lightloom_core::note::About;
 
-use super::asset::AssetUse;
+use super::asset::{AssetUse, TargetSlot};
 use super::command::Command;
 use super::document::Edit;
 use super::look::object::SceneObject;
@@ -49,6 +49,8 @@ pub enum Action {
     New(usize),
     /// Asks for a file and puts it into the project.
     PickFile(AssetUse),
+    /// Lays the picture of a target where the caustic falls that becomes it, as large.
+    PlacePicture(TargetSlot),
     /// Shows and selects what a note is about.
     Show(About),
     /// Shows a message in the status bar.

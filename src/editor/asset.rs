@@ -92,7 +92,8 @@ impl AssetUse {
     }
 }
 
-fn show(project: &Project, at: &TargetSlot, shows: Shows) -> Edit {
+/// The edit after which a target shows something else.
+pub fn show(project: &Project, at: &TargetSlot, shows: Shows) -> Edit {
     let mut keys = project.keys.clone();
     at.set(&mut keys, shows);
     Edit::Keys(keys)

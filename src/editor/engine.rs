@@ -1,6 +1,7 @@
 //! The engine of the open document, shared by all workers and exports.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lightloom_core::Result;
@@ -8,15 +9,25 @@ use lightloom_core::engine::Engine;
 use lightloom_core::project::Admitted;
 
 use super::access::Access;
+use super::store::preferences::Preferences;
 
 /// Documents whose engines are kept: the open one, and one that an export may still render.
 const KEPT: usize = 2;
 
 /// The engines of the documents that are worked on. Clones share them.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct SharedEngine {
     /// The most recently used last.
     engines: Arc<Mutex<Vec<OfDocument>>>,
+    /// What the positions of a preview may take, MB.
+    preview_megabytes: Arc<AtomicU32>,
+}
+
+impl Default for SharedEngine {
+    fn default() -> Self {
+        let megabytes = Preferences::default().preview_megabytes;
+        Self { engines: Arc::default(), preview_megabytes: Arc::new(megabytes.into()) }
+    }
 }
 
 struct OfDocument {
@@ -26,6 +37,11 @@ struct OfDocument {
 }
 
 impl SharedEngine {
+    /// Limits the memory of previews to so many MB. Whether that changed.
+    pub fn limit_previews(&self, megabytes: u32) -> bool {
+        self.preview_megabytes.swap(megabytes, Relaxed) != megabytes
+    }
+
     /// The engine that finds files beside the project file `file`; others where admitted.
     ///
     /// # Errors
@@ -41,7 +57,8 @@ impl SharedEngine {
                 OfDocument { file: file.to_owned(), admitted: access.admitted().clone(), engine }
             }
         };
-        let engine = known.engine.clone();
+        let bytes = self.preview_megabytes.load(Relaxed) as usize * 1_000_000;
+        let engine = known.engine.clone().with_preview_memory(bytes);
         engines.push(known);
         let surplus = engines.len().saturating_sub(KEPT);
         engines.drain(..surplus);

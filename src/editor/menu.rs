@@ -19,13 +19,14 @@ use crate::editor::context::EditorContext;
 const MENUS: [Menu; 6] = [Menu::File, Menu::Edit, Menu::Scene, Menu::Play, Menu::View, Menu::Help];
 
 /// Commands that follow a separator.
-const PARTED: [Command; 17] = [
+const PARTED: [Command; 18] = [
     Command::Save,
     Command::Export,
     Command::Preferences,
     Command::Cut,
     Command::SelectAll,
     Command::Reverse,
+    Command::Group,
     Command::Snapping,
     Command::SnapToTable,
     Command::DuplicateObject,
@@ -202,7 +203,7 @@ pub fn is_enabled(command: Command, document: &Document, session: &Session) -> b
         Command::Redo => document.history().redoes().is_some(),
         Command::Delete => chosen || session.focus.key.is_some(),
         Command::Cut | Command::Copy | Command::Duplicate | Command::SelectNone => chosen,
-        Command::Reverse | Command::Join | Command::Split => chosen,
+        Command::Reverse | Command::Join | Command::Split | Command::Group | Command::Ungroup => chosen,
         Command::SelectAll => !document.project().constraints.is_empty(),
         Command::ClearMarks => session.marks != [None; 2],
         Command::OrbitView => document.project().scene.is_some(),

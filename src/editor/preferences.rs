@@ -3,7 +3,7 @@
 use egui::{Context, DragValue, Grid, ThemePreference, Ui};
 
 use super::reset_label::reset_label;
-use super::store::preferences::{PhotonRenderer, Preferences, Theme, UI_SCALES};
+use super::store::preferences::{PREVIEW_MEGABYTES, PhotonRenderer, Preferences, Theme, UI_SCALES};
 
 /// The themes and their names.
 const THEMES: [(Theme, &str); 3] =
@@ -64,6 +64,15 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             ui.end_row();
             reset_label(
                 ui,
+                "Preview memory",
+                "What the photons of all frames of a preview may take. Where it is short the preview has fewer photons; what is rendered keeps its own.",
+                &mut preferences.preview_megabytes,
+                &default.preview_megabytes,
+            );
+            memory(ui, &mut preferences.preview_megabytes);
+            ui.end_row();
+            reset_label(
+                ui,
                 "Drawing",
                 "Hold Ctrl while drawing to disable it.",
                 &mut preferences.snapping,
@@ -114,6 +123,22 @@ fn reset(preferences: &mut Preferences) {
     preferences.ui_scale = default.ui_scale;
     preferences.photon_renderer = default.photon_renderer;
     preferences.snapping = default.snapping;
+    preferences.preview_megabytes = default.preview_megabytes;
+}
+
+/// The memory of a preview, applied when the drag ends: each change makes the preview anew.
+fn memory(ui: &mut Ui, megabytes: &mut u32) {
+    let held = egui::Id::unique("preview memory");
+    let dragged: Option<u32> = ui.data(|data| data.get_temp(held));
+    let mut shown = dragged.unwrap_or(*megabytes);
+    let field = DragValue::new(&mut shown).range(PREVIEW_MEGABYTES).speed(2.0).suffix(" MB");
+    let response = ui.add(field.update_while_editing(false)).accessible_name("Preview memory");
+    if response.dragged() {
+        ui.data_mut(|data| data.insert_temp(held, shown));
+    } else if dragged.is_some() || response.changed() {
+        ui.data_mut(|data| data.remove::<u32>(held));
+        *megabytes = shown;
+    }
 }
 
 /// The interface scale in per cent, applied when the drag ends: the field would move under the pointer.

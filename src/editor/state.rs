@@ -17,6 +17,7 @@ use super::session::{
 };
 use super::timeline;
 use super::tools::arrange::{self, Arranged};
+use super::tools::groups;
 
 /// Factor of one zoom step.
 const ZOOM_STEP: f32 = 1.25;
@@ -62,6 +63,11 @@ impl EditorState {
             Session { layout, overlays, snapping, looping, speed, panel, tool, ..start_of(&document) };
         self.document = document;
         self.status.clear();
+        self.begin_preview();
+    }
+
+    /// Makes the preview anew.
+    pub fn begin_preview(&mut self) {
         let old = std::mem::replace(&mut self.preview, (self.new_preview)());
         // Its workers stop soon; the window does not wait for them.
         let _ = std::thread::Builder::new().name("old preview".into()).spawn(move || drop(old));
@@ -93,7 +99,8 @@ impl EditorState {
             | Action::OpenBackup(_)
             | Action::PlayFrames(_)
             | Action::New(_)
-            | Action::PickFile(_) => {
+            | Action::PickFile(_)
+            | Action::PlacePicture(_) => {
                 return Some(action);
             }
         }
@@ -154,6 +161,8 @@ impl EditorState {
             Command::Reverse => self.arrange(arrange::reverse(&project, &selection)),
             Command::Join => self.arrange(arrange::join(&project, &selection)),
             Command::Split => self.arrange(arrange::split(&project, &selection)),
+            Command::Group => self.arrange(groups::group(&project, &selection)),
+            Command::Ungroup => self.arrange(groups::ungroup(&project, &selection)),
             Command::SelectAll => self.session.selection = Selection::all(0..project.constraints.len()),
             Command::SelectNone => self.session.selection = Selection::default(),
             _ => return false,

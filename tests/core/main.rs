@@ -37,6 +37,7 @@ mod method;
 mod optics;
 mod photon_files;
 mod photons;
+mod placing;
 mod preview;
 mod preview_light;
 mod previews;

@@ -303,11 +303,14 @@ fn long_animations_keep_fewer_photons_and_say_so() {
     let preview = draft(&engine, &project);
     assert_eq!(preview.photons(), 2_000);
     assert!(
-        preview.notes().iter().any(|note| note.text.contains("fit into memory")),
+        preview.notes().iter().any(|note| note.text.contains("fit into 160 MB")),
         "{:?}",
         preview.notes()
     );
     assert!(preview.is_ready(5_000));
+    // Twice the memory holds twice the photons: eight bytes for each in each frame.
+    let roomy = draft(&engine.with_preview_memory(320_000_000), &project);
+    assert_eq!(roomy.photons(), 4_000);
 }
 
 #[test]

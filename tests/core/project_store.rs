@@ -317,6 +317,7 @@ fn wall(x: f32) -> Constraint {
         span: None,
         enabled: true,
         locked: false,
+        group: String::new(),
     })
 }
 

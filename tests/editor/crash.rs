@@ -87,6 +87,8 @@ fn victim_edits_and_saves() {
             file: opened.file.clone(),
             project: project.clone(),
             seen,
+            base: path.clone(),
+            admitted: Vec::new(),
         });
         say("changed", number);
         if saves && !saving && number.is_multiple_of(3) {
@@ -177,6 +179,7 @@ fn large_project() -> ProjectFile {
         span: None,
         enabled: true,
         locked: false,
+        group: String::new(),
     }));
     ProjectFile::new(project).unwrap()
 }

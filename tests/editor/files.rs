@@ -101,6 +101,33 @@ fn a_trusted_picture_stays_where_it_is_and_is_read_ever_after() {
 }
 
 #[test]
+fn work_that_was_cut_off_reads_the_picked_files_again_without_a_question() {
+    let folder = examples();
+    let (_far, logo) = logo();
+    let mut harness = window(&folder, "letters_free", vec![PickResult::Picked(logo)]);
+    pick_picture(&mut harness);
+    click(&mut harness, "Copy beside the project");
+    until(&mut harness, "the picture", |app| app.document().is_unsaved());
+    harness.run_steps(3);
+    let work = harness.state().document().project().clone();
+    // What ends without saving leaves its journal, as what is killed does.
+    drop(harness);
+    let mut harness = window(&folder, "dark_glass", Vec::new());
+    click(&mut harness, "Recover");
+    until(&mut harness, "the work", |app| *app.document().project() == work);
+    until(&mut harness, "its light", |app| {
+        assert_eq!(app.preview().problem(), None);
+        app.preview().is_current()
+    });
+    harness.run_steps(20);
+    assert!(harness.query_by_label("Copy beside the project").is_none());
+    // Saved, it takes the picture along.
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    until(&mut harness, "the save", |app| !app.document().is_unsaved());
+    assert!(folder.path().join("projects/assets/logo.png").is_file());
+}
+
+#[test]
 fn a_project_that_names_files_elsewhere_asks_when_it_is_opened() {
     let folder = examples();
     let (_far, logo) = logo();

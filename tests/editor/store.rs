@@ -48,7 +48,15 @@ impl Fixture {
         let file = self.file();
         let seen = Some(Fingerprint::of(&std::fs::read(self.path()).unwrap()));
         let project = with_seed(&file, seed);
-        Note { path: Some(self.path()), title: "Letters".into(), file, project, seen }
+        Note {
+            path: Some(self.path()),
+            title: "Letters".into(),
+            file,
+            project,
+            seen,
+            base: self.path(),
+            admitted: Vec::new(),
+        }
     }
 
     /// The request to save `project` where it was opened.

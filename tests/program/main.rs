@@ -6,6 +6,7 @@ use std::path::Path;
 mod cli;
 mod collect;
 mod compare;
+mod import;
 #[path = "../letters/mod.rs"]
 mod letters;
 mod log;

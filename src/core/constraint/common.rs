@@ -17,6 +17,9 @@ settings! { Common {
     ENABLED = Setting::switch("constraints[].enabled", true);
     /// Whether the editor keeps it from being changed: the padlock in its list.
     LOCKED = Setting::switch("constraints[].locked", false);
+    /// The group to which the artist puts it: those of one name stand together in the editor's list, with an eye and a padlock for
+    /// all of them.
+    GROUP = Setting::text("constraints[].group");
 } }
 
 /// The default of `enabled`.

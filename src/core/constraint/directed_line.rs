@@ -51,6 +51,9 @@ pub struct DirectedLine {
     /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
+    /// The group to which the artist puts it ([`Common::GROUP`]).
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub group: String,
 }
 
 settings! { DirectedLine {
@@ -105,6 +108,7 @@ impl DirectedLine {
             span: None,
             enabled: true,
             locked: false,
+            group: String::new(),
         }
     }
 

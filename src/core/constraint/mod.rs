@@ -62,6 +62,25 @@ impl Constraint {
         }
     }
 
+    /// The group to which the artist puts it; empty without one.
+    pub fn group(&self) -> &str {
+        match self {
+            Self::DirectedLine(line) => &line.group,
+            Self::Wall(wall) => &wall.group,
+        }
+    }
+
+    /// The same in another group; an empty name takes it out of all.
+    pub fn in_group(&self, name: &str) -> Self {
+        let mut constraint = self.clone();
+        let own = match &mut constraint {
+            Self::DirectedLine(line) => &mut line.group,
+            Self::Wall(wall) => &mut wall.group,
+        };
+        name.clone_into(own);
+        constraint
+    }
+
     /// The points it was drawn through, plane units.
     pub fn points(&self) -> &[[f32; 2]] {
         match self {

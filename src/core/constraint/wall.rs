@@ -38,6 +38,9 @@ pub struct Wall {
     /// Whether the editor keeps it from being changed.
     #[serde(default, skip_serializing_if = "is_false")]
     pub locked: bool,
+    /// The group to which the artist puts it ([`Common::GROUP`]).
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub group: String,
 }
 
 settings! { Wall {
@@ -71,6 +74,7 @@ impl Wall {
             span: None,
             enabled: true,
             locked: false,
+            group: String::new(),
         }
     }
 

@@ -44,6 +44,9 @@ pub(super) fn fingerprint(project: &Project, assets: &AssetFolder, mesh_files: &
     if let Some(output) = content.get_mut("output") {
         leave_out(output, &["name", "frames", "formats", "draws_constraints"]);
     }
+    for constraint in content.get_mut("constraints").and_then(Value::as_array_mut).into_iter().flatten() {
+        leave_out(constraint, &["group"]);
+    }
     let apart = [project.output.separates_caustics(), project.output.shows_plane()];
     let version = env!("CARGO_PKG_VERSION");
     let mut hash = Sha256::new();

@@ -84,6 +84,11 @@ impl Grouping {
         self.caustics.get(group).map(|caustic| caustic.name.as_str())
     }
 
+    /// The group of the caustic of this name.
+    pub(super) fn group_named(&self, name: &str) -> Option<usize> {
+        self.caustics.iter().position(|caustic| caustic.name == name)
+    }
+
     /// Whether a group flows by itself.
     pub(super) fn own_flow(&self, group: usize) -> bool {
         self.caustics.get(group).is_some_and(|caustic| caustic.own_flow)

@@ -49,6 +49,7 @@ mod output_folder;
 mod pairing;
 mod passes;
 mod photon_files;
+mod placing;
 mod plan;
 mod prepare;
 mod preview;
@@ -97,17 +98,22 @@ use meter::Meter;
 use prepare::Prepared;
 use stages::Stages;
 
+/// Bytes that the positions of a preview may take unless another number is set: 150 000 photons in 133 frames.
+const PREVIEW_BYTES: usize = 160_000_000;
+
 /// The stages of projects in one folder, with what they remember. Clones share it.
 #[derive(Clone)]
 pub struct Engine {
     stages: Arc<Stages>,
     client: Client,
+    /// Bytes that the positions of a preview may take.
+    preview_bytes: usize,
 }
 
 impl Engine {
     /// An engine that remembers nothing and finds files through `assets`.
     pub fn new(assets: AssetFolder) -> Self {
-        Self { stages: Arc::new(Stages::new(assets)), client: Client::Main }
+        Self { stages: Arc::new(Stages::new(assets)), client: Client::Main, preview_bytes: PREVIEW_BYTES }
     }
 
     /// An engine that finds the same files and remembers nothing.
@@ -117,7 +123,12 @@ impl Engine {
 
     /// The same engine on behalf of another user: results are shared, and each user keeps those it needs.
     pub fn on_behalf_of(&self, client: Client) -> Self {
-        Self { stages: self.stages.clone(), client }
+        Self { client, ..self.clone() }
+    }
+
+    /// The same engine whose previews take at most so many bytes for the positions of their photons, by fewer photons.
+    pub fn with_preview_memory(self, bytes: usize) -> Self {
+        Self { preview_bytes: bytes, ..self }
     }
 
     fn prepare(&self, project: &Project, meter: &Meter, progress: &Progress) -> Result<Prepared> {

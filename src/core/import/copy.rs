@@ -2,20 +2,30 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::Vec2;
+
 use super::imported::Import;
 use super::paths::file_name;
 use super::reading::read;
 use crate::files::{copy_new, is_same_content};
-use crate::project::ProjectFile;
+use crate::project::{ProjectFile, Shows};
+use crate::targets::{ImageTarget, PictureSampler};
 use crate::{Error, Progress, Result};
 
-/// Imports a file into a folder: its project, and copies of it and of what belongs to it. Returns the import and the path of
-/// the project.
+/// Imports a file into a folder: its project, and copies of it and of what belongs to it. A `picture` is what the light of the
+/// last key frame shows. Returns the import and the path of the project.
 ///
 /// # Errors
-/// As [`read`]; `Value` where the project, or another file of a name, is there already: nothing is written then.
-pub fn into_folder(path: &Path, folder: &Path, progress: &Progress) -> Result<(Import, PathBuf)> {
+/// As [`read`]; a picture that cannot be used; `Value` where the project, or another file of a name, is there already: nothing is
+/// written then.
+pub fn into_folder(
+    path: &Path,
+    picture: Option<&Path>,
+    folder: &Path,
+    progress: &Progress,
+) -> Result<(Import, PathBuf)> {
     let import = read(path, progress)?;
+    let shown = picture.map(|picture| used(picture, progress)).transpose()?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let project_path = folder.join(format!("{stem}.json"));
     if project_path.exists() {
@@ -23,14 +33,24 @@ pub fn into_folder(path: &Path, folder: &Path, progress: &Progress) -> Result<(I
             format!("'{}' is there already; name another folder, or move it away", project_path.display());
         return Err(Error::value("--into", what));
     }
-    let project = import.project(&stem, &file_name(path)?);
+    let mut project = import.project(&stem, &file_name(path)?);
+    if let (Some(target), Some(last)) = (shown, project.keys.last_mut()) {
+        last.shows = Shows::Image(target);
+    }
     std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
     let origin = path.parent().unwrap_or(Path::new(""));
-    let places =
-        import.files.iter().map(|file| (file, folder.join(file.strip_prefix(origin).unwrap_or(file))));
+    let scene = import
+        .files
+        .iter()
+        .map(|file| (file.as_path(), folder.join(file.strip_prefix(origin).unwrap_or(file))));
+    let beside = picture.map(|picture| (picture, folder.join(picture.file_name().unwrap_or_default())));
+    let places = scene.chain(beside);
     let mut copies = Vec::new();
     for (file, to) in places {
-        if !to.exists() {
+        if copies.iter().any(|(_, taken)| *taken == to) {
+            let what = format!("two of the files would be called '{}'; rename one", to.display());
+            return Err(Error::value("--into", what));
+        } else if !to.exists() {
             copies.push((file, to));
         } else if !is_same_content(file, &to)? {
             let what = format!(
@@ -48,4 +68,11 @@ pub fn into_folder(path: &Path, folder: &Path, progress: &Progress) -> Result<(I
     }
     ProjectFile::new(project.clone())?.save(&project_path, &project)?;
     Ok((import, project_path))
+}
+
+/// A target of a picture that can be used.
+fn used(picture: &Path, progress: &Progress) -> Result<ImageTarget> {
+    let target = ImageTarget::new(file_name(picture)?);
+    PictureSampler::load_cancellable(picture, &target, (Vec2::ONE, "--picture"), progress)?;
+    Ok(target)
 }

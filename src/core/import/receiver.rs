@@ -10,8 +10,10 @@ use crate::scene::{LightDesc, ReceiverDesc};
 const STEEP: f32 = 0.7;
 /// Share of the radius of the glass by which a table may cut into it.
 const CUT: f32 = 0.5;
-/// Size over that needed above which only a part of a plane receives.
-const LARGE: f32 = 4.0;
+/// Size over that needed above which only a part of a plane receives: the texels and the cells of the flow are shares of it.
+const LARGE: f32 = 1.5;
+/// The same of a plane that the artist called so.
+const LARGE_CHOSEN: f32 = 4.0;
 /// Farthest reach of light beyond the glass, in radii of it: beyond, it is too spread out to be seen.
 const REACH: f32 = 7.0;
 /// Room around the light, in radii of the glass.
@@ -33,7 +35,7 @@ pub(super) fn found(draft: &mut Draft, glass: &Bounds) -> Option<(Rectangle, Str
         let [u, v] = plane.along(centre);
         let beneath = 2.0 * u.abs() <= plane.size[0] && 2.0 * v.abs() <= plane.size[1];
         let name = object.desc.name.to_lowercase();
-        Some((plane, (name.contains("receiver"), beneath, -height, plane.size[0] * plane.size[1])))
+        Some((plane, (is_chosen(&name), beneath, -height, plane.size[0] * plane.size[1])))
     };
     let ranked = (0..draft.objects.len()).filter_map(|index| Some((index, rank(index)?)));
     let (index, (plane, _)) =
@@ -58,7 +60,8 @@ pub(super) fn on_plane(
     if plane.filled < 0.95 {
         notes.push(format!("{name}: is no rectangle; the light falls on the one around it"));
     }
-    if width.max(height) <= LARGE * needed.size[0].max(needed.size[1]) {
+    let large = if is_chosen(&name.to_lowercase()) { LARGE_CHOSEN } else { LARGE };
+    if width.max(height) <= large * needed.size[0].max(needed.size[1]) {
         return desc(plane, albedo, 0.0);
     }
     // Only what lies on the plane.
@@ -74,6 +77,11 @@ pub(super) fn on_plane(
          (scene.receiver.size), the rest is floor"
     ));
     desc(&Rectangle { centre, size: [u, v], ..*plane }, albedo, width.max(height) / 2.0)
+}
+
+/// Whether an artist called something so, in small letters, in order that it receives.
+fn is_chosen(name: &str) -> bool {
+    name.contains("receiver")
 }
 
 /// The receiver of a table that is made.

@@ -35,6 +35,7 @@ pub(super) fn complete(mut draft: Draft, path: &Path, progress: &Progress) -> Re
         draft.notes.push(format!("no lamp: {made} and aimed at the glass"));
     }
     unique_lamps(&mut draft.lights);
+    draft.notes.extend(lamp::note_on_pools(&draft.lights, &glass));
     let lowest = draft.all().unwrap_or(glass).lower.y;
     let made = Rectangle::horizontal(glass.centre().with_y(lowest));
     let plane = table.as_ref().map_or(made, |(plane, ..)| *plane);

@@ -7,6 +7,7 @@ use eframe::egui;
 use super::App;
 use crate::editor::preferences;
 use crate::editor::store::{Note, StoreRequest};
+use crate::editor::templates;
 
 impl App {
     /// Sends changes since the last frame to the file threads. Copies pointers only.
@@ -16,6 +17,9 @@ impl App {
         if last_sent.preferences.as_ref() != Some(&self.preferences) {
             let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
             preferences::apply(ctx, &self.preferences);
+            if self.engine.limit_previews(self.preferences.preview_megabytes) {
+                self.editor.begin_preview();
+            }
             self.recents.ask(self.preferences.recent.clone());
             if !first && self.keeps_preferences {
                 self.files.request(StoreRequest::Remember(Box::new(self.preferences.clone())));
@@ -53,6 +57,8 @@ impl App {
             file,
             project,
             seen: self.editor.document.seen(),
+            base: templates::file_of(&self.editor.document),
+            admitted: self.files.admitted.files(),
         });
     }
 }

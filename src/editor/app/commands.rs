@@ -21,6 +21,7 @@ impl App {
             Some(Action::OpenBackup(path)) => self.leave(ctx, Leave::Backup(path)),
             Some(Action::New(template)) => self.leave(ctx, Leave::New(template)),
             Some(Action::PickFile(asset)) => self.pick_file(ctx, asset),
+            Some(Action::PlacePicture(at)) => self.place_picture(at),
             _ => (),
         }
     }

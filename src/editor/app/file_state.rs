@@ -4,9 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightloom_core::project::{Admitted, Project};
+use lightloom_core::targets::{ImageTarget, Placement};
 
+use super::task::Task;
 use crate::editor::access::Access;
-use crate::editor::asset::AssetUse;
+use crate::editor::asset::{AssetUse, TargetSlot};
 use crate::editor::dialogs::Question;
 use crate::editor::export::InterruptedExport;
 use crate::editor::store::{
@@ -85,6 +87,13 @@ pub(super) struct Details {
     pub(super) status: String,
     pub(super) title: String,
     pub(super) text: String,
+}
+
+/// A picture whose place is being found.
+pub(super) struct Placing {
+    pub(super) at: TargetSlot,
+    pub(super) target: ImageTarget,
+    pub(super) task: Task<Placement>,
 }
 
 /// What follows when the document is left.

@@ -46,6 +46,7 @@ impl App {
         }
         self.imported(ctx);
         self.collected(ctx);
+        self.placed(ctx);
         if std::mem::take(&mut self.files.asks_outside) {
             self.find_outside();
         }
@@ -168,8 +169,13 @@ impl App {
             Ok(file) => {
                 let at = recovery.path.clone().zip(recovery.seen);
                 let mut document = Document::opened(file.clone(), at);
+                let here = templates::file_of(&document);
+                if let Some(there) = recovery.base.as_ref().filter(|there| **there != here) {
+                    document.relocate(|project| project.relocated(there, &here));
+                }
                 document.mark_unsaved();
-                self.replace(document);
+                // The user let it read them before.
+                self.replace_admitting(document, &recovery.admitted);
                 self.files.journal = Some(Journal::resume(recovery));
             }
             Err(error) => self.show_message("The recovery file cannot be read".into(), error.to_string()),

@@ -31,7 +31,11 @@ impl App {
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
         Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
             let told = self.details.as_ref().is_some_and(|details| details.status == *editor.status);
-            let tasks = [self.importing.as_ref().map(Task::shown), self.collecting.as_ref().map(Task::shown)];
+            let tasks = [
+                self.importing.as_ref().map(Task::shown),
+                self.collecting.as_ref().map(Task::shown),
+                self.placing.as_ref().map(|placing| placing.task.shown()),
+            ];
             let clicked = status(
                 ui,
                 editor,

@@ -9,6 +9,7 @@ mod import;
 mod layout;
 mod open_windows;
 mod outside;
+mod placing;
 mod recents;
 mod report;
 mod task;
@@ -38,7 +39,7 @@ use super::timeline::Timeline;
 use super::tools::Toolbox;
 use super::views::Views;
 use super::{keyboard, preferences, templates, theme};
-use file_state::{Details, Files};
+use file_state::{Details, Elsewhere, Files, Placing};
 use open_windows::Windows;
 use recents::Recents;
 use task::Task;
@@ -63,8 +64,11 @@ pub struct App {
     windows: Windows,
     recents: Recents,
     files: Files,
+    engine: SharedEngine,
     /// The scene that is being read for the document.
     importing: Option<Task<Import>>,
+    /// The picture whose place is being found.
+    placing: Option<Placing>,
     /// The copy of the project with all its files that is being made.
     collecting: Option<Task<(PathBuf, Collection)>>,
     /// The details of a message in the status bar.
@@ -132,14 +136,16 @@ impl App {
             timeline: Timeline::default(),
             playback: Playback::default(),
             views: Views::default(),
-            exports: Exports::new(engine, wake()).with_records(records.clone()),
+            exports: Exports::new(engine.clone(), wake()).with_records(records.clone()),
             interrupted: records.as_deref().map(interrupted).unwrap_or_default(),
             looks_again: Some((Instant::now() + LOOKS_AGAIN, records)),
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),
             files: Files::start(setup.folders, wake()),
+            engine,
             importing: None,
+            placing: None,
             collecting: None,
             details: None,
             preferences: setup.preferences,
@@ -283,13 +289,21 @@ impl App {
 
     /// Replaces the document.
     fn replace(&mut self, document: Document) {
+        self.replace_admitting(document, &[]);
+    }
+
+    /// Replaces the document by one that may read these files, wherever they are.
+    fn replace_admitting(&mut self, document: Document, admitted: &[PathBuf]) {
         let _ = self.toolbox.put_down();
         self.editor.open(document);
         self.views.forget_pictures();
-        (self.importing, self.details) = (None, None);
+        (self.importing, self.placing, self.details) = (None, None, None);
         // Who begins with something else needs no tour of the example.
         self.preferences.first_start_seen |= self.windows.tour.end();
         self.files.forget_admitted();
+        let trusted = self.files.trusted.files();
+        admitted.iter().for_each(|file| self.files.admitted.add(file));
+        self.files.outside = admitted.iter().any(|file| !trusted.contains(file)).then_some(Elsewhere::Copy);
         self.attach();
     }
 }

@@ -86,7 +86,14 @@ impl App {
         if *pick == AssetUse::Mesh {
             return self.import(file);
         }
-        let written = relative(file, &templates::file_of(&self.editor.document));
+        if let AssetUse::Picture(at) = pick {
+            return self.put_picture(at, file);
+        }
+        self.put(pick, relative(file, &templates::file_of(&self.editor.document)));
+    }
+
+    /// Makes use of a file, a path relative to the project.
+    pub(super) fn put(&mut self, pick: &AssetUse, written: String) {
         if let Some(edit) = pick.edit(self.editor.document.project(), written) {
             self.editor.edit(edit);
             self.editor.document.settle();

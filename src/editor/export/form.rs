@@ -3,7 +3,7 @@
 use egui::{Button, DragValue, Grid, TextEdit, Ui};
 use lightloom_core::export::{FilmFormat, FrameFormat};
 
-use super::options::ExportOptions;
+use super::options::{self, ExportOptions};
 use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
 use crate::editor::panels::layer_boxes;
@@ -24,6 +24,7 @@ pub(super) fn show(
     Grid::new("export settings").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
         let tip = "Which frames are rendered, such as 1-100, 1-100x5 or 1,5-10.";
         row(ui, "Frames", tip, &mut options.frames, &own.frames, |ui, frames| range(ui, editor, frames));
+        purposes(ui, options, own);
         let tip = "Width and height of the pictures in pixels, 16 to 16384.";
         row(ui, "Size", tip, &mut options.size, &own.size, |ui, size| {
             for (side, label) in size.iter_mut().zip(["Width in pixels", "Height in pixels"]) {
@@ -79,6 +80,21 @@ pub(super) fn show(
             }
         });
     });
+}
+
+/// The choice of size, passes and photons by what the film is for.
+fn purposes(ui: &mut Ui, options: &mut ExportOptions, own: &ExportOptions) {
+    ui.label("For").on_hover_text("Sets size, passes and photons by what the film is for.");
+    ui.horizontal(|ui| {
+        for (purpose, name, tip) in options::Purpose::ALL {
+            let wanted = purpose.apply(options, own);
+            let button = ui.selectable_label(*options == wanted, name).on_hover_text(tip);
+            if button.clicked() {
+                *options = wanted;
+            }
+        }
+    });
+    ui.end_row();
 }
 
 /// One row: a label that resets the value, and its field.

@@ -14,6 +14,7 @@ use lightloom_core::project::Project;
 use lightloom_core::render::Image;
 use lightloom_core::{Error, Progress, Result};
 
+use super::convergence::{Convergence, Point};
 use crate::editor::access::Access;
 use crate::editor::engine::SharedEngine;
 use crate::editor::guard::Guard;
@@ -117,11 +118,22 @@ struct State {
     passes: usize,
     files: usize,
     picture: Option<Growing>,
+    convergence: Convergence,
+    /// When the work was planned and began.
+    begun: Option<Instant>,
 }
 
 impl ExportJob {
     pub(super) fn new(settings: ExportSettings, engine: SharedEngine) -> Self {
-        let state = State { status: Status::Waiting, cost: None, passes: 0, files: 0, picture: None };
+        let state = State {
+            status: Status::Waiting,
+            cost: None,
+            passes: 0,
+            files: 0,
+            picture: None,
+            convergence: Convergence::default(),
+            begun: None,
+        };
         Self {
             shown: AtomicI32::new(settings.shown),
             settings,
@@ -131,6 +143,11 @@ impl ExportJob {
             left: AtomicBool::new(false),
             state: Mutex::new(state),
         }
+    }
+
+    /// How the noise of the shown frame falls, from pass to pass.
+    pub fn noise(&self) -> Vec<Point> {
+        self.state().convergence.points().to_vec()
     }
 
     /// What is exported.
@@ -305,16 +322,22 @@ impl RenderObserver for ExportJob {
 
     fn planned(&self, plan: &Plan) {
         let Plan { passes, memory_mib, scratch_mib, .. } = *plan;
-        self.state().cost = Some(Cost { passes, memory_mib, scratch_mib });
+        let mut state = self.state();
+        state.cost = Some(Cost { passes, memory_mib, scratch_mib });
+        state.begun.get_or_insert_with(Instant::now);
     }
 
     fn passed(&self, passes: usize, picture: &dyn Fn(i32) -> Result<Option<Image>>) {
         // A picture that cannot be made now is no reason to break off; what is wrong shows when frames are written.
         let frame = self.shown.load(Relaxed);
-        let seen = picture(frame).ok().flatten().map(small);
+        let seen = picture(frame).ok().flatten();
         let mut state = self.state();
         state.passes = passes;
         if let Some(image) = seen {
+            let begun = *state.begun.get_or_insert_with(Instant::now);
+            let worked = begun.elapsed().saturating_sub(self.progress.rested());
+            state.convergence.add((frame, passes), worked, &image);
+            let image = small(image);
             state.picture = Some(Growing { frame, passes, image: Arc::new(image) });
         }
     }

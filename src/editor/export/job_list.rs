@@ -5,6 +5,7 @@ use lightloom_core::engine::Existing;
 use lightloom_core::export::FrameFormat;
 use lightloom_core::render::Image;
 
+use super::convergence;
 use super::job::{ExportJob, ExportSettings, Growing, Status};
 use super::queue::Exports;
 use super::status_line::{colour, controls, words};
@@ -75,6 +76,7 @@ impl JobList {
             let tip = format!("{label}. The frame under the playhead is shown after the next pass.");
             ui.add(shown.alt_text(&label)).on_hover_text(tip);
             ui.label(RichText::new(label).small().weak());
+            convergence::show(ui, &job.noise());
         }
     }
 }

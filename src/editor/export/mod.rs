@@ -1,5 +1,6 @@
 //! Exports beside editing: each renders a frozen project on threads of its own, one after the other.
 
+mod convergence;
 mod form;
 mod job;
 mod job_list;
@@ -9,6 +10,7 @@ mod record;
 mod status_line;
 mod window;
 
+pub use convergence::Point;
 pub use job::{Cost, ExportJob, ExportSettings, Growing, Outcome, Status};
 pub use options::ExportOptions;
 pub use queue::Exports;

@@ -28,6 +28,42 @@ pub struct ExportOptions {
     pub folder: PathBuf,
 }
 
+/// Numbers for a purpose, made from the project's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// To see the movement: half the size, one pass of few photons.
+    Draft,
+    /// To show it around: the whole size, two passes.
+    Review,
+    /// As the project says.
+    Final,
+}
+
+impl Purpose {
+    /// All of them, with their names and what they are for.
+    pub(super) const ALL: [(Self, &str, &str); 3] = [
+        (Self::Draft, "Draft", "To see the movement: half the size, one pass of at most 200 000 photons."),
+        (
+            Self::Review,
+            "Review",
+            "To show it around within minutes: the whole size, two passes of at most 500 000 photons.",
+        ),
+        (Self::Final, "Final", "Size, passes and photons of the project."),
+    ];
+
+    /// The options for it, where `own` are those of the project.
+    pub(super) fn apply(self, options: &ExportOptions, own: &ExportOptions) -> ExportOptions {
+        // Films want even sides.
+        let half = |pixels: u32| if pixels < 64 { pixels } else { (pixels / 2).next_multiple_of(2) };
+        let (size, passes, photons) = match self {
+            Self::Draft => (own.size.map(half), 1, own.photons.min(200_000)),
+            Self::Review => (own.size, own.passes.min(2), own.photons.min(500_000)),
+            Self::Final => (own.size, own.passes, own.photons),
+        };
+        ExportOptions { size, passes, photons, ..options.clone() }
+    }
+}
+
 impl ExportOptions {
     /// The options of the project, with a folder beside its file.
     pub fn of(project: &Project, file: Option<&Path>) -> Self {
@@ -204,6 +240,21 @@ mod tests {
             assert_eq!(args.film, options.film_file(), "{line}");
             assert_eq!((run, args.out), (wanted, options.folder), "{line}");
         }
+    }
+
+    #[test]
+    fn a_purpose_costs_no_more_than_the_project_and_leaves_the_rest() {
+        let project =
+            Project::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json")).unwrap();
+        let own = ExportOptions::of(&project, None);
+        let mine = ExportOptions { frames: "3-5".into(), size: [99, 31], passes: 70, ..own.clone() };
+        for (purpose, ..) in Purpose::ALL {
+            let options = purpose.apply(&mine, &own);
+            assert_eq!(options.frames, "3-5");
+            assert!(options.photons <= own.photons && options.passes <= own.passes);
+            assert!(options.size[0] <= own.size[0] && options.apply(&project).is_ok());
+        }
+        assert_eq!(Purpose::Final.apply(&mine, &own), ExportOptions { frames: "3-5".into(), ..own });
     }
 
     #[test]

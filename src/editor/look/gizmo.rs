@@ -10,6 +10,8 @@ use super::viewpoint::Viewpoint;
 
 /// Length of an arrow, points.
 const ARROW: f32 = 78.0;
+/// Length of its head, beyond that, points.
+const HEAD: f32 = 11.0;
 /// Where an arrow begins to be one, points from the middle.
 const GAP: f32 = 14.0;
 /// Radius of a ring, points.
@@ -17,7 +19,7 @@ const RING: f32 = 56.0;
 /// Corners of a ring.
 const CORNERS: usize = 64;
 /// Reach of arrows and rings, points.
-const REACH: f32 = 6.0;
+const REACH: f32 = 7.0;
 
 /// A handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +82,10 @@ impl<'a> Gizmo<'a> {
 
     /// The handle at a point of the screen; arrows win over rings.
     pub fn hit(&self, at: Pos2) -> Option<Handle> {
-        let arrow = |&axis: &usize| self.arrow(axis).is_some_and(|[a, b]| distance(at, a, b) <= REACH);
+        // To the tip of its head, where one takes hold of an arrow.
+        let arrow = |&axis: &usize| {
+            self.arrow(axis).is_some_and(|[from, to]| distance(at, from, tip(from, to)) <= REACH)
+        };
         let ring =
             |&axis: &usize| self.ring(axis).windows(2).any(|piece| distance(at, piece[0], piece[1]) <= REACH);
         let found = |kind, axis| Handle { kind, axis };
@@ -102,12 +107,16 @@ impl<'a> Gizmo<'a> {
                 painter.line_segment([from, to], stroke(TransformKind::Move));
                 let along = (to - from).normalized();
                 let across = along.rot90() * 4.5;
-                let tip = to + along * 11.0;
-                let head = vec![tip, to + across, to - across];
+                let head = vec![tip(from, to), to + across, to - across];
                 painter.add(Shape::convex_polygon(head, axis::COLOURS[axis], Stroke::NONE));
             }
         }
     }
+}
+
+/// The tip of the head of an arrow.
+fn tip(from: Pos2, to: Pos2) -> Pos2 {
+    to + (to - from).normalized() * HEAD
 }
 
 /// Distance of a point from a segment.
@@ -115,4 +124,28 @@ fn distance(at: Pos2, a: Pos2, b: Pos2) -> f32 {
     let along = b - a;
     let share = ((at - a).dot(along) / along.length_sq().max(1e-6)).clamp(0.0, 1.0);
     at.distance(a + along * share)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use egui::{Rect, pos2, vec2};
+    use lightloom_core::scene::CameraDesc;
+
+    use super::*;
+
+    #[test]
+    fn an_arrow_is_taken_hold_of_along_all_that_is_drawn_and_not_beyond() {
+        let place = Rect::from_min_size(pos2(0.0, 0.0), vec2(800.0, 600.0));
+        let camera = CameraDesc { position: [0.7, 1.2, 1.6], ..CameraDesc::default() };
+        let view = Viewpoint::new(&camera, place).unwrap();
+        let gizmo = Gizmo::new(&view, SceneObject::Mesh(0), Vec3::ZERO, (false, true));
+        for axis in 0..3 {
+            let [from, to] = gizmo.arrow(axis).unwrap();
+            let tip = tip(from, to);
+            let is_move = |at: Pos2| gizmo.hit(at) == Some(Handle { kind: TransformKind::Move, axis });
+            assert!(is_move(to) && is_move(tip) && is_move(from + (to - from) * 0.8), "{axis}");
+            assert!(!is_move(tip + (to - from).normalized() * (REACH + 1.0)), "{axis}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! What was drawn: a list of directed lines and walls, and the values of those that are selected.
 
+mod group;
 pub(super) mod row;
 mod values;
 
@@ -15,6 +16,7 @@ use crate::editor::action::Action;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::selection::Selection;
+use crate::editor::tools::groups;
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] = values::CONTROLS;
@@ -30,8 +32,11 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     tools(ui, editor, constraints);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
-        for (i, constraint) in constraints.iter().enumerate() {
-            row::show(ui, editor, constraint, i);
+        for (name, members) in groups::groups(constraints) {
+            let folded = !name.is_empty() && group::header(ui, editor, constraints, name, &members);
+            for &index in members.iter().filter(|_| !folded) {
+                row::show(ui, editor, &constraints[index], index);
+            }
         }
     });
     let chosen: Vec<usize> =

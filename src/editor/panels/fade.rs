@@ -4,12 +4,13 @@ use egui::Ui;
 use lightloom_core::flow::Fade;
 
 use super::control::Control;
+use super::pictures;
 
 const KIND: Control = Control::new("Fade", Fade::KIND).labels(&["Smooth", "Paper"]);
 const START: Control = Control::new("Fade from", Fade::START);
 const END: Control = Control::new("Fade to", Fade::END);
 const LIMIT: Control = Control::new("Speed limit", Fade::LIMIT).log_slider(1.0, 20.0);
-const TAU: Control = Control::new("Tau", Fade::TAU);
+const TAU: Control = Control::new("Tau", Fade::TAU).pictures(&pictures::TAU);
 
 /// The settings of this part.
 pub(super) const CONTROLS: &[Control] = &[KIND, START, END, LIMIT, TAU];

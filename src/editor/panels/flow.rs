@@ -17,7 +17,7 @@ const ALPHA: Control =
     Control::new("Alpha", FlowSettings::ALPHA).log_slider(1e-6, 1.0).pictures(&pictures::ALPHA);
 const BETA: Control =
     Control::new("Beta", FlowSettings::BETA).log_slider(0.0, 100.0).pictures(&pictures::BETA);
-const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0);
+const RHO: Control = Control::new("Rho", FlowSettings::RHO).log_slider(0.01, 100.0).pictures(&pictures::RHO);
 const METHOD: Control =
     Control::new("Method", MotionMethod::METHOD).labels(&["Flow", "Guided", "2016", "Linear"]);
 const HOLD: Control = Control::new("Hold", FlowSettings::HOLD).slider(0.04, 0.2);

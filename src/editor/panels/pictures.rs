@@ -46,6 +46,16 @@ pub(super) const TURBULENCE: Trio = Trio {
     pictures: [picture!("turbulence_low"), picture!("turbulence_middle"), picture!("turbulence_high")],
     captions: ["0", "20", "60"],
 };
+/// rho 0.3, 1 and 3.
+pub(super) const RHO: Trio = Trio {
+    pictures: [picture!("rho_low"), picture!("rho_middle"), picture!("rho_high")],
+    captions: ["0.3: dims", "1", "3: brightens"],
+};
+/// tau 0.1, 0.4 and 0.85, half way.
+pub(super) const TAU: Trio = Trio {
+    pictures: [picture!("tau_low"), picture!("tau_middle"), picture!("tau_high")],
+    captions: ["0.1: straight", "0.4", "0.85: field"],
+};
 /// The preset of a liquid.
 pub(super) const LIQUID: Picture = picture!("preset_liquid");
 /// The preset of a gradient.
@@ -104,7 +114,7 @@ mod tests {
 
     #[test]
     fn every_picture_is_small_and_can_be_read() {
-        let trios = [GAMMA, ALPHA, BETA, TURBULENCE].into_iter().flat_map(|trio| trio.pictures);
+        let trios = [GAMMA, ALPHA, BETA, TURBULENCE, RHO, TAU].into_iter().flat_map(|trio| trio.pictures);
         for picture in trios.chain([LIQUID, GRADIENT, SILK, STORM]) {
             assert!(picture.bytes.len() < 12_000, "{}: {} bytes", picture.name, picture.bytes.len());
             assert!(decode(&picture).is_some(), "{}", picture.name);

@@ -59,6 +59,12 @@ pub(super) fn show(
                 editor.ask(Action::PickFile(AssetUse::Picture(at.clone())));
             }
             picture(ui, editor, &mut changed);
+            if editor.document.project().scene.is_some() {
+                let what = "Lays the picture where the caustic falls that becomes it, as large, upright for the camera and in its view.";
+                if ui.button("Fit to the light").on_hover_text(what).clicked() {
+                    editor.ask(Action::PlacePicture(at.clone()));
+                }
+            }
             if changed != *image {
                 new = Some(Some(Shows::Image(changed)));
             }
@@ -108,6 +114,6 @@ fn picture(ui: &mut Ui, editor: &EditorContext, image: &mut ImageTarget) {
     } else if centre != placement.centre.unwrap_or(middle.into()) {
         placement.centre = Some(centre);
     }
-    WIDTH.optional(ui, &mut placement.width, "fit", 0.5);
+    WIDTH.optional(ui, &mut placement.width, "fill", 0.5);
     TURN.number(ui, &mut placement.rotate);
 }

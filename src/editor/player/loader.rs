@@ -56,6 +56,11 @@ impl Loader {
         self.shared.lock().get(index).cloned().flatten()
     }
 
+    /// The picture with this index, if it was read.
+    pub fn seen(&self, index: usize) -> Option<Arc<ColorImage>> {
+        self.shared.lock().get(index)?.as_ref()?.as_ref().ok().cloned()
+    }
+
     /// Number of pictures that were read.
     pub fn count(&self) -> usize {
         self.shared.lock().iter().flatten().count()

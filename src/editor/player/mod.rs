@@ -2,6 +2,7 @@
 
 mod clock;
 mod loader;
+mod noise;
 mod sequence;
 mod window;
 

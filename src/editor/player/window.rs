@@ -4,8 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::{ColorImage, Context, DragValue, Slider, TextureHandle, TextureOptions, Ui, vec2};
+use egui::{
+    ColorImage, Context, DragValue, Pos2, Rect, Response, Sense, Slider, Stroke, StrokeKind, TextureHandle,
+    TextureOptions, Ui, vec2,
+};
 
+use super::noise::{self, Steadiness};
 use super::{Clock, Loader, Sequence};
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
 use crate::editor::theme;
@@ -34,6 +38,12 @@ struct Show {
     rate: f64,
     /// The picture on the screen, and its index.
     texture: Option<(usize, TextureHandle)>,
+    /// The part of the picture whose steadiness is told, in shares of its sides.
+    part: Option<Rect>,
+    /// Its steadiness around the picture of this index, of so many that were read.
+    steady: Option<([usize; 2], Option<Steadiness>)>,
+    /// Where the drag began that draws the part.
+    corner: Option<Pos2>,
 }
 
 impl Player {
@@ -46,7 +56,8 @@ impl Player {
             let loader = Loader::start(&sequence, move || ctx.request_repaint())?;
             let [frames, seconds] = sequence.frames_per_second.map(f64::from);
             let clock = Clock::new(sequence.holds());
-            Ok(Show { loader, clock, rate: frames / seconds, texture: None, sequence })
+            let rate = frames / seconds;
+            Ok(Show { loader, clock, rate, texture: None, part: None, steady: None, corner: None, sequence })
         });
         (self.show, self.problem) = match begun {
             Ok(show) => (Some(show), None),
@@ -101,6 +112,7 @@ impl Show {
         if let Some(Ok(picture)) = &slot {
             self.upload(ui, index, picture);
         }
+        let mut shown = None;
         let room = vec2(ui.available_width(), (ui.available_height() - CONTROLS).max(60.0));
         ui.allocate_ui_with_layout(
             room,
@@ -114,7 +126,8 @@ impl Show {
                     (_, Some((_, texture))) => {
                         let (number, _) = &self.sequence.frames[index];
                         let picture = egui::Image::new(texture).max_size(room).maintain_aspect_ratio(true);
-                        ui.add(picture.alt_text(format!("Frame {number}")));
+                        let picture = picture.sense(Sense::drag());
+                        shown = Some(ui.add(picture.alt_text(format!("Frame {number}"))));
                     }
                     _ => {
                         ui.spinner();
@@ -122,12 +135,54 @@ impl Show {
                 }
             },
         );
+        if let Some(response) = shown {
+            self.mark(ui, &response);
+        }
         self.scrub(ui, index);
         ui.horizontal(|ui| self.controls(ui, index));
         let seconds = if waits { 0.0 } else { ui.input(|input| input.stable_dt).into() };
         if let Some(next) = self.clock.advance(seconds, self.rate) {
             ui.ctx().request_repaint_after(Duration::from_secs_f64(next.min(1.0)));
         }
+    }
+
+    /// Draws the part of the picture that is dragged out, whose steadiness is told.
+    fn mark(&mut self, ui: &Ui, response: &Response) {
+        let picture = picture_in(response.rect, self.texture.as_ref());
+        if response.drag_started() {
+            self.corner = ui.input(|input| input.pointer.press_origin());
+        }
+        if let (true, Some(from), Some(to)) =
+            (response.dragged(), self.corner, response.interact_pointer_pos())
+        {
+            (self.part, self.steady) = (Some(noise::part(picture, from, to)), None);
+        }
+        if response.clicked() || response.double_clicked() {
+            (self.part, self.steady) = (None, None);
+        }
+        if let Some(part) = self.part {
+            let at = |share: Pos2| picture.min + share.to_vec2() * picture.size();
+            let rect = Rect::from_min_max(at(part.min), at(part.max));
+            ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, theme::ACCENT), StrokeKind::Outside);
+        }
+    }
+
+    /// How steady the marked part is, in words.
+    fn steady_words(&mut self, index: usize) -> Option<String> {
+        let part = self.part?;
+        let (count, read) = (self.sequence.frames.len(), self.loader.count());
+        // Every few pictures: while it plays the next would say nearly the same.
+        let key = [index / 5, read];
+        if self.steady.is_none_or(|(of, _)| of != key) {
+            let found = noise::steadiness((index, count), part, |at| self.loader.seen(at));
+            self.steady = Some((key, found));
+        }
+        Some(match self.steady?.1 {
+            Some(Steadiness { noise, pictures }) => {
+                format!("noise {noise:.2} of 255, over {pictures} pictures")
+            }
+            None => "no three pictures of it in a row".into(),
+        })
     }
 
     fn upload(&mut self, ui: &Ui, index: usize, picture: &Arc<ColorImage>) {
@@ -187,5 +242,20 @@ impl Show {
         let count = self.sequence.frames.len();
         let read = self.loader.count();
         ui.weak(if read < count { format!("{read} of {count} read") } else { format!("{count} pictures") });
+        if self.part.is_none() {
+            ui.weak("Drag over a part that stands still for its noise.");
+        } else if let Some(words) = self.steady_words(index) {
+            let tip = "Root mean square of what changes from frame to frame in the marked part, on the screen's scale of 0 to 255; even \
+                       movement does not count. Below about 1 nobody sees it; more passes lower it.";
+            ui.label(words).on_hover_text(tip);
+        }
     }
+}
+
+/// The rectangle that a picture fills in the middle of its room.
+fn picture_in(room: Rect, texture: Option<&(usize, TextureHandle)>) -> Rect {
+    let Some((_, texture)) = texture else { return room };
+    let size = texture.size_vec2();
+    let scale = (room.size() / size).min_elem();
+    Rect::from_center_size(room.center(), size * scale)
 }

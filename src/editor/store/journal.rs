@@ -32,6 +32,10 @@ pub struct Note {
     pub project: Arc<Project>,
     /// Fingerprint of the document's file when last read or saved; none where it was never saved.
     pub seen: Option<Fingerprint>,
+    /// The file, existing or not, that the paths of the project are relative to.
+    pub base: PathBuf,
+    /// Files outside of its folder that the user let it read.
+    pub admitted: Vec<PathBuf>,
 }
 
 /// The journal of one open document. Dropped without [`clean`](Self::clean), it writes pending changes and leaves its
@@ -190,6 +194,8 @@ impl Writer {
             title: note.title.clone(),
             time: time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
             seen: note.seen,
+            base: Some(absolute(&note.base)).filter(|path| path.to_str().is_some()),
+            admitted: note.admitted.iter().filter(|path| path.to_str().is_some()).cloned().collect(),
             text: note.file.text_of(&note.project)?,
         };
         let bytes = serde_json::to_vec(&record)

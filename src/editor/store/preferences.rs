@@ -12,6 +12,8 @@ use super::disk;
 pub const MOST_RECENT: usize = 20;
 /// Range of the interface scale.
 pub const UI_SCALES: std::ops::RangeInclusive<f32> = 0.5..=3.0;
+/// Range of the memory of a preview, MB.
+pub const PREVIEW_MEGABYTES: std::ops::RangeInclusive<u32> = 8..=8000;
 /// Maximum size of the preferences file.
 const MOST_BYTES: u64 = 1 << 20;
 
@@ -31,6 +33,8 @@ pub struct Preferences {
     pub photon_renderer: PhotonRenderer,
     /// Whether drawing snaps.
     pub snapping: bool,
+    /// What the photons of all frames of a preview may take, MB, within [`PREVIEW_MEGABYTES`].
+    pub preview_megabytes: u32,
     /// Fields of later versions.
     #[serde(flatten)]
     other: Map<String, Value>,
@@ -71,6 +75,7 @@ impl Default for Preferences {
             first_start_seen: false,
             photon_renderer: PhotonRenderer::default(),
             snapping: true,
+            preview_megabytes: 160,
             other: Map::new(),
         }
     }
@@ -97,6 +102,8 @@ impl Preferences {
             }
             Ok(mut preferences) => {
                 preferences.recent.truncate(MOST_RECENT);
+                let [least, most] = [*PREVIEW_MEGABYTES.start(), *PREVIEW_MEGABYTES.end()];
+                preferences.preview_megabytes = preferences.preview_megabytes.clamp(least, most);
                 (preferences, None)
             }
             Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {

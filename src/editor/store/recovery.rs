@@ -31,6 +31,10 @@ pub struct Recovery {
     /// Whether the user's file has changed since: the editor crashed right after saving, or another program
     /// wrote it. The file may be newer than this work.
     pub file_changed: bool,
+    /// The file that the paths of the work are relative to, where the journal tells.
+    pub base: Option<PathBuf>,
+    /// Files outside of its folder that the user let it read.
+    pub admitted: Vec<PathBuf>,
     slot: JournalSlot,
 }
 
@@ -81,6 +85,8 @@ fn look_into(slot: JournalSlot) -> Option<Recovery> {
                 work: Err(error),
                 seen: None,
                 file_changed: false,
+                base: None,
+                admitted: Vec::new(),
                 slot,
             });
         }
@@ -100,6 +106,8 @@ fn look_into(slot: JournalSlot) -> Option<Recovery> {
         work,
         seen: record.seen,
         file_changed,
+        base: record.base,
+        admitted: record.admitted,
         slot,
     })
 }

@@ -33,7 +33,15 @@ fn a_change_is_kept_for_recovery_although_writing_it_panics_first() {
     let journal = guard::planted("journal", || Journal::start(folder.path().to_owned()));
     let file = project();
     let project = Arc::new(file.project().clone());
-    journal.note(Note { path: None, title: "mine".into(), file, project, seen: None });
+    journal.note(Note {
+        path: None,
+        title: "mine".into(),
+        file,
+        project,
+        seen: None,
+        base: "mine.json".into(),
+        admitted: Vec::new(),
+    });
     let told = until("the message", || journal.problem());
     assert!(told.contains("planted") && told.contains("save often"), "{told}");
     // It is tried again by itself.

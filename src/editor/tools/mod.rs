@@ -5,6 +5,7 @@ mod curve;
 mod cut;
 mod directed_line;
 mod erase;
+pub mod groups;
 mod hit_test;
 mod icon;
 mod pan;

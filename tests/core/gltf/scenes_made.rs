@@ -103,12 +103,12 @@ fn a_folder_gets_a_project_that_passes_its_check() {
     std::fs::write(&path, glb.json.to_string()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let into = folder.path().join("new");
-    let (_, project_path) = import::into_folder(&path, &into, &Progress::new()).unwrap();
+    let (_, project_path) = import::into_folder(&path, None, &into, &Progress::new()).unwrap();
     assert!(into.join("my scene.bin").is_file() && into.join("ball.gltf").is_file());
     let project = Project::load(&project_path).unwrap();
     Engine::new(AssetFolder::new(&project_path, false).unwrap()).check(&project).unwrap();
     // Once more: nothing is written over.
-    let again = import::into_folder(&path, &into, &Progress::new()).unwrap_err().to_string();
+    let again = import::into_folder(&path, None, &into, &Progress::new()).unwrap_err().to_string();
     assert!(again.contains("is there already"), "{again}");
 }
 

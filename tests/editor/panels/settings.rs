@@ -9,8 +9,8 @@ use lightloom_core::setting::{ANY, Kind};
 #[test]
 fn every_setting_stands_in_a_panel() {
     let shown: BTreeSet<&str> = controls().map(|control| control.setting.place).collect();
-    // The row of the list has them: name, eye and padlock; what a caustic shows is chosen as what all show.
-    let rows = ["constraints[].name", "constraints[].enabled", "constraints[].locked"];
+    // The list has them: name, eye, padlock, and the heads of groups; what a caustic shows is chosen as what all show.
+    let rows = ["constraints[].name", "constraints[].enabled", "constraints[].locked", "constraints[].group"];
     let elsewhere = |place: &str| rows.contains(&place) || place == "keys[].caustics.NAME.shows";
     let wanted = settings().map(|setting| setting.place).filter(|place| !elsewhere(place));
     let missing: Vec<_> = wanted.filter(|place| !shown.contains(place)).collect();

@@ -12,6 +12,8 @@ mod shot;
 
 use std::sync::Arc;
 
+use glam::Vec2;
+
 use super::Engine;
 use super::fitted_segment::FittedSegment;
 use super::flow_numbers::{FlowNumbers, note_on_walls};
@@ -37,9 +39,6 @@ pub use light::{PreviewExposure, covered_area};
 pub use orbit::OrbitView;
 pub use shot::Shot;
 
-/// Most positions that a preview keeps, photons times frames: 160 MB.
-const MOST_POSITIONS: usize = 20_000_000;
-
 impl Engine {
     /// The photons at all frames of a project, at one of [`Quality::LIVE`]. `ready` gets the preview as it grows: first the
     /// key frames, then frame after frame, those of the segment around the frame `first` before the others. The same
@@ -60,33 +59,35 @@ impl Engine {
         let output = OutputSettings { frames: None, ..project.output.clone() };
         let all_frames = Project { output, ..project.clone() };
         let whole = self.prepare(&all_frames, &meter, progress)?;
-        let (sized, note) = at_quality(&whole, quality)?;
+        let (sized, note) = self.at_quality(&whole, quality)?;
         let job = self.job(&sized, &meter, progress)?;
         let run = Run { whole: &whole, job: &job };
+        let at_quality = |quality| self.at_quality(&whole, quality);
         let preview = match quality.fitted_at() {
             fitted_at if fitted_at == quality => run.fitted(first, ready)?,
             fitted_at => {
-                let (guides, _) = at_quality(&whole, fitted_at)?;
+                let (guides, _) = at_quality(fitted_at)?;
                 run.carried(&self.job(&guides, &meter, progress)?, first, ready)?
             }
         };
         Ok(Arc::new(preview.concluded(&whole.notes, note, &meter)))
     }
-}
 
-/// A prepared project limited to a quality, and a note where memory allows fewer photons.
-fn at_quality(whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<Note>)> {
-    let project = quality.apply(&whole.project);
-    let wanted = quality.photons_of(&project);
-    let frames = whole.plan.frames.max(1);
-    let kept = (MOST_POSITIONS / frames).clamp(1, wanted);
-    let note = (kept < wanted).then(|| {
-        About::Setting(RenderSettings::PHOTONS.place).note(format!(
-            "preview: {kept} photons in place of {wanted}, so that {frames} frames fit into memory; what is rendered keeps its photons"
-        ))
-    });
-    let limited = whole.limited(quality, kept)?;
-    Ok((Prepared { project, ..limited }, note))
+    /// A prepared project limited to a quality, and a note where memory allows fewer photons.
+    fn at_quality(&self, whole: &Prepared, quality: Quality) -> Result<(Prepared, Option<Note>)> {
+        let project = quality.apply(&whole.project);
+        let wanted = quality.photons_of(&project);
+        let frames = whole.plan.frames.max(1);
+        let kept = (self.preview_bytes / size_of::<Vec2>() / frames).clamp(1, wanted);
+        let note = (kept < wanted).then(|| {
+            About::Setting(RenderSettings::PHOTONS.place).note(format!(
+                "preview: {kept} photons in place of {wanted}, so that {frames} frames fit into {} MB; what is rendered keeps its photons",
+                self.preview_bytes / 1_000_000
+            ))
+        });
+        let limited = whole.limited(quality, kept)?;
+        Ok((Prepared { project, ..limited }, note))
+    }
 }
 
 /// One preview of a project.

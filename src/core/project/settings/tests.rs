@@ -162,10 +162,11 @@ fn what_lies_just_beyond_a_range_is_refused_by_its_place() {
 
 #[test]
 fn every_default_is_that_of_a_project_that_says_nothing() {
-    // Parts of the project above, values without a default, and one that is only written where it is true.
+    // Parts of the project above, values without a default, and those that are only written where they say something.
     let given = ["keys[].frame", "keys[].shows", "scene.lights[]", "scene.meshes[].material", "flow.fade"];
     let given = |place: &str| {
-        given.contains(&place) || place == "constraints[].locked" || place.starts_with("constraints[].span")
+        let is_rare = ["constraints[].locked", "constraints[].group"].contains(&place);
+        given.contains(&place) || is_rare || place.starts_with("constraints[].span")
     };
     for setting in settings().filter(|setting| !given(setting.place)) {
         let (project, at) = home_if_written(setting);

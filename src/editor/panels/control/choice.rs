@@ -1,12 +1,15 @@
 //! Choices and switches.
 
-use egui::{Button, ComboBox, Ui};
+use egui::{Button, Color32, ComboBox, TextStyle, Ui};
 
 use super::Control;
 use crate::editor::panels::icons::{self, Icon};
 
 /// Most choices that stand side by side.
 const SIDE_BY_SIDE: usize = 3;
+/// Room between them, and beside their labels, points.
+const GAP: f32 = 2.0;
+const PADDING: f32 = 2.0;
 
 impl Control {
     /// One of `values`, in the order of the choices. Whether it changed.
@@ -24,7 +27,10 @@ impl Control {
     /// The index of another choice than `now` that was picked.
     pub fn pick(&self, ui: &mut Ui, now: usize) -> Option<usize> {
         let row = self.row(ui, now != 0, |ui| {
-            if self.labels.len() <= SIDE_BY_SIDE { self.side_by_side(ui, now) } else { self.list(ui, now) }
+            match self.widths(ui).filter(|_| self.labels.len() <= SIDE_BY_SIDE) {
+                Some(widths) => self.side_by_side(ui, now, &widths),
+                None => self.list(ui, now),
+            }
         });
         if row.reset && now != 0 { Some(0) } else { row.inner.filter(|index| *index != now) }
     }
@@ -64,14 +70,32 @@ impl Control {
         before != *value
     }
 
-    fn side_by_side(&self, ui: &mut Ui, now: usize) -> Option<usize> {
-        ui.spacing_mut().item_spacing.x = 2.0;
-        let count = self.labels.len().max(1) as f32;
-        let width = (ui.available_width() - 2.0 * (count - 1.0)) / count;
-        let size = egui::vec2(width, ui.spacing().interact_size.y);
-        ui.spacing_mut().button_padding.x = 2.0;
+    /// The widths of buttons side by side that show their labels in full; none where there is no room. Short labels leave
+    /// theirs to long ones.
+    fn widths(&self, ui: &Ui) -> Option<Vec<f32>> {
+        let font = TextStyle::Button.resolve(ui.style());
+        let wide = |label: &&str| {
+            let galley = ui.painter().layout_no_wrap((*label).to_owned(), font.clone(), Color32::WHITE);
+            galley.size().x.ceil() + 2.0 * PADDING + 2.0
+        };
+        let needed: Vec<f32> = self.labels.iter().map(wide).collect();
+        let count = needed.len().max(1) as f32;
+        let room = ui.available_width() - GAP * (count - 1.0);
+        let even = room / count;
+        if needed.iter().all(|width| *width <= even) {
+            return Some(vec![even; needed.len()]);
+        }
+        let spare = (room - needed.iter().sum::<f32>()) / count;
+        (spare >= 0.0).then(|| needed.iter().map(|width| width + spare).collect())
+    }
+
+    fn side_by_side(&self, ui: &mut Ui, now: usize, widths: &[f32]) -> Option<usize> {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let height = ui.spacing().interact_size.y;
+        ui.spacing_mut().button_padding.x = PADDING;
         let mut picked = None;
-        for (i, label) in self.labels.iter().enumerate() {
+        for (i, (label, width)) in self.labels.iter().zip(widths).enumerate() {
+            let size = egui::vec2(*width, height);
             let button = Button::selectable(i == now, *label).frame_when_inactive(true).truncate();
             let response = ui.add_sized(size, button);
             let response = response.accessible_name(format!("{}: {label}", self.accessible_name()));

@@ -8,7 +8,7 @@ use lightloom_core::setting::{Kind, format};
 use super::Control;
 
 /// Width of a field beside a slider, points.
-const FIELD: f32 = 68.0;
+const FIELD: f32 = 82.0;
 /// Least width of a slider: below it there is only the field.
 const SLIDER: f32 = 48.0;
 

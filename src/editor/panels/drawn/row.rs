@@ -10,11 +10,14 @@ use crate::editor::panels::control::text;
 use crate::editor::panels::icons::{self, Icon};
 use crate::editor::selection::Selection;
 use crate::editor::theme;
+use crate::editor::tools::groups;
 
 /// Height of a line, points.
-const HEIGHT: f32 = 24.0;
+pub(super) const HEIGHT: f32 = 24.0;
 /// Width of a button at its end, points.
-const BUTTON: f32 = 24.0;
+pub(super) const BUTTON: f32 = 24.0;
+/// Indent of the members of a group, points.
+const INDENT: f32 = 12.0;
 /// Room for the sign of the kind, points.
 const SIGN: f32 = 26.0;
 
@@ -40,9 +43,10 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constra
         (false, false) => visuals.faint_bg_color,
     };
     ui.painter().rect_filled(rect, CornerRadius::same(3), fill);
-    sign(ui, rect, constraint);
+    let indent = if constraint.group().is_empty() { 0.0 } else { INDENT };
+    sign(ui, rect.translate(vec2(indent, 0.0)), constraint);
     let buttons = rect.with_min_x(rect.right() - 2.0 * BUTTON);
-    let words = rect.with_min_x(rect.left() + SIGN).with_max_x(buttons.left());
+    let words = rect.with_min_x(rect.left() + SIGN + indent).with_max_x(buttons.left());
     let renaming = Id::unique("renamed constraint");
     if ui.data(|data| data.get_temp::<usize>(renaming)) == Some(index) {
         rename(ui, editor, constraint, index, words);
@@ -100,7 +104,7 @@ fn rename(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, inde
     let mut place = ui.new_child(egui::UiBuilder::new().max_rect(words));
     let (response, new) = text::field(&mut place, field_id(index), now, words.width());
     if let Some(new) = new {
-        editor.ask(Edit::Change(vec![(index, with(constraint, |name, _, _| *name = new))]));
+        editor.ask(Edit::Change(vec![(index, named(constraint, new))]));
     }
     if response.lost_focus() || !response.has_focus() {
         ui.data_mut(|data| data.remove::<usize>(Id::unique("renamed constraint")));
@@ -114,21 +118,21 @@ fn switches(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, in
     let on = constraint.is_enabled();
     let (icon, what) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
     if icons::button_at(ui, eye, icon, &format!("{what}: {name}"), on).clicked() {
-        editor.ask(Edit::Change(vec![(index, with(constraint, |_, enabled, _| *enabled = !on))]));
+        editor.ask(Edit::Change(vec![(index, groups::switched(constraint, Some(!on), None))]));
     }
     let locked = constraint.is_locked();
     let (icon, what) = if locked { (Icon::Lock, "Unlock") } else { (Icon::LockOpen, "Lock") };
     if icons::button_at(ui, padlock, icon, &format!("{what}: {name}"), locked).clicked() {
-        editor.ask(Edit::Change(vec![(index, with(constraint, |_, _, lock| *lock = !locked))]));
+        editor.ask(Edit::Change(vec![(index, groups::switched(constraint, None, Some(!locked)))]));
     }
 }
 
-/// The constraint after `change` of its name, whether it acts, and whether it is locked.
-fn with(constraint: &Constraint, change: impl FnOnce(&mut String, &mut bool, &mut bool)) -> Constraint {
+/// The constraint with another name.
+fn named(constraint: &Constraint, name: String) -> Constraint {
     let mut constraint = constraint.clone();
     match &mut constraint {
-        Constraint::DirectedLine(line) => change(&mut line.name, &mut line.enabled, &mut line.locked),
-        Constraint::Wall(wall) => change(&mut wall.name, &mut wall.enabled, &mut wall.locked),
+        Constraint::DirectedLine(line) => line.name = name,
+        Constraint::Wall(wall) => wall.name = name,
     }
     constraint
 }
