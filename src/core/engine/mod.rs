@@ -28,6 +28,7 @@ mod fitted_segment;
 mod flow;
 mod flow_bake;
 mod flow_numbers;
+mod frame_light;
 mod frame_sequence;
 mod frame_times;
 mod frame_writer;
@@ -47,6 +48,8 @@ mod observer;
 mod output;
 mod output_folder;
 mod pairing;
+#[cfg(test)]
+mod panics;
 mod passes;
 mod photon_files;
 mod plan;

@@ -1,23 +1,18 @@
 //! What is written for one frame, and what had to be repaired in it.
 
-use super::layer::FrameLayer;
-use crate::render::first_hits::FirstHits;
+use super::backdrop::Backdrop;
 use crate::render::image::Image;
 use crate::scene::camera::Camera;
 
 /// One finished frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// The layers to be written, for formats that have some.
-    pub layers: &'a [FrameLayer],
-    /// Light without caustics, linear; black where no layer shows it.
-    pub background: &'a Image,
+    /// What it shares with the other frames of its sequence.
+    pub backdrop: &'a Backdrop<'a>,
     /// The caustics alone, linear, of the same size.
     pub caustic: &'a Image,
     /// The caustics one by one with the names of their layers, of the same size.
     pub caustics: &'a [(String, Image)],
-    /// Coverage and depth of the surfaces; none where there are none, and everything is covered.
-    pub first_hits: Option<&'a FirstHits>,
     /// Metadata of the file.
     pub metadata: &'a Metadata,
 }

@@ -11,6 +11,7 @@ pub mod photons;
 pub mod png;
 pub mod sheet;
 
+mod backdrop;
 mod frame;
 mod inspect;
 mod projection;
@@ -22,6 +23,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use backdrop::Backdrop;
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use exr::write_plane;
 pub use fields::{SegmentFields, load_fields, write_fields};
@@ -76,7 +78,7 @@ pub fn write_frame(
     match format {
         FrameFormat::Exr => exr::write(path, frame),
         FrameFormat::Png => {
-            let beauty = frame.background.plus(frame.caustic);
+            let beauty = frame.backdrop.background.plus(frame.caustic);
             let nonfinite =
                 beauty.pixels.iter().flat_map(|p| p.to_array()).filter(|v| !v.is_finite()).count();
             let repairs = RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 };
