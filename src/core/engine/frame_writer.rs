@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use glam::{Vec2, vec2};
 use rayon::prelude::*;
 
+use super::disk_queue::{DiskQueue, with_disk};
 use super::film_writer::FilmWriter;
 use super::frame_light::{FrameLight, FrameLights};
 use super::frame_times::FrameTimes;
@@ -16,7 +17,7 @@ use super::run_files::RunFiles;
 use super::summary::BadValues;
 use crate::export::{
     Backdrop, Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples,
-    sheet, write_frame, write_plane,
+    encode_frame, encode_plane, sheet,
 };
 use crate::project::Project;
 use crate::render::{Image, PlaneView, View};
@@ -74,66 +75,97 @@ impl FrameWriter<'_> {
         progress.begin("write", requested.len() as u64);
         let on_sheet =
             if self.files.sheet { sheet::evenly_chosen(requested, SHEET_PICTURES) } else { Vec::new() };
-        let view = self.lights.project.render.view.view();
         let thumbnails = Mutex::new(Vec::new());
-        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
+        let view = self.lights.project.render.view.view();
         let pictures = self.lights.pictures;
         let hits = pictures.first_hits.as_deref();
         let backdrop = Backdrop::new(&self.lights.project.output.layers, &pictures.background.image, hits);
-        let write = |&(index, frame): &(usize, i32), light: Option<FrameLight>| {
-            if progress.is_abandoned() {
-                return Err(Error::Cancelled);
-            }
-            let shown = on_sheet.contains(&frame);
-            let mut repairs = RepairedSamples::default();
-            let mut small_picture = None;
-            if let Some(light) = light {
-                repairs = self.frame(frame, &light, &backdrop, &view)?;
-                let beauty = || backdrop.background.plus(&light.all);
-                film.map_or(Ok(()), |film| film.keep(index, &view.apply(&beauty())))?;
-                small_picture = shown.then(|| view.apply(&small(&beauty())));
-            } else if (film.is_some() || shown)
-                && let Some(picture) = kept_picture(&self.lights.project.output, self.folder, frame, &view)?
-            {
-                film.map_or(Ok(()), |film| film.keep(index, &picture))?;
-                small_picture = shown.then(|| small(&picture));
-            }
-            if let Some(small) = small_picture {
-                thumbnails.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((frame, small));
-            }
-            progress.advance(1);
-            Ok((frame, repairs))
-        };
+        let repairs = with_disk(self.saved, |disk| {
+            let write = |&(index, frame): &(usize, i32), light: Option<FrameLight>| {
+                if progress.is_abandoned() {
+                    return Err(Error::Cancelled);
+                }
+                let (look, light) = ((&backdrop, &view), light.as_ref());
+                let written = light.map(|light| self.frame(frame, light, look, disk)).transpose()?;
+                let shown = on_sheet.contains(&frame);
+                let small = self.show((index, frame), light, look, (film, shown))?;
+                let mut thumbnails = thumbnails.lock().unwrap_or_else(PoisonError::into_inner);
+                thumbnails.extend(small.map(|small| (frame, small)));
+                progress.advance(1);
+                Ok((frame, written.unwrap_or_default()))
+            };
+            self.in_batches(times, requested, write)
+        })?;
+        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(PoisonError::into_inner);
+        thumbnails.sort_by_key(|(frame, _)| requested.iter().position(|n| n == frame));
+        self.write_sheet(&thumbnails)?;
+        Ok((BadValues::sum(&repairs), thumbnails))
+    }
+
+    /// Calls `write` with each requested frame and its place among them, and its light where it is rendered: those of one batch in
+    /// parallel, while the light of the next is gathered.
+    fn in_batches(
+        &self,
+        times: &FrameTimes,
+        requested: &[i32],
+        write: impl Fn(&(usize, i32), Option<FrameLight>) -> Result<(i32, RepairedSamples)> + Sync,
+    ) -> Result<Vec<(i32, RepairedSamples)>> {
+        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
         let light = |frames: &[(usize, i32)]| {
-            let slots = frames.iter().map(|(_, frame)| rendered.get(frame).copied()).collect::<Vec<_>>();
+            let slots: Vec<_> = frames.iter().map(|(_, frame)| rendered.get(frame).copied()).collect();
             let moments: Vec<_> = slots.iter().flatten().map(|&slot| (slot, times.moments[slot])).collect();
             let mut lights = self.lights.of(&moments)?.into_iter();
-            Ok(slots.into_iter().map(|slot| slot.and_then(|_| lights.next())).collect::<Vec<_>>())
+            Ok::<_, Error>(slots.into_iter().map(|slot| slot.and_then(|_| lights.next())).collect::<Vec<_>>())
         };
-        // Those of one batch are written while the light of the next is gathered.
         let frames: Vec<(usize, i32)> = requested.iter().copied().enumerate().collect();
         let mut batches = frames.chunks(self.batch());
-        let mut current = batches.next().map(|batch| Ok::<_, Error>((batch, light(batch)?))).transpose()?;
-        let mut repairs = Vec::with_capacity(requested.len());
+        let mut next = || batches.next().map(|batch| Ok::<_, Error>((batch, light(batch)?))).transpose();
+        let mut done = Vec::with_capacity(requested.len());
+        let mut current = next()?;
         while let Some((batch, lights)) = current {
             let write = || batch.par_iter().zip(lights).map(|(frame, light)| write(frame, light));
-            let next = || batches.next().map(|batch| Ok((batch, light(batch)?))).transpose();
-            let (written, next) = rayon::join(|| write().collect::<Result<Vec<_>>>(), next);
-            repairs.extend(written?);
-            current = next?;
+            let (written, following) = rayon::join(|| write().collect::<Result<Vec<_>>>(), &mut next);
+            done.extend(written?);
+            current = following?;
         }
-        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-        thumbnails.sort_by_key(|(frame, _)| requested.iter().position(|n| n == frame));
+        Ok(done)
+    }
+
+    /// Keeps a frame, by its place and number, for the film; returns its small picture where it is shown on the sheet.
+    fn show(
+        &self,
+        (index, frame): (usize, i32),
+        light: Option<&FrameLight>,
+        (backdrop, view): (&Backdrop, &View),
+        (film, shown): (Option<&FilmWriter>, bool),
+    ) -> Result<Option<Image>> {
+        if film.is_none() && !shown {
+            return Ok(None);
+        }
+        let keep = |picture: &Image| film.map_or(Ok(()), |film| film.keep(index, picture));
+        if let Some(light) = light {
+            let beauty = backdrop.background.plus(&light.all);
+            film.map_or(Ok(()), |_| keep(&view.apply(&beauty)))?;
+            return Ok(shown.then(|| view.apply(&small(&beauty))));
+        }
+        let kept = kept_picture(&self.lights.project.output, self.folder, frame, view)?;
+        kept.iter().try_for_each(keep)?;
+        Ok(kept.filter(|_| shown).map(|picture| small(&picture)))
+    }
+
+    /// Writes the contact sheet, where one is wanted and not there.
+    fn write_sheet(&self, thumbnails: &Thumbnails) -> Result<()> {
         let path = self.folder.join(CONTACT_SHEET);
-        if self.files.sheet && !self.files.found.kept.contains(&path) {
-            let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
-            let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
-            let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
-            let texts = sheet_texts(&self.files.fingerprint);
-            sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay, &texts)?;
-            (self.saved)(&path);
+        if !self.files.sheet || self.files.found.kept.contains(&path) {
+            return Ok(());
         }
-        Ok((BadValues::sum(&repairs), thumbnails))
+        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
+        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
+        let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
+        let texts = sheet_texts(&self.files.fingerprint);
+        sheet::write_contact_sheet(&path, thumbnails, SHEET_COLUMNS, overlay, &texts)?;
+        (self.saved)(&path);
+        Ok(())
     }
 
     /// Frames whose light is in memory at once: as many as there are threads, and at least as many as are gathered together.
@@ -157,8 +189,8 @@ impl FrameWriter<'_> {
         &self,
         frame: i32,
         light: &FrameLight,
-        backdrop: &Backdrop,
-        view: &View,
+        (backdrop, view): (&Backdrop, &View),
+        disk: &DiskQueue,
     ) -> Result<RepairedSamples> {
         let output = &self.lights.project.output;
         let metadata = self.metadata(frame, light.passes);
@@ -173,14 +205,16 @@ impl FrameWriter<'_> {
             if self.files.found.kept.contains(&path) {
                 continue;
             }
-            all += write_frame(&path, format, &picture, view, output.png_depth())?;
-            (self.saved)(&path);
+            let (bytes, repairs) = encode_frame(&path, format, &picture, view, output.png_depth())?;
+            all += repairs;
+            disk.put(path, bytes)?;
         }
         if let Some(plane) = &light.plane {
             let path = pattern.beside(FrameLayer::Plane.name()).path(self.folder, frame, FrameFormat::Exr);
             if !self.files.found.kept.contains(&path) {
-                all += write_plane(&path, plane, &self.plane_metadata(metadata))?;
-                (self.saved)(&path);
+                let (bytes, repairs) = encode_plane(&path, plane, &self.plane_metadata(metadata))?;
+                all += repairs;
+                disk.put(path, bytes)?;
             }
         }
         Ok(all)

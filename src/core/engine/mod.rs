@@ -19,6 +19,7 @@ mod check;
 mod checkpoint;
 mod compare;
 mod continuity;
+mod disk_queue;
 mod energy_balance;
 mod existing;
 mod film_writer;

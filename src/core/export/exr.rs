@@ -10,7 +10,7 @@ mod part;
 pub(super) mod shared;
 
 use std::collections::HashMap;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds};
@@ -28,11 +28,11 @@ use super::time_code::time_code;
 use crate::render::image::Image;
 use crate::{Error, Result};
 
-/// Writes a frame; returns the repaired samples, which the metadata counts too.
+/// The bytes of a frame's file, which errors name, and the repaired samples, which the metadata counts too.
 ///
 /// # Panics
 /// If the layers differ in size.
-pub fn write(path: &Path, frame: &Frame) -> Result<RepairedSamples> {
+pub(super) fn encode(path: &Path, frame: &Frame) -> Result<(Vec<u8>, RepairedSamples)> {
     let backdrop = frame.backdrop;
     let size = (backdrop.background.width, backdrop.background.height);
     assert_eq!(size, (frame.caustic.width, frame.caustic.height), "layers of one size");
@@ -68,12 +68,18 @@ pub fn write(path: &Path, frame: &Frame) -> Result<RepairedSamples> {
             FrameLayer::Plane => (),
         }
     }
-    save(path, parts, size, frame.metadata, repairs)?;
-    Ok(repairs)
+    Ok((bytes(path, parts, size, frame.metadata, repairs)?, repairs))
 }
 
-/// Writes the light on the plane in 32-bit floats, `R`, `G` and `B`; returns the repaired samples.
-pub fn write_plane(path: &Path, irradiance: &Image, metadata: &Metadata) -> Result<RepairedSamples> {
+/// The bytes of the file of the light on the plane in 32-bit floats, `R`, `G` and `B`, and the repaired samples.
+///
+/// # Errors
+/// A picture that is too large.
+pub fn encode_plane(
+    path: &Path,
+    irradiance: &Image,
+    metadata: &Metadata,
+) -> Result<(Vec<u8>, RepairedSamples)> {
     let bad = |v: &Vec3| v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
     let repairs =
         RepairedSamples { half_clamped: 0, nonfinite_replaced: irradiance.pixels.iter().map(bad).sum() };
@@ -82,24 +88,18 @@ pub fn write_plane(path: &Path, irradiance: &Image, metadata: &Metadata) -> Resu
         AnyChannel::new(name, FlatSamples::F32(values.collect()))
     };
     let channels = ["R", "G", "B"].into_iter().enumerate().map(channel).collect();
-    save(
-        path,
-        vec![("plane", Part::Fresh(channels))],
-        (irradiance.width, irradiance.height),
-        metadata,
-        repairs,
-    )?;
-    Ok(repairs)
+    let (parts, size) = (vec![("plane", Part::Fresh(channels))], (irradiance.width, irradiance.height));
+    Ok((bytes(path, parts, size, metadata, repairs)?, repairs))
 }
 
-/// Writes parts of one size atomically.
-fn save(
+/// The bytes of a file of parts of one size.
+fn bytes(
     path: &Path,
     parts: Vec<(&str, Part)>,
     size: (usize, usize),
     metadata: &Metadata,
     repairs: RepairedSamples,
-) -> Result<()> {
+) -> Result<Vec<u8>> {
     let count = parts.len();
     let mut shared = ImageAttributes::new(IntegerBounds::from_dimensions(size));
     shared.chromaticities = Some(REC709);
@@ -108,7 +108,7 @@ fn save(
     let parts = parts.into_iter().map(with_attributes).collect();
     let mut bytes = part::bytes(parts, size, &shared).map_err(|error| unmade(path, &error))?;
     sort_attributes(&mut bytes, count);
-    crate::files::write_atomic(path, |file| file.write_all(&bytes))
+    Ok(bytes)
 }
 
 fn unmade(path: &Path, error: &exr::error::Error) -> Error {

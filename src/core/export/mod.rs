@@ -18,6 +18,7 @@ mod projection;
 mod text;
 mod time_code;
 
+use std::io::Write as _;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -25,7 +26,7 @@ use serde::{Deserialize, Serialize};
 
 pub use backdrop::Backdrop;
 pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
-pub use exr::write_plane;
+pub use exr::encode_plane;
 pub use fields::{SegmentFields, load_fields, write_fields};
 pub use film::{FilmFormat, Reel, write_film};
 pub use frame::{Frame, Metadata, RepairedSamples};
@@ -37,8 +38,9 @@ pub use photons::{DrawnLine, PhotonFormat, PhotonFrame, PhotonSequence, PhotonWr
 pub use png::PngDepth;
 pub use sheet::{evenly_chosen, write_contact_sheet};
 
-use crate::Result;
+use crate::files::write_atomic;
 use crate::render::view::View;
+use crate::{Error, Result};
 
 /// The kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -75,8 +77,24 @@ pub fn write_frame(
     view: &View,
     depth: PngDepth,
 ) -> Result<RepairedSamples> {
+    let (bytes, repairs) = encode_frame(path, format, frame, view, depth)?;
+    write_atomic(path, |file| file.write_all(&bytes))?;
+    Ok(repairs)
+}
+
+/// The bytes that [`write_frame`] writes, and the repaired samples; errors name `path`.
+///
+/// # Panics
+/// If the layers differ in size.
+pub fn encode_frame(
+    path: &Path,
+    format: FrameFormat,
+    frame: &Frame<'_>,
+    view: &View,
+    depth: PngDepth,
+) -> Result<(Vec<u8>, RepairedSamples)> {
     match format {
-        FrameFormat::Exr => exr::write(path, frame),
+        FrameFormat::Exr => exr::encode(path, frame),
         FrameFormat::Png => {
             let beauty = frame.backdrop.background.plus(frame.caustic);
             let nonfinite =
@@ -84,8 +102,8 @@ pub fn write_frame(
             let repairs = RepairedSamples { half_clamped: 0, nonfinite_replaced: nonfinite as u64 };
             let mut texts = vec![("frame", frame.metadata.frame.to_string())];
             texts.extend(frame.metadata.texts(repairs));
-            png::write_with_texts(path, &view.apply(&beauty), depth, &texts)?;
-            Ok(repairs)
+            let bytes = png::encode_with_texts(&view.apply(&beauty), depth, &texts);
+            Ok((bytes.map_err(Error::io("write", path))?, repairs))
         }
     }
 }
