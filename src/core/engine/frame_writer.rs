@@ -89,8 +89,8 @@ impl FrameWriter<'_> {
                 let written = light.map(|light| self.frame(frame, light, look, disk)).transpose()?;
                 let shown = on_sheet.contains(&frame);
                 let small = self.show((index, frame), light, look, (film, shown))?;
-                let mut thumbnails = thumbnails.lock().unwrap_or_else(PoisonError::into_inner);
-                thumbnails.extend(small.map(|small| (frame, small)));
+                let thumbnail = small.map(|small| (frame, small));
+                thumbnails.lock().unwrap_or_else(PoisonError::into_inner).extend(thumbnail);
                 progress.advance(1);
                 Ok((frame, written.unwrap_or_default()))
             };

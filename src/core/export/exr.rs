@@ -21,9 +21,10 @@ use glam::Vec3;
 
 use self::channels::{alpha, colours, finite};
 use self::part::Part;
-use super::frame::{Frame, Metadata, RepairedSamples};
+use super::frame::{Frame, Metadata};
 use super::layer::FrameLayer;
 use super::projection;
+use super::repairs::RepairedSamples;
 use super::time_code::time_code;
 use crate::render::image::Image;
 use crate::{Error, Result};

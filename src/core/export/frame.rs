@@ -1,6 +1,7 @@
-//! What is written for one frame, and what had to be repaired in it.
+//! What is written for one frame.
 
 use super::backdrop::Backdrop;
+use super::repairs::RepairedSamples;
 use crate::render::image::Image;
 use crate::scene::camera::Camera;
 
@@ -45,21 +46,5 @@ impl Metadata {
         ];
         let settings = self.settings.iter().map(|(name, value)| (name.as_str(), value.clone()));
         numbers.into_iter().chain(settings).collect()
-    }
-}
-
-/// Counts of samples that the file format cannot hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RepairedSamples {
-    /// Samples beyond the largest half float, clamped to it.
-    pub half_clamped: u64,
-    /// Samples that were not finite, replaced by 0.
-    pub nonfinite_replaced: u64,
-}
-
-impl std::ops::AddAssign for RepairedSamples {
-    fn add_assign(&mut self, other: Self) {
-        self.half_clamped += other.half_clamped;
-        self.nonfinite_replaced += other.nonfinite_replaced;
     }
 }

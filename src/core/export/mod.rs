@@ -15,6 +15,7 @@ mod backdrop;
 mod frame;
 mod inspect;
 mod projection;
+mod repairs;
 mod text;
 mod time_code;
 
@@ -29,13 +30,14 @@ pub use comparison::{ComparisonSheet, MethodRow, write_comparison};
 pub use exr::encode_plane;
 pub use fields::{SegmentFields, load_fields, write_fields};
 pub use film::{FilmFormat, Reel, write_film};
-pub use frame::{Frame, Metadata, RepairedSamples};
+pub use frame::{Frame, Metadata};
 pub use inspect::{FrameFile, inspect};
 pub use layer::{FrameLayer, caustic_layer_names};
 pub use overlay::{MAGENTA, ORANGE, Overlay, OverlayLine};
 pub use pattern::FramePattern;
 pub use photons::{DrawnLine, PhotonFormat, PhotonFrame, PhotonSequence, PhotonWriter};
 pub use png::PngDepth;
+pub use repairs::RepairedSamples;
 pub use sheet::{evenly_chosen, write_contact_sheet};
 
 use crate::files::write_atomic;

@@ -5,7 +5,7 @@ use glam::Vec3;
 use half::f16;
 use half::slice::HalfFloatSliceExt as _;
 
-use crate::export::frame::RepairedSamples;
+use crate::export::repairs::RepairedSamples;
 use crate::render::first_hits::FirstHits;
 use crate::render::image::Image;
 

@@ -6,8 +6,8 @@ use glam::Vec3;
 
 use super::channels::{alpha, colours, finite};
 use super::part::KeptPart;
-use crate::export::frame::RepairedSamples;
 use crate::export::layer::FrameLayer;
+use crate::export::repairs::RepairedSamples;
 use crate::render::first_hits::FirstHits;
 use crate::render::image::Image;
 
