@@ -91,7 +91,7 @@ impl Barriers {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::constraint::{Wall, Window};

@@ -4,51 +4,77 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::fields::MeetingFields;
+use super::tears::tears;
 use crate::flow::spatial_order::spatial_order;
-use crate::flow::walls::SUBSTEPS;
+use crate::flow::walls::{SUBSTEPS, bounce};
 use crate::math::sobol;
 
 /// Standard deviation half way, over the size of the pieces that hold together. The plan is that of a random motion; its
-/// mean velocity alone squeezes what is dark in a key frame to cracks at the meeting, which this much fills. With .1 the
-/// target shows late: its lines of two cells are soft at t = .8.
-const SHARE: f32 = 0.05;
+/// mean velocity alone squeezes what is dark in a key frame to cracks at the meeting, which this much fills: light melts and gathers
+/// again. Half as much leaves the cracks seen, twice as much leaves nothing else to see.
+const SHARE: f32 = 0.1;
 /// Farthest displacement, standard deviations.
 const FARTHEST: f64 = 3.0;
-/// Exponent of 4 t (1 - t): lines of the target are sharp again from t = .75 on. With 1.5 they are soft until .85.
-const BELL: i32 = 5;
+/// Exponent of 4 t (1 - t): lines of the target are sharp again from t = .75 on. With 5 they are soft until .8.
+const BELL: i32 = 8;
+/// Standard deviation beside a tear over half its width, its limit over the size of the pieces that hold together, and the
+/// exponent of the time by which it closes. A limit of .2 blurs half of a finely drawn target until t = .8.
+const TORN: f32 = 0.6;
+const WIDEST: f32 = 0.08;
+const CLOSES: i32 = 2;
 
 /// The displacement of each photon about its trajectory, plane units: 0 at both key frames, largest half way.
 pub(super) struct Diffusion {
-    /// Half way, by row.
-    displacements: Vec<Vec2>,
+    /// By row, of standard deviation 1 along each axis.
+    directions: Vec<Vec2>,
+    /// Standard deviations half way, by row: everywhere, and beside the tears of the body of either key frame.
+    even: Vec<f32>,
+    torn: [Vec<f32>; 2],
 }
 
 impl Diffusion {
-    /// For photons from `source` to `targets` that are at `meeting` half way. Those that move less than pieces hold together
-    /// have less of it, so that light at rest stays as it is. Neighbours have displacements of low discrepancy: light that
-    /// is even stays so.
-    pub(super) fn new(hold: f32, (source, targets): (&[Vec2], &[Vec2]), meeting: &[Vec2]) -> Self {
-        let mut displacements = vec![Vec2::ZERO; source.len()];
-        for (index, row) in spatial_order(meeting).into_iter().map(|row| row as usize).enumerate() {
+    /// For photons from `source` to `targets` that are at `meeting` half way, those of either key frame. Those that move less than
+    /// pieces hold together have less of it, so that light at rest stays as it is. Neighbours have displacements of low
+    /// discrepancy: light that is even stays so.
+    pub(super) fn new(hold: f32, keys: [&[Vec2]; 2], meeting: [&[Vec2]; 2]) -> Self {
+        let mut directions = vec![Vec2::ZERO; keys[0].len()];
+        for (index, row) in spatial_order(meeting[0]).into_iter().enumerate() {
             let [x, y] = sobol::scrambled(index as u32, 0);
             let radius = (-2.0 * (1.0 - x).ln()).sqrt().min(FARTHEST) as f32;
-            let direction = Vec2::from_angle(std::f32::consts::TAU * y as f32);
-            displacements[row] = SHARE * source[row].distance(targets[row]).min(hold) * radius * direction;
+            directions[row as usize] = radius * Vec2::from_angle(std::f32::consts::TAU * y as f32);
         }
-        Self { displacements }
+        let moved = keys[0].par_iter().zip(keys[1]).map(|(a, b)| a.distance(*b).min(hold));
+        let even = moved.map(|moved| SHARE * moved).collect();
+        let torn = [0, 1].map(|side| {
+            let mut torn = tears(hold, keys[side], meeting[side]);
+            torn.iter_mut().for_each(|torn| *torn = (TORN * *torn).min(WIDEST * hold));
+            torn
+        });
+        Self { directions, even, torn }
     }
 
-    /// Displaces photons at time `t`; beside walls by no more than what keeps them on their side.
+    /// Displaces photons at time `t`; walls mirror them.
     pub(super) fn displace(&self, fields: &MeetingFields, t: f64, positions: &mut [Vec2]) {
         let bell = (4.0 * t * (1.0 - t)).max(0.0) as f32;
         let share = bell.powi(BELL);
+        // Tears of the body of a key frame close towards it, and fade beyond the meeting, where that of the other is seen.
+        let closes = |since: f64| {
+            if since < 0.5 { ((2.0 * since) as f32).powi(CLOSES) } else { share }
+        };
+        let closes = [closes(t), closes(1.0 - t)];
         let step = ((t * (fields.steps() * SUBSTEPS) as f64) as usize).min(fields.steps() * SUBSTEPS - 1);
-        let clearance = fields.obstacles().and_then(|obstacles| obstacles.clearance(step));
-        let each = positions.par_iter_mut().zip(&self.displacements).with_min_len(4096);
-        each.for_each(|(position, displacement)| {
-            let by = share * *displacement;
-            let free = clearance.map_or(f32::INFINITY, |clearance| clearance.at_least(*position));
-            *position += by.clamp_length_max(free);
+        let obstacles = fields.obstacles();
+        let walls = obstacles.and_then(|walls| Some((walls.clearance(step)?, walls.graph(step)?.barriers())));
+        positions.par_iter_mut().enumerate().with_min_len(4096).for_each(|(row, position)| {
+            let deviation =
+                share * self.even[row] + closes[0] * self.torn[0][row] + closes[1] * self.torn[1][row];
+            let by = deviation * self.directions[row];
+            *position = match walls {
+                Some((clearance, barriers)) if clearance.at_least(*position) < by.length() => {
+                    bounce(barriers, *position, by)
+                }
+                _ => *position + by,
+            };
         });
     }
 }
@@ -63,7 +89,7 @@ mod tests {
         let targets: Vec<Vec2> =
             source.iter().enumerate().map(|(i, p)| if i < 1000 { *p } else { *p + 0.2 }).collect();
         let fields = MeetingFields::new(4, 0.1, None, None).with_hold(0.05);
-        let diffusion = Diffusion::new(fields.hold(), (&source, &targets), &source);
+        let diffusion = Diffusion::new(fields.hold(), [&source, &targets], [&source, &targets]);
         for t in [0.0, 1.0] {
             let mut at = source.clone();
             diffusion.displace(&fields, t, &mut at);

@@ -9,6 +9,7 @@ use super::detours::Detours;
 use super::diffusion::Diffusion;
 use super::fields::MeetingFields;
 use super::half_step::HalfStep;
+use super::made_up::MadeUp;
 use super::tracks::HalfTracks;
 use crate::flow::observer::{Kinematics, Observer};
 use crate::flow::report::FlowReport;
@@ -22,7 +23,7 @@ use crate::{Progress, Result};
 ///
 /// In the first half a photon is where the light of the earlier key frame is that moves forward, in the second half where
 /// that of the later one is that moves backward. What is between its two ends at the meeting is made up for by half in
-/// either half, growing with the square of the time, so that position and velocity have no jump.
+/// either half (`made_up`), so that position and velocity have no jump.
 pub struct MeetingTrajectories<'a> {
     fields: &'a MeetingFields,
     source: &'a [Vec2],
@@ -161,8 +162,9 @@ impl Trajectories for MeetingTrajectories<'_> {
     fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
         self.positions_at(t, out, progress)?;
         let Self { fields, source, targets, .. } = *self;
-        if let Some([forward, _]) = &self.halves {
-            let new = || Diffusion::new(fields.hold(), (source, targets), forward.end());
+        if let Some([forward, backward]) = &self.halves {
+            let meeting = [forward.end(), backward.end()];
+            let new = || Diffusion::new(fields.hold(), [source, targets], meeting);
             self.diffusion.get_or_insert_with(new).displace(fields, t, out);
         }
         Ok(())
@@ -178,9 +180,9 @@ impl Kinematics for MeetingTrajectories<'_> {
         let Some((half, step, x)) = self.place(t) else { return };
         // Also in steps without walls: they may have stood before, or come.
         let detours = self.detours.as_ref().and_then(Option::as_ref);
-        // Half the gap times (2 s)^2.
-        let early = 0.5 * (2.0 * half.since as f32).powi(2);
+        let made_up = MadeUp::at(half.since as f32, self.fields.hold());
         self.each(out, |row, gap| {
+            let early = made_up.share(gap);
             let share =
                 detours.map_or(early, |detours| detours.share(half.second, row, 2.0 * half.since, early));
             step.position(row, x) + half.sign * share * gap
@@ -193,9 +195,9 @@ impl Kinematics for MeetingTrajectories<'_> {
     fn velocities(&self, t: f64, out: &mut [Vec2]) {
         let Some((half, step, x)) = self.place(t) else { return };
         let per_time = half.sign * self.fields.steps() as f32;
-        // The slope of the share in forward time, which is the same from either side.
-        let slope = 4.0 * half.since as f32;
-        self.each(out, |row, gap| per_time * step.curve(row).slope(x) + slope * gap);
+        let made_up = MadeUp::at(half.since as f32, self.fields.hold());
+        // The slope in forward time is the same from either side.
+        self.each(out, |row, gap| per_time * step.curve(row).slope(x) + made_up.slope(gap) * gap);
     }
 }
 

@@ -3,6 +3,7 @@
 //! The test whether a wall is crossed is exact, see [`crate::constraint::barrier`]; [`crate::constraint::visibility`] finds
 //! the paths around walls.
 
+mod bounce;
 mod clearance;
 mod columns;
 mod obstacles;
@@ -10,6 +11,7 @@ mod path_state;
 mod violations;
 mod walker;
 
+pub(super) use bounce::bounce;
 pub(super) use clearance::Clearance;
 pub(super) use columns::{Columns, WallColumns};
 pub(super) use obstacles::{Obstacles, SUBSTEPS};

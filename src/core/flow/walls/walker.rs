@@ -17,9 +17,9 @@ use crate::flow::guidance::position;
 use crate::flow::step::{StageVelocity, Step};
 
 /// Distance from a wall at which the field leaves a photon, plane units: far above rounding, far below a cell.
-const MARGIN: f32 = 1e-5;
+pub(super) const MARGIN: f32 = 1e-5;
 /// Limit of walls that a photon slides along in one step.
-const SLIDES: usize = 3;
+pub(super) const SLIDES: usize = 3;
 /// Bisections in the search for the last visible point, to 1/64 of a leg.
 const BISECTIONS: usize = 6;
 /// Limit of corners passed in one step.
