@@ -23,6 +23,18 @@ struct Control {
     paused: AtomicBool,
     pause: Mutex<Pause>,
     resumed: Condvar,
+    #[cfg(test)]
+    faults: Mutex<Faults>,
+}
+
+/// What a test plants.
+#[cfg(test)]
+#[derive(Default)]
+struct Faults {
+    /// The stages of all looks so far, where they are noted.
+    looks: Option<Vec<&'static str>>,
+    /// The stage in which there is a panic, after so many looks.
+    panic: Option<(&'static str, usize)>,
 }
 
 /// The begin of the current pause, and the duration of earlier ones.
@@ -156,12 +168,50 @@ impl Progress {
     }
 
     fn wait_while_paused(&self) {
+        #[cfg(test)]
+        self.meet_faults();
         if !self.is_paused() {
             return;
         }
         let paused = |pause: &mut Pause| pause.since.is_some();
         let resumed = self.control.resumed.wait_while(self.lock_pause(), paused);
         drop(resumed.unwrap_or_else(PoisonError::into_inner));
+    }
+
+    #[cfg(test)]
+    fn meet_faults(&self) {
+        let stage = self.schedule().stage.map_or("", |(stage, _)| stage);
+        let mut faults = self.control.faults.lock().unwrap_or_else(PoisonError::into_inner);
+        faults.looks.iter_mut().for_each(|looks| looks.push(stage));
+        let Some((_, left)) = faults.panic.as_mut().filter(|(planted, _)| *planted == stage) else { return };
+        *left = left.saturating_sub(1);
+        if *left == 0 {
+            faults.panic = None;
+            panic!("a planted panic");
+        }
+    }
+
+    /// Progress that notes the stage of each look for a pause or a cancellation, in whichever thread.
+    #[cfg(test)]
+    pub(crate) fn noting_looks() -> Self {
+        let progress = Self::new();
+        progress.control.faults.lock().unwrap_or_else(PoisonError::into_inner).looks = Some(Vec::new());
+        progress
+    }
+
+    /// The stages of all looks so far.
+    #[cfg(test)]
+    pub(crate) fn looks(&self) -> Vec<&'static str> {
+        let faults = self.control.faults.lock().unwrap_or_else(PoisonError::into_inner);
+        faults.looks.clone().unwrap_or_default()
+    }
+
+    /// Progress whose look number `look` (from 1) in a stage is a panic, in whichever thread.
+    #[cfg(test)]
+    pub(crate) fn with_panic(stage: &'static str, look: usize) -> Self {
+        let progress = Self::new();
+        progress.control.faults.lock().unwrap_or_else(PoisonError::into_inner).panic = Some((stage, look));
+        progress
     }
 
     fn lock_pause(&self) -> MutexGuard<'_, Pause> {

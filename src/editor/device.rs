@@ -25,6 +25,15 @@ impl Device {
         self.lost.store(true, Relaxed);
     }
 
+    /// The device tells that it is gone. Returns whether it is lost: a window that is closed drops its device, too.
+    pub(super) fn is_gone(&self, reason: wgpu::DeviceLostReason) -> bool {
+        if reason == wgpu::DeviceLostReason::Destroyed && self.closed.load(Relaxed) {
+            return false;
+        }
+        self.lose();
+        true
+    }
+
     /// Whether it is lost: nothing more can be drawn.
     pub fn is_lost(&self) -> bool {
         self.lost.load(Relaxed)
@@ -33,10 +42,6 @@ impl Device {
     /// The window is being closed by its user.
     pub(super) fn close(&self) {
         self.closed.store(true, Relaxed);
-    }
-
-    pub(super) fn is_closed(&self) -> bool {
-        self.closed.load(Relaxed)
     }
 }
 

@@ -145,10 +145,8 @@ fn described(state: &egui_wgpu::RenderState) -> String {
 fn prepare_gpu(state: &egui_wgpu::RenderState, device: &Arc<Device>, ctx: &egui::Context) -> Gpu {
     let (lost, ctx) = (device.clone(), ctx.clone());
     state.device.set_device_lost_callback(move |reason, why| {
-        // A window that is closed drops its device, too.
-        if reason != wgpu::DeviceLostReason::Destroyed || !lost.is_closed() {
+        if lost.is_gone(reason) {
             tracing::error!("the graphics device is lost ({reason:?}): {why}");
-            lost.lose();
             ctx.request_repaint();
         }
     });
@@ -157,5 +155,31 @@ fn prepare_gpu(state: &egui_wgpu::RenderState, device: &Arc<Device>, ctx: &egui:
     match state.adapter.get_info().device_type {
         wgpu::DeviceType::Cpu => Gpu::Software,
         _ => Gpu::Hardware,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
+
+    use super::*;
+
+    #[test]
+    fn a_device_that_goes_is_lost_unless_the_window_is_closed() {
+        for closed in [false, true] {
+            let (state, device) = (
+                create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::default()),
+                Arc::new(Device::default()),
+            );
+            prepare_gpu(&state, &device, &egui::Context::default());
+            assert!(!device.is_lost());
+            if closed {
+                device.close();
+            }
+            state.device.destroy();
+            // The library tells of it when it looks after its devices.
+            let _ = state.device.poll(wgpu::PollType::Poll);
+            assert_eq!(device.is_lost(), !closed);
+        }
     }
 }

@@ -3,7 +3,7 @@
 use divan::{Bencher, black_box};
 use glam::{Vec2, Vec3, vec2};
 use lightloom_core::Progress;
-use lightloom_core::export::{Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
+use lightloom_core::export::{Backdrop, Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
 use lightloom_core::math::rng::{Purpose, Stream};
 use lightloom_core::render::density::KernelFilter;
 use lightloom_core::render::splat::Splatter;
@@ -97,14 +97,8 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
         camera: None,
         settings: Vec::new(),
     };
-    let frame = Frame {
-        layers: &FrameLayer::DEFAULT,
-        background: &background,
-        caustic: &caustic,
-        caustics: &[],
-        first_hits: None,
-        metadata: &metadata,
-    };
+    let backdrop = Backdrop::new(&FrameLayer::DEFAULT, &background, None);
+    let frame = Frame { backdrop: &backdrop, caustic: &caustic, caustics: &[], metadata: &metadata };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("frame.0001");
     let view = ViewSettings::default().view();

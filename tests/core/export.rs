@@ -7,7 +7,7 @@ use exr::prelude::{FlatSamples, MetaData, read_all_flat_layers_from_file};
 use glam::Vec3;
 use half::f16;
 use lightloom_core::export::{
-    Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, PngDepth, RepairedSamples,
+    Backdrop, Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, PngDepth, RepairedSamples,
     evenly_chosen, write_contact_sheet, write_frame,
 };
 use lightloom_core::math::rng::{Purpose, Stream};
@@ -37,8 +37,12 @@ fn metadata() -> Metadata {
     }
 }
 
-fn frame<'a>(background: &'a Image, caustic: &'a Image, metadata: &'a Metadata) -> Frame<'a> {
-    Frame { layers: &FrameLayer::DEFAULT, background, caustic, caustics: &[], first_hits: None, metadata }
+fn frame<'a>(backdrop: &'a Backdrop<'a>, caustic: &'a Image, metadata: &'a Metadata) -> Frame<'a> {
+    Frame { backdrop, caustic, caustics: &[], metadata }
+}
+
+fn backdrop(background: &Image) -> Backdrop<'_> {
+    Backdrop::new(&FrameLayer::DEFAULT, background, None)
 }
 
 fn view(transform: ViewTransform) -> View {
@@ -52,7 +56,8 @@ fn write(
     caustic: &Image,
 ) -> lightloom_core::Result<RepairedSamples> {
     let metadata = metadata();
-    let frame = frame(background, caustic, &metadata);
+    let backdrop = backdrop(background);
+    let frame = frame(&backdrop, caustic, &metadata);
     write_frame(path, format, &frame, &view(ViewTransform::Agx), PngDepth::Eight)
 }
 
@@ -156,7 +161,8 @@ fn a_png_shows_the_view_transform_within_one_step() {
     for (depth, most) in [(PngDepth::Eight, 255.0), (PngDepth::Sixteen, 65_535.0)] {
         let path = folder.path().join("a.png");
         let metadata = metadata();
-        let frame = frame(&background, &caustic, &metadata);
+        let backdrop = backdrop(&background);
+        let frame = frame(&backdrop, &caustic, &metadata);
         let shown = view(ViewTransform::Standard);
         write_frame(&path, FrameFormat::Png, &frame, &shown, depth).unwrap();
         let read = image::open(&path).unwrap();

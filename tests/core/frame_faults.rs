@@ -5,7 +5,7 @@ use std::process::Command;
 
 use glam::Vec3;
 use lightloom_core::engine::{Engine, Output, RenderObserver, prepare_folder};
-use lightloom_core::export::{Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
+use lightloom_core::export::{Backdrop, Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
 use lightloom_core::project::{AssetFolder, Project};
 use lightloom_core::render::{Image, View, ViewSettings};
 use lightloom_core::{Error, Progress};
@@ -42,14 +42,8 @@ fn victim_writes_frames() {
         camera: None,
         settings: vec![("gamma".into(), "0.5".into())],
     };
-    let frame = Frame {
-        layers: &FrameLayer::DEFAULT,
-        background: &light,
-        caustic: &light,
-        caustics: &[],
-        first_hits: None,
-        metadata: &metadata,
-    };
+    let backdrop = Backdrop::new(&FrameLayer::DEFAULT, &light, None);
+    let frame = Frame { backdrop: &backdrop, caustic: &light, caustics: &[], metadata: &metadata };
     for (format, name) in [(FrameFormat::Exr, "a.0001.exr"), (FrameFormat::Png, "a.0001.png")] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);

@@ -4,6 +4,7 @@
 mod app;
 mod canvas;
 mod crash;
+mod device;
 mod dialogs;
 mod document;
 mod export_window;

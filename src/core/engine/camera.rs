@@ -76,17 +76,16 @@ pub(super) struct CameraPictures {
 }
 
 impl CameraPictures {
-    /// The caustics at a moment, from the texture of the light that flows: that of one group of photons, whose light must be
-    /// apart, or of all.
-    pub(super) fn caustic(
-        &self,
-        light: &ReceiverTexture,
-        group: Option<usize>,
-        moment: SegmentTime,
-    ) -> Image {
+    /// The caustics at a moment, from the texture of all light that flows.
+    pub(super) fn caustic(&self, light: &ReceiverTexture, moment: SegmentTime) -> Image {
         let mut caustic = self.visible.gather(light);
-        self.still.iter().for_each(|still| still.add_to(&mut caustic, group, moment));
+        self.add_still(&mut caustic, None, moment);
         caustic
+    }
+
+    /// Adds the light that does not flow to a picture of caustics: that of one group of photons, which must be apart, or of all.
+    pub(super) fn add_still(&self, caustic: &mut Image, group: Option<usize>, moment: SegmentTime) {
+        self.still.iter().for_each(|still| still.add_to(caustic, group, moment));
     }
 }
 

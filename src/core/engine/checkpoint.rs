@@ -129,14 +129,22 @@ impl Checkpoint {
     pub(super) fn finish(self, out: &Path, fingerprint: &str, finished: &[i32]) -> Result<()> {
         // Its own lock goes first.
         drop(self);
-        for (folder, manifest) in folders_in(out) {
-            let done = manifest.fingerprint == fingerprint && has_all(finished, &manifest.frames);
-            if done && lock(&folder)?.is_some() {
-                remove(&folder)?;
-            }
-        }
-        Ok(())
+        remove_finished(out, fingerprint, finished)
     }
+}
+
+/// Removes the unfinished light of this fingerprint that nobody works with, where all its frames are among the `finished`.
+///
+/// # Errors
+/// The system refuses.
+pub(super) fn remove_finished(out: &Path, fingerprint: &str, finished: &[i32]) -> Result<()> {
+    for (folder, manifest) in folders_in(out) {
+        let done = manifest.fingerprint == fingerprint && has_all(finished, &manifest.frames);
+        if done && lock(&folder)?.is_some() {
+            remove(&folder)?;
+        }
+    }
+    Ok(())
 }
 
 impl Manifest {

@@ -2,25 +2,25 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
-use glam::{Vec2, Vec4, vec2};
+use glam::{Vec2, vec2};
 use rayon::prelude::*;
 
-use super::camera::CameraPictures;
+use super::disk_queue::{DiskQueue, with_disk};
 use super::film_writer::FilmWriter;
+use super::frame_light::{FrameLight, FrameLights};
 use super::frame_times::FrameTimes;
 use super::kept_picture::kept_picture;
 use super::output_folder::CONTACT_SHEET;
 use super::run_files::RunFiles;
 use super::summary::BadValues;
 use crate::export::{
-    Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples, sheet,
-    write_frame, write_plane,
+    Backdrop, Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples,
+    encode_frame, encode_plane, sheet,
 };
-use crate::project::{Project, SegmentTime};
-use crate::render::{Image, PlaneMaterial, PlaneView, ProgressiveRender, ReceiverTexture, View, plane_image};
-use crate::scene::Receiver;
+use crate::project::Project;
+use crate::render::{Image, PlaneView, View};
 use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
@@ -45,31 +45,10 @@ pub(super) fn sheet_texts(fingerprint: &str) -> [(&'static str, String); 3] {
         .map(|(name, text)| (name, text.to_owned()))
 }
 
-/// The light of a frame as the camera sees it.
-struct FrameLight {
-    /// Of all caustics.
-    all: Image,
-    /// Of each by itself with the name of its layer, where they are apart.
-    caustics: Vec<(String, Image)>,
-    /// The irradiance on the plane, where it is wanted.
-    plane: Option<Image>,
-    /// The passes in it.
-    passes: usize,
-}
-
 /// Everything that the frames of a run are made from.
 pub(super) struct FrameWriter<'a> {
-    pub(super) project: &'a Project,
-    pub(super) render: &'a ProgressiveRender,
-    /// What the camera sees apart from the light that flows.
-    pub(super) pictures: &'a CameraPictures,
-    /// Names of the layers of single caustics, whose light is in textures of their own; none where it is in one.
-    pub(super) caustic_names: &'a [String],
+    pub(super) lights: FrameLights<'a>,
     pub(super) camera: Option<Camera>,
-    /// None without a scene.
-    pub(super) receiver: Option<&'a Receiver>,
-    /// Size of the plane, plane units.
-    pub(super) extent: Vec2,
     /// The output folder.
     pub(super) folder: &'a Path,
     /// The drawn constraints, for the contact sheet.
@@ -96,49 +75,102 @@ impl FrameWriter<'_> {
         progress.begin("write", requested.len() as u64);
         let on_sheet =
             if self.files.sheet { sheet::evenly_chosen(requested, SHEET_PICTURES) } else { Vec::new() };
-        let view = self.project.render.view.view();
         let thumbnails = Mutex::new(Vec::new());
-        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
-        let repairs: Vec<(i32, RepairedSamples)> = requested
-            .par_iter()
-            .enumerate()
-            .map(|(index, &frame)| {
+        let view = self.lights.project.render.view.view();
+        let pictures = self.lights.pictures;
+        let hits = pictures.first_hits.as_deref();
+        let backdrop = Backdrop::new(&self.lights.project.output.layers, &pictures.background.image, hits);
+        let repairs = with_disk(self.saved, |disk| {
+            let write = |&(index, frame): &(usize, i32), light: Option<FrameLight>| {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
+                let (look, light) = ((&backdrop, &view), light.as_ref());
+                let written = light.map(|light| self.frame(frame, light, look, disk)).transpose()?;
                 let shown = on_sheet.contains(&frame);
-                let mut repairs = RepairedSamples::default();
-                let mut small_picture = None;
-                if let Some(&slot) = rendered.get(&frame) {
-                    let (repaired, beauty) = self.frame(frame, (slot, times.moments[slot]), &view)?;
-                    repairs = repaired;
-                    film.map_or(Ok(()), |film| film.keep(index, &view.apply(&beauty)))?;
-                    small_picture = shown.then(|| view.apply(&small(&beauty)));
-                } else if (film.is_some() || shown)
-                    && let Some(picture) = kept_picture(&self.project.output, self.folder, frame, &view)?
-                {
-                    film.map_or(Ok(()), |film| film.keep(index, &picture))?;
-                    small_picture = shown.then(|| small(&picture));
-                }
-                if let Some(small) = small_picture {
-                    thumbnails.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((frame, small));
-                }
+                let small = self.show((index, frame), light, look, (film, shown))?;
+                let thumbnail = small.map(|small| (frame, small));
+                thumbnails.lock().unwrap_or_else(PoisonError::into_inner).extend(thumbnail);
                 progress.advance(1);
-                Ok((frame, repairs))
-            })
-            .collect::<Result<_>>()?;
-        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+                Ok((frame, written.unwrap_or_default()))
+            };
+            self.in_batches(times, requested, write)
+        })?;
+        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(PoisonError::into_inner);
         thumbnails.sort_by_key(|(frame, _)| requested.iter().position(|n| n == frame));
-        let path = self.folder.join(CONTACT_SHEET);
-        if self.files.sheet && !self.files.found.kept.contains(&path) {
-            let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
-            let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
-            let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
-            let texts = sheet_texts(&self.files.fingerprint);
-            sheet::write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, overlay, &texts)?;
-            (self.saved)(&path);
-        }
+        self.write_sheet(&thumbnails)?;
         Ok((BadValues::sum(&repairs), thumbnails))
+    }
+
+    /// Calls `write` with each requested frame and its place among them, and its light where it is rendered: those of one batch in
+    /// parallel, while the light of the next is gathered.
+    fn in_batches(
+        &self,
+        times: &FrameTimes,
+        requested: &[i32],
+        write: impl Fn(&(usize, i32), Option<FrameLight>) -> Result<(i32, RepairedSamples)> + Sync,
+    ) -> Result<Vec<(i32, RepairedSamples)>> {
+        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
+        let light = |frames: &[(usize, i32)]| {
+            let slots: Vec<_> = frames.iter().map(|(_, frame)| rendered.get(frame).copied()).collect();
+            let moments: Vec<_> = slots.iter().flatten().map(|&slot| (slot, times.moments[slot])).collect();
+            let mut lights = self.lights.of(&moments)?.into_iter();
+            Ok::<_, Error>(slots.into_iter().map(|slot| slot.and_then(|_| lights.next())).collect::<Vec<_>>())
+        };
+        let frames: Vec<(usize, i32)> = requested.iter().copied().enumerate().collect();
+        let mut batches = frames.chunks(self.batch());
+        let mut next = || batches.next().map(|batch| Ok::<_, Error>((batch, light(batch)?))).transpose();
+        let mut done = Vec::with_capacity(requested.len());
+        let mut current = next()?;
+        while let Some((batch, lights)) = current {
+            let write = || batch.par_iter().zip(lights).map(|(frame, light)| write(frame, light));
+            let (written, following) = rayon::join(|| write().collect::<Result<Vec<_>>>(), &mut next);
+            done.extend(written?);
+            current = following?;
+        }
+        Ok(done)
+    }
+
+    /// Keeps a frame, by its place and number, for the film; returns its small picture where it is shown on the sheet.
+    fn show(
+        &self,
+        (index, frame): (usize, i32),
+        light: Option<&FrameLight>,
+        (backdrop, view): (&Backdrop, &View),
+        (film, shown): (Option<&FilmWriter>, bool),
+    ) -> Result<Option<Image>> {
+        if film.is_none() && !shown {
+            return Ok(None);
+        }
+        let keep = |picture: &Image| film.map_or(Ok(()), |film| film.keep(index, picture));
+        if let Some(light) = light {
+            let beauty = backdrop.background.plus(&light.all);
+            film.map_or(Ok(()), |_| keep(&view.apply(&beauty)))?;
+            return Ok(shown.then(|| view.apply(&small(&beauty))));
+        }
+        let kept = kept_picture(&self.lights.project.output, self.folder, frame, view)?;
+        kept.iter().try_for_each(keep)?;
+        Ok(kept.filter(|_| shown).map(|picture| small(&picture)))
+    }
+
+    /// Writes the contact sheet, where one is wanted and not there.
+    fn write_sheet(&self, thumbnails: &Thumbnails) -> Result<()> {
+        let path = self.folder.join(CONTACT_SHEET);
+        if !self.files.sheet || self.files.found.kept.contains(&path) {
+            return Ok(());
+        }
+        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
+        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
+        let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
+        let texts = sheet_texts(&self.files.fingerprint);
+        sheet::write_contact_sheet(&path, thumbnails, SHEET_COLUMNS, overlay, &texts)?;
+        (self.saved)(&path);
+        Ok(())
+    }
+
+    /// Frames whose light is in memory at once: as many as there are threads, and at least as many as are gathered together.
+    fn batch(&self) -> usize {
+        rayon::current_num_threads().max(4).div_ceil(self.lights.textures())
     }
 
     /// The current picture of a frame in screen values; none for a frame that is not rendered.
@@ -146,71 +178,23 @@ impl FrameWriter<'_> {
         let Some(&(_, slot)) = times.frames.iter().find(|(number, _)| *number == frame) else {
             return Ok(None);
         };
-        let light = self.light(slot, times.moments[slot])?;
-        let beauty = self.pictures.background.image.plus(&light.all);
-        Ok(Some(self.project.render.view.view().apply(&beauty)))
+        let lights = self.lights.of(&[(slot, times.moments[slot])])?;
+        let beauty = |light: &FrameLight| self.lights.pictures.background.image.plus(&light.all);
+        let view = self.lights.project.render.view.view();
+        Ok(lights.first().map(|light| view.apply(&beauty(light))))
     }
 
-    /// The light of a slot and moment.
-    fn light(&self, slot: usize, moment: SegmentTime) -> Result<FrameLight> {
-        if self.caustic_names.is_empty() {
-            let (texture, passes) = self.render.mean(slot)?;
-            let all = self.pictures.caustic(&texture, None, moment);
-            let plane = self.on_plane(&texture, moment);
-            return Ok(FrameLight { all, caustics: Vec::new(), plane, passes });
-        }
-        let mut together =
-            self.project.output.shows_plane().then(|| ReceiverTexture::new(*self.render.layout()));
-        let image = &self.pictures.background.image;
-        let (mut all, mut passes) = (Image::new(image.width, image.height), 0);
-        let mut caustics = Vec::new();
-        for (group, name) in self.caustic_names.iter().enumerate() {
-            let (texture, of_group) = self.render.mean(slot * self.caustic_names.len() + group)?;
-            let caustic = self.pictures.caustic(&texture, Some(group), moment);
-            all = all.plus(&caustic);
-            if let Some(together) = &mut together {
-                let texels = together.texels_mut().iter_mut().zip(texture.texels());
-                texels.for_each(|(sum, one): (&mut Vec4, _)| *sum += *one);
-            }
-            caustics.push((name.clone(), caustic));
-            passes = of_group;
-        }
-        let plane = together.and_then(|together| self.on_plane(&together, moment));
-        Ok(FrameLight { all, caustics, plane, passes })
-    }
-
-    /// The irradiance on the plane (W/m²), where it is wanted: the light that flows, and what stays in its place.
-    fn on_plane(&self, texture: &ReceiverTexture, moment: SegmentTime) -> Option<Image> {
-        if !self.project.output.shows_plane() {
-            return None;
-        }
-        let metres = self.receiver.map_or(1.0, Receiver::metres_per_plane_unit);
-        let mut plane = plane_image(texture, self.extent, PlaneMaterial::irradiance(metres));
-        if let Some(still) = &self.pictures.still {
-            still.add_to_plane(&mut plane, (self.extent, metres), moment);
-        }
-        Some(plane)
-    }
-
-    /// Writes one frame in all formats; returns its beauty picture.
+    /// Writes one frame in all formats.
     fn frame(
         &self,
         frame: i32,
-        (slot, moment): (usize, SegmentTime),
-        view: &View,
-    ) -> Result<(RepairedSamples, Image)> {
-        let FrameLight { all: caustic, caustics, plane, passes } = self.light(slot, moment)?;
-        let background = &self.pictures.background.image;
-        let output = &self.project.output;
-        let metadata = self.metadata(frame, passes);
-        let picture = Frame {
-            layers: &output.layers,
-            background,
-            caustic: &caustic,
-            caustics: &caustics,
-            first_hits: self.pictures.first_hits.as_deref(),
-            metadata: &metadata,
-        };
+        light: &FrameLight,
+        (backdrop, view): (&Backdrop, &View),
+        disk: &DiskQueue,
+    ) -> Result<RepairedSamples> {
+        let output = &self.lights.project.output;
+        let metadata = self.metadata(frame, light.passes);
+        let picture = Frame { backdrop, caustic: &light.all, caustics: &light.caustics, metadata: &metadata };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {
@@ -221,17 +205,19 @@ impl FrameWriter<'_> {
             if self.files.found.kept.contains(&path) {
                 continue;
             }
-            all += write_frame(&path, format, &picture, view, output.png_depth())?;
-            (self.saved)(&path);
+            let (bytes, repairs) = encode_frame(&path, format, &picture, view, output.png_depth())?;
+            all += repairs;
+            disk.put(path, bytes)?;
         }
-        if let Some(plane) = plane {
+        if let Some(plane) = &light.plane {
             let path = pattern.beside(FrameLayer::Plane.name()).path(self.folder, frame, FrameFormat::Exr);
             if !self.files.found.kept.contains(&path) {
-                all += write_plane(&path, &plane, &self.plane_metadata(metadata))?;
-                (self.saved)(&path);
+                let (bytes, repairs) = encode_plane(&path, plane, &self.plane_metadata(metadata))?;
+                all += repairs;
+                disk.put(path, bytes)?;
             }
         }
-        Ok((all, background.plus(&caustic)))
+        Ok(all)
     }
 
     /// The metadata of the light on the plane: its unit and its place in the world.
@@ -239,8 +225,9 @@ impl FrameWriter<'_> {
         of_frame.camera = None;
         let mut tell = |name: &str, value: String| of_frame.settings.push((name.into(), value));
         tell("unit", "W/m^2, irradiance; times albedo / pi it is the radiance of a matt plane".into());
-        if let Some(receiver) = self.receiver {
-            let corners = [Vec2::ZERO, vec2(self.extent.x, 0.0), vec2(0.0, self.extent.y)];
+        if let Some(receiver) = self.lights.receiver {
+            let extent = self.lights.extent;
+            let corners = [Vec2::ZERO, vec2(extent.x, 0.0), vec2(0.0, extent.y)];
             let corners = corners.map(|corner| receiver.world_from_plane(corner).to_array());
             tell("corners", format!("{corners:?}: lower left, lower right, upper left; metres, y is up"));
         }
@@ -248,7 +235,7 @@ impl FrameWriter<'_> {
     }
 
     fn metadata(&self, frame: i32, passes: usize) -> Metadata {
-        let Project { name, seed, method, flow, render, output, .. } = self.project;
+        let Project { name, seed, method, flow, render, output, .. } = self.lights.project;
         // Plain numbers and strings: writing them as JSON has nothing to fail on.
         let json = |value: serde_json::Result<String>| value.unwrap_or_default();
         let mut settings = vec![

@@ -8,6 +8,7 @@ use super::camera::CameraView;
 use super::film_writer::FilmWriter;
 use super::fingerprint::fingerprint;
 use super::fitted_project::FittedProject;
+use super::frame_light::FrameLights;
 use super::frame_writer::{FrameWriter, Thumbnails};
 use super::job::Job;
 use super::memo::Slot;
@@ -103,13 +104,15 @@ impl Engine {
         let before = render.least_passes();
         let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
         let writer = FrameWriter {
-            project,
-            render: &render,
-            pictures: &camera,
-            caustic_names: &prepared.caustic_layer_names(),
+            lights: FrameLights {
+                project,
+                render: &render,
+                pictures: &camera,
+                caustic_names: &prepared.caustic_layer_names(),
+                receiver: prepared.scene.as_deref().map(|scene| scene.receiver()),
+                extent: prepared.extent,
+            },
             camera: prepared.scene.as_deref().map(|scene| *scene.camera()),
-            receiver: prepared.scene.as_deref().map(|scene| scene.receiver()),
-            extent: prepared.extent,
             folder,
             drawn: &active_constraints::drawn(project),
             plane: plane.clone(),

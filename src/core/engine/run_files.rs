@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Engine;
 use super::bake::Bake;
 use super::camera::CameraView;
-use super::checkpoint::{Checkpoint, bytes_kept};
+use super::checkpoint::{Checkpoint, bytes_kept, remove_finished};
 use super::existing::Found;
 use super::fingerprint::fingerprint;
 use super::fitted_segment::FittedFlow;
@@ -67,6 +67,8 @@ impl RunFiles {
         files.found = found;
         prepared.plan_frames(&wanted)?;
         if wanted.is_empty() {
+            // A run that was cut off after its last frame left its light.
+            remove_finished(output.folder, &files.fingerprint, &prepared.project.frames()?)?;
             return Ok(files);
         }
         let texels = CameraView::of_render(prepared).layout.len();

@@ -5,72 +5,82 @@
 //! caustic, summed in f32 before each is rounded to half. The files hold no date and no host name, and their attributes
 //! are sorted: equal input gives equal bytes.
 
+mod channels;
+mod part;
+pub(super) mod shared;
+
 use std::collections::HashMap;
-use std::io::{Cursor, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image as ExrImage, ImageAttributes,
-    Layer, LayerAttributes, LineOrder, ReadChannels as _, ReadLayers as _, Text, Vec2, WritableImage,
+    AnyChannel, FlatSamples, ImageAttributes, LayerAttributes, ReadChannels as _, ReadLayers as _, Text, Vec2,
 };
 use glam::Vec3;
-use half::f16;
 
-use super::frame::{Frame, Metadata, RepairedSamples};
+use self::channels::{alpha, colours, finite};
+use self::part::Part;
+use super::frame::{Frame, Metadata};
 use super::layer::FrameLayer;
 use super::projection;
+use super::repairs::RepairedSamples;
 use super::time_code::time_code;
 use crate::render::image::Image;
 use crate::{Error, Result};
 
-/// Writes a frame; returns the repaired samples, which the metadata counts too.
-pub fn write<'a>(path: &Path, frame: &Frame<'a>) -> Result<RepairedSamples> {
-    let size = (frame.background.width, frame.background.height);
+/// The bytes of a frame's file, which errors name, and the repaired samples, which the metadata counts too.
+///
+/// # Panics
+/// If the layers differ in size.
+pub(super) fn encode(path: &Path, frame: &Frame) -> Result<(Vec<u8>, RepairedSamples)> {
+    let backdrop = frame.backdrop;
+    let size = (backdrop.background.width, backdrop.background.height);
     assert_eq!(size, (frame.caustic.width, frame.caustic.height), "layers of one size");
-    let mut repairs = RepairedSamples::default();
-    let mut finite = |v: Vec3| {
-        let fixed = v.to_array().map(|v| if v.is_finite() { v } else { 0.0 });
-        repairs.nonfinite_replaced += v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
-        Vec3::from(fixed)
-    };
-    let mut layer = |image: &Image| -> Vec<Vec3> { image.pixels.iter().map(|&v| finite(v)).collect() };
-    let caustic = layer(frame.caustic);
-    let background = layer(frame.background);
+    let shared = backdrop.shared().as_ref().map_err(|error| unmade(path, error))?;
+    let mut repairs = shared.repairs;
+    let caustic = finite(frame.caustic, &mut repairs);
     let single: Vec<(&str, Vec<Vec3>)> =
-        frame.caustics.iter().map(|(name, image)| (name.as_str(), layer(image))).collect();
-    let beauty: Vec<Vec3> = background.iter().zip(&caustic).map(|(b, c)| b + c).collect();
-    let covered = vec![1.0; caustic.len()];
-    let alpha = frame.first_hits.map_or(&covered, |hits| &hits.coverage);
-    let mut parts: Vec<(&str, Vec<AnyChannel<FlatSamples>>)> = Vec::new();
-    for layer in FrameLayer::ALL.into_iter().filter(|layer| frame.layers.contains(layer)) {
+        frame.caustics.iter().map(|(name, image)| (name.as_str(), finite(image, &mut repairs))).collect();
+    let beauty: Vec<Vec3> = shared.light.iter().zip(&caustic).map(|(b, c)| b + c).collect();
+    let mut parts: Vec<(&str, Part)> = Vec::new();
+    for layer in FrameLayer::ALL.into_iter().filter(|layer| backdrop.layers.contains(layer)) {
         let mut colours = |of: &str, values: &[Vec3]| colours(of, values, &mut repairs.half_clamped);
-        let mut with_alpha = |of: &str, values: &[Vec3]| {
-            let mut channels = colours(of, values);
-            channels.push(halves(format!("{of}A"), alpha.iter().copied(), &mut 0));
-            channels
-        };
         match layer {
-            FrameLayer::Beauty => parts.push(("rgba", with_alpha("", &beauty))),
-            FrameLayer::Caustic => parts.push(("caustic", colours("caustic.", &caustic))),
-            FrameLayer::Caustics => {
-                let part =
-                    |(name, values): &(&'a str, Vec<Vec3>)| (*name, colours(&format!("{name}."), values));
-                parts.extend(single.iter().map(part));
+            FrameLayer::Beauty => {
+                let mut channels = colours("", &beauty);
+                channels.push(alpha("", size, backdrop.first_hits));
+                parts.push(("rgba", Part::Fresh(channels)));
             }
-            FrameLayer::Background => parts.push(("background", with_alpha("background.", &background))),
-            FrameLayer::Depth => parts.extend(frame.first_hits.map(|hits| {
-                ("depth", vec![AnyChannel::new("depth.Z", FlatSamples::F32(hits.depth.clone()))])
-            })),
+            FrameLayer::Caustic => parts.push(("caustic", Part::Fresh(colours("caustic.", &caustic)))),
+            FrameLayer::Caustics => {
+                parts.extend(
+                    single
+                        .iter()
+                        .map(|(name, values)| (*name, Part::Fresh(colours(&format!("{name}."), values)))),
+                );
+            }
+            FrameLayer::Background => {
+                parts.extend(shared.background.iter().map(|part| ("background", Part::Kept(part))));
+            }
+            FrameLayer::Depth => {
+                parts.extend(shared.depth.iter().map(|part| ("depth", Part::Kept(part))));
+            }
             FrameLayer::Plane => (),
         }
     }
-    save(path, parts, size, frame.metadata, repairs)?;
-    Ok(repairs)
+    Ok((bytes(path, parts, size, frame.metadata, repairs)?, repairs))
 }
 
-/// Writes the light on the plane in 32-bit floats, `R`, `G` and `B`; returns the repaired samples.
-pub fn write_plane(path: &Path, irradiance: &Image, metadata: &Metadata) -> Result<RepairedSamples> {
+/// The bytes of the file of the light on the plane in 32-bit floats, `R`, `G` and `B`, and the repaired samples.
+///
+/// # Errors
+/// A picture that is too large.
+pub fn encode_plane(
+    path: &Path,
+    irradiance: &Image,
+    metadata: &Metadata,
+) -> Result<(Vec<u8>, RepairedSamples)> {
     let bad = |v: &Vec3| v.to_array().iter().filter(|v| !v.is_finite()).count() as u64;
     let repairs =
         RepairedSamples { half_clamped: 0, nonfinite_replaced: irradiance.pixels.iter().map(bad).sum() };
@@ -79,38 +89,31 @@ pub fn write_plane(path: &Path, irradiance: &Image, metadata: &Metadata) -> Resu
         AnyChannel::new(name, FlatSamples::F32(values.collect()))
     };
     let channels = ["R", "G", "B"].into_iter().enumerate().map(channel).collect();
-    save(path, vec![("plane", channels)], (irradiance.width, irradiance.height), metadata, repairs)?;
-    Ok(repairs)
+    let (parts, size) = (vec![("plane", Part::Fresh(channels))], (irradiance.width, irradiance.height));
+    Ok((bytes(path, parts, size, metadata, repairs)?, repairs))
 }
 
-/// Writes parts of one size atomically.
-fn save(
+/// The bytes of a file of parts of one size.
+fn bytes(
     path: &Path,
-    parts: Vec<(&str, Vec<AnyChannel<FlatSamples>>)>,
+    parts: Vec<(&str, Part)>,
     size: (usize, usize),
     metadata: &Metadata,
     repairs: RepairedSamples,
-) -> Result<()> {
+) -> Result<Vec<u8>> {
     let count = parts.len();
-    let layers: Vec<_> = parts
-        .into_iter()
-        .map(|(name, channels)| {
-            let attributes = attributes(name, metadata, size, repairs);
-            Layer::new(size, attributes, encoding(), AnyChannels::sort(channels.into()))
-        })
-        .collect();
     let mut shared = ImageAttributes::new(IntegerBounds::from_dimensions(size));
     shared.chromaticities = Some(REC709);
     shared.time_code = time_code(metadata.frame, metadata.frames_per_second);
-    let image = ExrImage::from_layers(shared, layers);
-    let mut bytes = Vec::new();
-    image
-        .write()
-        .non_parallel()
-        .to_buffered(Cursor::new(&mut bytes))
-        .map_err(|error| Error::format(path, "", format!("cannot be made: {error}")))?;
+    let with_attributes = |(name, part)| (attributes(name, metadata, size, repairs), part);
+    let parts = parts.into_iter().map(with_attributes).collect();
+    let mut bytes = part::bytes(parts, size, &shared).map_err(|error| unmade(path, &error))?;
     sort_attributes(&mut bytes, count);
-    crate::files::write_atomic(path, |file| file.write_all(&bytes))
+    Ok(bytes)
+}
+
+fn unmade(path: &Path, error: &exr::error::Error) -> Error {
+    Error::format(path, "", format!("cannot be made: {error}"))
 }
 
 /// The picture of a frame, linear light: its beauty, or the caustics where it has none; none where it has neither.
@@ -148,10 +151,6 @@ const REC709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
-fn encoding() -> Encoding {
-    Encoding { compression: Compression::PIZ, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing }
-}
-
 fn attributes(
     name: &str,
     metadata: &Metadata,
@@ -177,22 +176,6 @@ fn attributes(
     }
     attributes.other = other;
     attributes
-}
-
-/// The channels R, G and B of a picture in half floats, behind `prefix`.
-fn colours(prefix: &str, values: &[Vec3], clamped: &mut u64) -> Vec<AnyChannel<FlatSamples>> {
-    let plane = |(i, name)| halves(format!("{prefix}{name}"), values.iter().map(|v| v[i]), clamped);
-    ["R", "G", "B"].into_iter().enumerate().map(plane).collect()
-}
-
-/// A channel of half floats; values that are too large are clamped and counted.
-fn halves(name: String, values: impl Iterator<Item = f32>, clamped: &mut u64) -> AnyChannel<FlatSamples> {
-    let largest = f16::MAX.to_f32();
-    let half = |value: f32| {
-        *clamped += u64::from(value.abs() > largest);
-        f16::from_f32(value.clamp(-largest, largest))
-    };
-    AnyChannel::new(name.as_str(), FlatSamples::F16(values.map(half).collect()))
 }
 
 /// Sorts the attributes of each of the `headers` by name. The `exr` crate keeps free attributes in a hash map, whose

@@ -1,23 +1,19 @@
-//! What is written for one frame, and what had to be repaired in it.
+//! What is written for one frame.
 
-use super::layer::FrameLayer;
-use crate::render::first_hits::FirstHits;
+use super::backdrop::Backdrop;
+use super::repairs::RepairedSamples;
 use crate::render::image::Image;
 use crate::scene::camera::Camera;
 
 /// One finished frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// The layers to be written, for formats that have some.
-    pub layers: &'a [FrameLayer],
-    /// Light without caustics, linear; black where no layer shows it.
-    pub background: &'a Image,
+    /// What it shares with the other frames of its sequence.
+    pub backdrop: &'a Backdrop<'a>,
     /// The caustics alone, linear, of the same size.
     pub caustic: &'a Image,
     /// The caustics one by one with the names of their layers, of the same size.
     pub caustics: &'a [(String, Image)],
-    /// Coverage and depth of the surfaces; none where there are none, and everything is covered.
-    pub first_hits: Option<&'a FirstHits>,
     /// Metadata of the file.
     pub metadata: &'a Metadata,
 }
@@ -50,21 +46,5 @@ impl Metadata {
         ];
         let settings = self.settings.iter().map(|(name, value)| (name.as_str(), value.clone()));
         numbers.into_iter().chain(settings).collect()
-    }
-}
-
-/// Counts of samples that the file format cannot hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RepairedSamples {
-    /// Samples beyond the largest half float, clamped to it.
-    pub half_clamped: u64,
-    /// Samples that were not finite, replaced by 0.
-    pub nonfinite_replaced: u64,
-}
-
-impl std::ops::AddAssign for RepairedSamples {
-    fn add_assign(&mut self, other: Self) {
-        self.half_clamped += other.half_clamped;
-        self.nonfinite_replaced += other.nonfinite_replaced;
     }
 }

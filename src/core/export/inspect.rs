@@ -136,7 +136,7 @@ fn exr(bytes: &[u8]) -> Result<FrameFile, String> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::export::{Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
+    use crate::export::{Backdrop, Frame, FrameFormat, FrameLayer, Metadata, PngDepth, write_frame};
     use crate::render::image::Image;
     use crate::render::view::ViewSettings;
 
@@ -153,14 +153,8 @@ mod tests {
             settings: settings.map(|(name, value)| (name.to_owned(), value.to_owned())).to_vec(),
         };
         let image = Image::new(20, 10);
-        let frame = Frame {
-            layers: &[FrameLayer::Beauty, FrameLayer::Caustic],
-            background: &image,
-            caustic: &image,
-            caustics: &[],
-            first_hits: None,
-            metadata: &metadata,
-        };
+        let backdrop = Backdrop::new(&[FrameLayer::Beauty, FrameLayer::Caustic], &image, None);
+        let frame = Frame { backdrop: &backdrop, caustic: &image, caustics: &[], metadata: &metadata };
         for format in FrameFormat::ALL {
             let path = folder.path().join("frame").with_extension(format.extension());
             write_frame(&path, format, &frame, &ViewSettings::default().view(), PngDepth::Eight).unwrap();

@@ -37,15 +37,24 @@ pub(super) fn write_with_texts(
     crate::files::write_atomic(path, |writer| write_to(writer, encoded, depth, texts))
 }
 
+/// As [`write_with_texts`], into memory.
+pub(super) fn encode_with_texts(
+    encoded: &Image,
+    depth: PngDepth,
+    texts: &[(&str, String)],
+) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write_to(&mut bytes, encoded, depth, texts)?;
+    Ok(bytes)
+}
+
 /// As [`write()`], 8 bit, into memory.
 ///
 /// # Errors
 /// A picture without pixels, or larger than PNG allows.
 pub fn encode(encoded: &Image) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    write_to(&mut bytes, encoded, PngDepth::Eight, &[])
-        .map_err(|error| Error::Numeric { stage: "png", what: error.to_string() })?;
-    Ok(bytes)
+    encode_with_texts(encoded, PngDepth::Eight, &[])
+        .map_err(|error| Error::Numeric { stage: "png", what: error.to_string() })
 }
 
 fn write_to(

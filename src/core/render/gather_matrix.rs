@@ -4,7 +4,7 @@
 //! short list of texels with RGB weights, a row of the matrix; it is built once per camera, then a frame is one product
 //! with its texture. Light from the receiver on other matt surfaces is left out.
 
-use glam::{Vec2, Vec3, Vec4Swizzles, vec2};
+use glam::{Vec2, Vec3, Vec4, Vec4Swizzles, vec2};
 use rayon::prelude::*;
 
 use super::camera_sampler::CameraSampler;
@@ -107,17 +107,57 @@ impl GatherMatrix {
     /// # Panics
     /// If the texture has another layout.
     pub fn gather(&self, texture: &ReceiverTexture) -> Image {
-        assert_eq!(*texture.layout(), self.layout, "the layout that the camera was looked through for");
-        let texels = texture.texels();
+        let texels = self.texels([texture]);
         let mut image = Image::new(self.width, self.height);
         image.pixels.par_chunks_mut(self.width).enumerate().for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                let pixel_index = y * self.width + x;
-                let weights = &self.weights[self.starts[pixel_index]..self.starts[pixel_index + 1]];
-                *pixel = weights.iter().map(|entry| entry.weight * texels[entry.texel as usize].xyz()).sum();
-            }
+            row.iter_mut().enumerate().for_each(|(x, pixel)| [*pixel] = self.pixel(x, y, texels));
         });
         image
+    }
+
+    /// The pictures of several textures, as [`Self::gather`] makes each: the matrix, which is larger than they are, is read once
+    /// for four of them.
+    ///
+    /// # Panics
+    /// If a texture has another layout.
+    pub fn gather_all(&self, textures: &[&ReceiverTexture]) -> Vec<Image> {
+        let (fours, rest) = textures.as_chunks::<4>();
+        let fours = fours.iter().flat_map(|textures| self.gather_together(*textures));
+        fours.chain(rest.iter().map(|texture| self.gather(texture))).collect()
+    }
+
+    fn gather_together<const N: usize>(&self, textures: [&ReceiverTexture; N]) -> [Image; N] {
+        let texels = self.texels(textures);
+        let mut pixels = vec![[Vec3::ZERO; N]; self.width * self.height];
+        pixels.par_chunks_mut(self.width).enumerate().for_each(|(y, row)| {
+            row.iter_mut().enumerate().for_each(|(x, pixels)| *pixels = self.pixel(x, y, texels));
+        });
+        std::array::from_fn(|n| {
+            let pixels = pixels.iter().map(|pixels| pixels[n]).collect();
+            Image { width: self.width, height: self.height, pixels }
+        })
+    }
+
+    fn texels<'a, const N: usize>(&self, textures: [&'a ReceiverTexture; N]) -> [&'a [Vec4]; N] {
+        textures.map(|texture| {
+            assert_eq!(*texture.layout(), self.layout, "the layout that the camera was looked through for");
+            texture.texels()
+        })
+    }
+
+    /// A pixel of the pictures of several textures.
+    fn pixel<const N: usize>(&self, x: usize, y: usize, texels: [&[Vec4]; N]) -> [Vec3; N] {
+        let index = y * self.width + x;
+        // Of one known length: it is looked once whether a texel is there.
+        let texels = texels.map(|texels| &texels[..self.layout.len()]);
+        let mut sums = [Vec4::ZERO; N];
+        for entry in &self.weights[self.starts[index]..self.starts[index + 1]] {
+            let weight = entry.weight.extend(0.0);
+            for (sum, texels) in sums.iter_mut().zip(texels) {
+                *sum += weight * texels[entry.texel as usize];
+            }
+        }
+        sums.map(Vec4Swizzles::xyz)
     }
 
     /// The layout of the texture.

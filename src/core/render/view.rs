@@ -10,6 +10,7 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use wide::f32x4;
 
 use super::image::Image;
 use crate::Result;
@@ -117,19 +118,20 @@ impl Agx {
     }
 
     fn encode(&self, linear: Vec3) -> Vec3 {
-        let log =
-            |v: f32| ((v.max(1e-10).log2() - Self::MIN_EV) / (Self::MAX_EV - Self::MIN_EV)).clamp(0.0, 1.0);
-        let curved = Vec3::from((self.inset * linear).to_array().map(|v| curve(log(v))));
-        (self.outset * curved).clamp(Vec3::ZERO, Vec3::ONE)
+        let [r, g, b] = (self.inset * linear).to_array();
+        let stops = f32x4::new([r, g, b, 1.0]).max(f32x4::splat(1e-10)).log2();
+        let log = (stops - Self::MIN_EV) / (Self::MAX_EV - Self::MIN_EV);
+        let [r, g, b, _] = curve(log.max(f32x4::ZERO).min(f32x4::ONE)).to_array();
+        (self.outset * Vec3::new(r, g, b)).clamp(Vec3::ZERO, Vec3::ONE)
     }
 }
 
 /// Wrensch's fit of the AgX contrast curve, from 0 to 1.
-fn curve(x: f32) -> f32 {
-    let fit = |x: f32| {
-        let (x2, x4) = (x * x, x * x * x * x);
-        15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232
-    };
-    let (black, white) = (fit(0.0), fit(1.0));
-    (fit(x) - black) / (white - black)
+fn curve(x: f32x4) -> f32x4 {
+    let (black, white) = (FIT[0], FIT.iter().sum::<f32>());
+    let fit = FIT.into_iter().rev().fold(f32x4::ZERO, |sum, factor| sum * x + factor);
+    (fit - black) / (white - black)
 }
+
+/// The factors of its powers, from the zeroth.
+const FIT: [f32; 7] = [-0.00232, 0.1191, 0.4298, -6.868, 31.96, -40.14, 15.5];

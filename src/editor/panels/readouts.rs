@@ -143,6 +143,15 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         ui.weak("Nothing is computed yet.");
         return;
     };
+    // Above what comes later: a link stays where it is.
+    if !preview.notes().is_empty() {
+        section(ui, "Notes");
+        for note in preview.notes() {
+            if show_note(ui, note) {
+                editor.actions.push(Action::Show(note.about.clone()));
+            }
+        }
+    }
     let frame = editor.session.playhead;
     section(ui, &format!("Frame {frame}"));
     if !editor.preview.is_current() {
@@ -161,14 +170,6 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         let help = "Wall-clock time; cached results do not run again.";
         line(ui, stage.stage, &format!("{seconds} s"), ui.visuals().text_color(), help);
     }
-    if !preview.notes().is_empty() {
-        section(ui, "Notes");
-        for note in preview.notes() {
-            if show_note(ui, note) {
-                editor.actions.push(Action::Show(note.about.clone()));
-            }
-        }
-    }
     fold(ui, "Left out", |ui| {
         if preview.left_out().is_empty() {
             ui.weak("Nothing: this project needs every stage.");
@@ -186,8 +187,7 @@ fn show_note(ui: &mut Ui, note: &Note) -> bool {
         ui.label(&note.text);
         return false;
     }
-    let text = RichText::new(&note.text).color(ui.visuals().text_color());
-    let clicked = ui.link(text).on_hover_text(format!("Show {}", note.about.place())).clicked();
+    let clicked = ui.link(&note.text).on_hover_text(format!("Show {}", note.about.place())).clicked();
     if let (true, About::Setting(place)) = (clicked, &note.about) {
         control::row::seek(ui, place);
     }

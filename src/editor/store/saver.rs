@@ -19,7 +19,9 @@ use crate::editor::guard::Guard;
 /// How often the file of the open document is looked at.
 const TICK: Duration = Duration::from_secs(1);
 /// How long an editor that was killed may still hold its files while the system clears it away.
-const DYING: Duration = Duration::from_millis(1500);
+const DYING: Duration = Duration::from_millis(if cfg!(test) { 60_000 } else { 1500 });
+/// How often it is looked meanwhile whether it does.
+const LOOK: Duration = Duration::from_millis(150);
 
 /// A request to the saver; replies come in the same order.
 #[derive(Debug)]
@@ -200,7 +202,7 @@ impl Server {
             if matches!(hold, Hold::Here(_)) || begun.elapsed() > DYING {
                 break hold;
             }
-            std::thread::sleep(DYING / 10);
+            std::thread::sleep(LOOK);
         };
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         StoreReply::Attached(path, hold, backups::of(&self.folders, &real))

@@ -72,3 +72,30 @@ fn a_save_that_panics_leaves_the_old_file_and_the_next_one_is_done() {
     let StoreReply::Saved(_, Ok(_)) = until("the save", || saver.answer()) else { panic!("not saved") };
     assert_eq!(*ProjectFile::open(&path).unwrap().0.project(), *project);
 }
+
+#[test]
+fn a_file_that_a_dying_editor_still_holds_is_held_once_that_is_gone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.json");
+    std::fs::write(&path, "{}").unwrap();
+    let start = || {
+        let folders = Folders { state: folder.path().join("state"), config: folder.path().join("config") };
+        Saver::start(folders, || ()).unwrap()
+    };
+    let attach =
+        |saver: &Saver| saver.ask(StoreRequest::Attach(Some((path.clone(), Fingerprint::of(b"{}")))));
+    let held = |saver: &Saver| match until("the hold", || saver.answer()) {
+        StoreReply::Attached(_, hold, _) => hold,
+        other => panic!("{other:?}"),
+    };
+    let dying = start();
+    attach(&dying);
+    assert_eq!(held(&dying), Hold::Here(None));
+    let next = start();
+    attach(&next);
+    // It is refused a few times meanwhile; nothing depends on how often.
+    std::thread::sleep(Duration::from_millis(400));
+    assert!(next.answer().is_none());
+    drop(dying);
+    assert_eq!(held(&next), Hold::Here(None));
+}

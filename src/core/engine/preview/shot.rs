@@ -41,9 +41,7 @@ impl Shot {
     /// receiver.
     pub fn picture(&self, light: &ReceiverTexture, preview: &Preview, frame: i32) -> Option<Image> {
         let fits = light.layout() == self.layout();
-        fits.then(|| {
-            self.camera.background.image.plus(&self.camera.caustic(light, None, preview.moment(frame)))
-        })
+        fits.then(|| self.camera.background.image.plus(&self.camera.caustic(light, preview.moment(frame))))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the fit makes of walls otherwise than they look, said at its place: gaps that count as closed, walls thinner than a cell.
 
-use egui::{Align2, Color32, FontId, Stroke, vec2};
+use egui::{Color32, FontId, Pos2, Rect, Stroke, pos2};
 use glam::Vec2;
 use lightloom_core::constraint::{ActiveWall, Barriers, Constraint, Wall, Window};
 
@@ -21,6 +21,13 @@ struct Warning {
 const CLOSED: &str = "closed: the gap is narrower than the wall is thick";
 const THIN: &str = "thinner than a cell of the grid: light may be held back beside it";
 
+/// Distance of words from the middle of a mark, points.
+const BESIDE: f32 = 18.0;
+/// Border of the ground of words, points.
+const MARGIN: f32 = 3.0;
+/// Width of the shortest lines, points.
+const NARROWEST: f32 = 80.0;
+
 impl Overlay<'_> {
     /// Marks what is wrong with walls while one is drawn or selected.
     pub(super) fn warnings(&self, context: &ToolContext, ghosts: &[Ghost]) {
@@ -32,14 +39,22 @@ impl Overlay<'_> {
                 let radius = 6.0 + 0.5 * from.distance(to);
                 self.painter.circle_stroke(middle, radius.min(14.0), Stroke::new(width, colour));
             }
-            let at = middle + vec2(18.0, 0.0);
-            let text = |colour| {
-                self.painter.text(at, Align2::LEFT_CENTER, words, FontId::proportional(12.0), colour)
-            };
-            let place = text(Color32::TRANSPARENT).expand(3.0);
-            self.painter.rect_filled(place, 3.0, Color32::from_black_alpha(190));
-            text(theme::WARN);
+            self.words_beside(middle, words);
         }
+    }
+
+    /// Words beside a mark, on the side with more room, in lines that fit there.
+    fn words_beside(&self, mark: Pos2, words: &str) {
+        let view = self.painter.clip_rect();
+        let room = [mark.x - view.left(), view.right() - mark.x].map(|room| room - BESIDE - MARGIN);
+        let font = FontId::proportional(12.0);
+        let lines =
+            self.painter.layout(words.to_owned(), font, theme::WARN, room[0].max(room[1]).max(NARROWEST));
+        let size = lines.size();
+        let left = if room[1] >= room[0] { mark.x + BESIDE } else { mark.x - BESIDE - size.x };
+        let place = Rect::from_min_size(pos2(left, mark.y - 0.5 * size.y), size);
+        self.painter.rect_filled(place.expand(MARGIN), MARGIN, Color32::from_black_alpha(190));
+        self.painter.galley(place.min, lines, theme::WARN);
     }
 }
 
