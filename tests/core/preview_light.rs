@@ -64,11 +64,11 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
         KernelFilter::default().filter(&mut texture, PreviewExposure::radius(&preview));
         let difference = difference(&shown, &texture);
         println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
-        // The preview's field has half the cells and three quarters of the steps. Until the meeting a photon is off by less
-        // than half a cell of 1/64, its kernel; beyond it has another partner, not far away. A few in a hundred watts lie
-        // elsewhere; at the keys none do.
-        assert!(i > 20 || apart < 0.5 / 64.0, "frame {number}: {apart}");
-        assert!(difference < if i % 40 == 0 { 1e-3 } else { 0.05 }, "frame {number}: {difference}");
+        // The preview's field has half the cells and three quarters of the steps. Before the meeting a photon is off by less
+        // than half a cell of 1/64, its kernel; from there on it has another partner, not far away, and moves about its course
+        // at random by up to a tenth of `hold` of its own. A few in a hundred watts lie elsewhere; at the keys none do.
+        assert!(i >= 20 || apart < 0.5 / 64.0, "frame {number}: {apart}");
+        assert!(difference < if i % 40 == 0 { 1e-3 } else { 0.06 }, "frame {number}: {difference}");
     }
 }
 

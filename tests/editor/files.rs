@@ -3,21 +3,17 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::window::{document, examples, folders, project, until, window};
+use crate::window::{examples, folders, project, until, window};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::App;
-use lightloom::editor::access::Access;
 use lightloom::editor::action::Action;
 use lightloom::editor::asset::{AssetUse, TargetSlot};
 use lightloom::editor::command::Command;
 use lightloom::editor::dialogs::PickResult;
-use lightloom::editor::engine::SharedEngine;
-use lightloom::editor::export::{ExportSettings, Exports, Status};
-use lightloom::editor::store::{Journal, Note, trusted};
-use lightloom_core::engine::Existing;
+use lightloom::editor::store::trusted;
 use lightloom_core::project::{AssetFolder, Project};
 
 /// Lets the window run until a widget of this label is there.
@@ -308,48 +304,4 @@ fn keys_of_one_frame_go_through_windows_that_they_open_and_close() {
     harness.event(Event::Text(other.to_string_lossy().into_owned()));
     press(&mut harness, Key::Enter, Modifiers::NONE);
     until(&mut harness, "the other project", |app| app.document().path() == Some(&other));
-}
-
-#[test]
-fn what_a_dying_window_still_holds_is_offered_once_it_is_gone() {
-    let folder = examples();
-    let path = project(&folder, "letters_free");
-    let folders = folders(folder.path());
-    // A window that was killed: the system has not let go of its files yet.
-    let dying = Journal::start(folders.recovery());
-    let mut opened = document(&path);
-    let file = opened.file().unwrap();
-    let mut changed = (**opened.project()).clone();
-    changed.seed = 77;
-    dying.note(Note {
-        path: Some(path.clone()),
-        title: "Held".into(),
-        file,
-        project: changed.clone().into(),
-        seen: opened.seen(),
-    });
-    let mut exports = Exports::new(SharedEngine::default(), || ()).with_records(Some(folders.exports()));
-    (changed.render.photons, changed.render.passes) = (1000, 100_000);
-    (changed.render.width, changed.render.height) = (32, 18);
-    let job = exports.add(ExportSettings {
-        project: changed.into(),
-        file: path.clone(),
-        access: Access::default(),
-        folder: folder.path().join("frames"),
-        film: None,
-        limit: None,
-        shown: 1,
-        existing: Existing::Refuse,
-    });
-    let written = || fs::read_dir(folders.recovery()).is_ok_and(|mut entries| entries.next().is_some());
-    while !written() || job.status() == Status::Waiting {
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    }
-    let mut harness = window(&folder, "letters_free", Vec::new());
-    harness.run_steps(20);
-    assert!(harness.query_by_label_contains("Recover 'Held'?").is_none());
-    drop((dying, exports));
-    click(&mut harness, "Recover");
-    until(&mut harness, "the work", |app| app.document().project().seed == 77);
-    until_seen(&mut harness, "Go on with the export of");
 }

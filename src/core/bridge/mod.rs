@@ -32,6 +32,7 @@
 //!
 //! K is a product of short steps that see no cell through a wall; rows of sum 1 make walls reflect. In between, factors of
 //! at most 1 keep the light of each cell below a cap, so that light spreads into lanes before it comes to the end of a wall.
+//! Others let less light stay the nearer a wall is: it fades towards walls and rounds their ends, where an edge would cut it.
 //! Regions that walls shut off have plans of their own.
 //!
 //! A plan around walls is made once: with f from the one side and b from the other, s^2/2 grad ln(b / f) is the velocity that

@@ -55,7 +55,7 @@ pub(super) fn bytes(
     shared: &ImageAttributes,
 ) -> Result<Vec<u8>> {
     enum Source<'a> {
-        Samples(Samples),
+        Samples(Box<Samples>),
         Kept(&'a KeptPart),
     }
     let parts: Vec<(Header, Source)> = parts
@@ -63,7 +63,7 @@ pub(super) fn bytes(
         .map(|(attributes, part)| match part {
             Part::Fresh(channels) => {
                 let samples = samples(size, attributes, channels);
-                (header(&samples, shared), Source::Samples(samples))
+                (header(&samples, shared), Source::Samples(Box::new(samples)))
             }
             Part::Kept(kept) => {
                 let (own_attributes, shared_attributes) = (attributes, shared.clone());
