@@ -49,8 +49,6 @@ mod observer;
 mod output;
 mod output_folder;
 mod pairing;
-#[cfg(test)]
-mod panics;
 mod passes;
 mod photon_files;
 mod placing;
@@ -150,3 +148,6 @@ impl Engine {
         job.map_err(|error| error.with_notes(&prepared.notes))
     }
 }
+
+#[cfg(test)]
+mod tests;
