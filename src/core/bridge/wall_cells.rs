@@ -16,8 +16,8 @@ const LEAST_WEIGHT: f32 = 1e-6;
 pub(super) struct WallCells<'a> {
     pub(super) cells: Cells,
     barriers: &'a Barriers,
-    /// Whether a wall may lie within some cells.
-    near: Vec<bool>,
+    /// From the centre of each cell to the nearest wall, plane units.
+    distances: Vec<f32>,
     /// Whether a cell sees the next one along x and along y.
     open: Vec<[bool; 2]>,
 }
@@ -26,16 +26,15 @@ impl<'a> WallCells<'a> {
     pub(super) fn new(cells: &Cells, barriers: &'a Barriers) -> Self {
         let [width, height] = cells.size;
         let centre = |i: usize| cells.centre(i);
-        let near: Vec<bool> = (0..cells.count())
-            .into_par_iter()
-            .map(|i| barriers.distance(centre(i)) < NEAR * cells.side)
-            .collect();
-        let sees = |i: usize, j: usize| !near[i] || !barriers.blocks(centre(i), centre(j));
+        let distances: Vec<f32> =
+            (0..cells.count()).into_par_iter().map(|i| barriers.distance(centre(i))).collect();
+        let sees =
+            |i: usize, j: usize| distances[i] >= NEAR * cells.side || !barriers.blocks(centre(i), centre(j));
         let faces = |i: usize| {
             [i % width + 1 < width && sees(i, i + 1), i / width + 1 < height && sees(i, i + width)]
         };
         let open = (0..cells.count()).into_par_iter().map(faces).collect();
-        Self { cells: cells.clone(), barriers, near, open }
+        Self { cells: cells.clone(), barriers, distances, open }
     }
 
     /// The walls.
@@ -45,7 +44,12 @@ impl<'a> WallCells<'a> {
 
     /// Whether a wall may lie within some cells of cell `index`.
     pub(super) fn near(&self, index: usize) -> bool {
-        self.near[index]
+        self.distances[index] < NEAR * self.cells.side
+    }
+
+    /// From the centre of each cell to the nearest wall, plane units.
+    pub(super) fn distances(&self) -> &[f32] {
+        &self.distances
     }
 
     /// Whether the straight line between two points meets a wall.
@@ -61,7 +65,7 @@ impl<'a> WallCells<'a> {
     /// The cells around a point that it sees, with weights of sum 1; of sum 0 where it sees none.
     pub(super) fn around(&self, p: Vec2) -> [(usize, f32); 4] {
         let mut around = self.cells.around(p);
-        if !around.iter().any(|&(cell, _)| self.near[cell]) {
+        if !around.iter().any(|&(cell, _)| self.near(cell)) {
             return around;
         }
         for (cell, weight) in &mut around {

@@ -1,7 +1,6 @@
 //! The plan of motion around walls, made once and followed.
 
 use glam::Vec2;
-use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::ends::{End, scale_in_turn};
@@ -188,9 +187,9 @@ fn soft(settings: &BridgeSettings, cells: &Cells, walls: Option<&WallCells>) -> 
     let Some(walls) = walls else { return vec![1.0; cells.count()] };
     let reach = REACH * f64::from(settings.hold);
     let per_step = SOFTNESS / settings.steps as f64;
-    let share = |cell: usize| {
-        let near = (1.0 - f64::from(walls.barriers().distance(cells.centre(cell))) / reach).max(0.0);
+    let share = |&distance: &f32| {
+        let near = (1.0 - f64::from(distance) / reach).max(0.0);
         (-per_step * near * near).exp()
     };
-    (0..cells.count()).into_par_iter().map(share).collect()
+    walls.distances().iter().map(share).collect()
 }

@@ -34,6 +34,19 @@ pub enum Constraint {
     Wall(Wall),
 }
 
+/// What all kinds of constraints have in common, to be changed.
+#[derive(Debug)]
+pub struct CommonFields<'a> {
+    /// The artist's name of it.
+    pub name: &'a mut String,
+    /// The group to which the artist puts it; empty without one.
+    pub group: &'a mut String,
+    /// Whether it acts at all.
+    pub enabled: &'a mut bool,
+    /// Whether the editor keeps it from being changed.
+    pub locked: &'a mut bool,
+}
+
 impl Constraint {
     /// Refuses values out of range; `place` is the path of this constraint, such as `constraints[0]`.
     ///
@@ -70,14 +83,16 @@ impl Constraint {
         }
     }
 
-    /// The same in another group; an empty name takes it out of all.
-    pub fn in_group(&self, name: &str) -> Self {
+    /// The same after a change of what all kinds have in common.
+    #[must_use]
+    pub fn with(&self, change: impl FnOnce(CommonFields)) -> Self {
         let mut constraint = self.clone();
-        let own = match &mut constraint {
-            Self::DirectedLine(line) => &mut line.group,
-            Self::Wall(wall) => &mut wall.group,
-        };
-        name.clone_into(own);
+        change(match &mut constraint {
+            Self::DirectedLine(DirectedLine { name, group, enabled, locked, .. })
+            | Self::Wall(Wall { name, group, enabled, locked, .. }) => {
+                CommonFields { name, group, enabled, locked }
+            }
+        });
         constraint
     }
 

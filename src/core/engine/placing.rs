@@ -35,7 +35,7 @@ const STEPS: usize = 24;
 
 /// A box on the plane, around most of some light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Extent {
+struct LitBox {
     centre: Vec2,
     size: Vec2,
 }
@@ -75,8 +75,8 @@ impl Engine {
         let walk = Walk::start(&job, 0)?;
         let shares = walk.at();
         let light = match caustic.and_then(|name| sized.sources.grouping().group_named(name)) {
-            Some(group) => Extent::of_light(&shares[group..=group]),
-            None => Extent::of_light(shares),
+            Some(group) => LitBox::of_light(&shares[group..=group]),
+            None => LitBox::of_light(shares),
         };
         let (Some(scene), Some(light)) = (&sized.scene, light) else {
             return Ok(target.placement.clone());
@@ -87,7 +87,7 @@ impl Engine {
         let unit = ImageTarget { placement: unit, ..target.clone() };
         let sampler = PictureSampler::load_cancellable(picture, &unit, (sized.extent, "picture"), progress)?;
         let points = sampler.sample(project.seed, 0, POINTS).positions;
-        let Some(lit) = Extent::of(&points, &vec![1.0; points.len()], STRAY_PIXELS) else {
+        let Some(lit) = LitBox::of(&points, &vec![1.0; points.len()], STRAY_PIXELS) else {
             return Ok(target.placement.clone());
         };
         Ok(view.placed(light, lit, rotate))
@@ -99,7 +99,7 @@ fn aspect(project: &Project) -> f32 {
     project.render.width as f32 / project.render.height.max(1) as f32
 }
 
-impl Extent {
+impl LitBox {
     fn of_light(groups: &[KeyPhotons]) -> Option<Self> {
         let positions: Vec<Vec2> = all_positions(groups).collect();
         let flux: Vec<f32> = all_flux(groups).map(|flux| flux.element_sum()).collect();
@@ -149,7 +149,7 @@ impl View<'_> {
 
     /// The picture whose lit part, `lit` at width 1, is as large as `light` and lies there; moved into view, and smaller
     /// where there is no room.
-    fn placed(&self, light: Extent, lit: Extent, rotate: f32) -> Placement {
+    fn placed(&self, light: LitBox, lit: LitBox, rotate: f32) -> Placement {
         let area = |size: Vec2| (size.x * size.y).max(1e-6);
         let width = (area(light.size) / area(lit.size)).sqrt();
         let extent = self.receiver.extent();

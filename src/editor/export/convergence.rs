@@ -55,7 +55,7 @@ impl Convergence {
 pub(super) fn show(ui: &mut Ui, points: &[Point]) {
     let Some(now) = points.last() else { return };
     let (rect, response) = ui.allocate_exact_size(SIZE, Sense::hover());
-    let words = format!("noise {} after {}", percent(now.noise), passes(now.passes));
+    let words = format!("noise {} after {}", percent(now.noise), counted(now.passes));
     let weak = ui.visuals().weak_text_color();
     ui.painter().text(rect.left_top(), Align2::LEFT_TOP, &words, FontId::proportional(11.0), weak);
     plot(ui, rect.with_min_y(rect.top() + WORDS), points);
@@ -122,7 +122,8 @@ fn percent(noise: f64) -> String {
     format!("{:.2} %", 100.0 * noise)
 }
 
-fn passes(count: usize) -> String {
+/// A number of passes in words.
+pub(super) fn counted(count: usize) -> String {
     if count == 1 { "1 pass".into() } else { format!("{count} passes") }
 }
 

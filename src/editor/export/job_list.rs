@@ -70,7 +70,7 @@ impl JobList {
             self.picture = Some((now, frame, texture));
         }
         if let Some((.., texture)) = &self.picture {
-            let passes = if passes == 1 { "1 pass".into() } else { format!("{passes} passes") };
+            let passes = convergence::counted(passes);
             let label = format!("Frame {frame} after {passes}");
             let shown = egui::Image::new(texture).max_size(vec2(376.0, 230.0)).corner_radius(3.0);
             let tip = format!("{label}. The frame under the playhead is shown after the next pass.");

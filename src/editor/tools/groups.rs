@@ -16,7 +16,7 @@ pub fn group(project: &Project, selection: &Selection) -> Arranged {
     let chosen: Vec<usize> = selection.constraints().filter(|index| *index < all.len()).collect();
     let first = *chosen.first()?;
     let name = unique_name("group", |name| all.iter().any(|other| other.group() == name));
-    let members = chosen.iter().map(|&index| all[index].in_group(&name));
+    let members = chosen.iter().map(|&index| in_group(&all[index], &name));
     let rest = |from: usize, to: usize| {
         (from..to).filter(|index| !chosen.contains(index)).map(|index| all[index].clone())
     };
@@ -28,7 +28,7 @@ pub fn group(project: &Project, selection: &Selection) -> Arranged {
 pub fn ungroup(project: &Project, selection: &Selection) -> Arranged {
     let all = project.constraints.iter().enumerate();
     let members = all.filter(|(index, of)| selection.contains(*index) && !of.group().is_empty());
-    let changes: Vec<_> = members.map(|(index, of)| (index, of.in_group(""))).collect();
+    let changes: Vec<_> = members.map(|(index, of)| (index, in_group(of, ""))).collect();
     (!changes.is_empty()).then(|| (Edit::Change(changes), selection.clone()))
 }
 
@@ -48,7 +48,7 @@ pub fn groups(constraints: &[Constraint]) -> Vec<(&str, Vec<usize>)> {
 
 /// Renames the group of these members.
 pub fn renamed(constraints: &[Constraint], members: &[usize], name: &str) -> Edit {
-    Edit::Change(members.iter().map(|&index| (index, constraints[index].in_group(name))).collect())
+    Edit::Change(members.iter().map(|&index| (index, in_group(&constraints[index], name))).collect())
 }
 
 /// Lets these members alone act; where they do, all act again.
@@ -57,7 +57,7 @@ pub fn solo(constraints: &[Constraint], members: &[usize]) -> Edit {
     let alone = is_solo(constraints, &members);
     let set = |(index, constraint): (usize, &Constraint)| {
         let on = alone || members.contains(&index);
-        (constraint.is_enabled() != on).then(|| (index, switched(constraint, Some(on), None)))
+        (constraint.is_enabled() != on).then(|| (index, constraint.with(|common| *common.enabled = on)))
     };
     Edit::Change(constraints.iter().enumerate().filter_map(set).collect())
 }
@@ -68,16 +68,9 @@ pub fn is_solo(constraints: &[Constraint], members: &BTreeSet<usize>) -> bool {
         && constraints.iter().enumerate().all(|(index, of)| of.is_enabled() == members.contains(&index))
 }
 
-/// A constraint that acts or not, that is locked or not, where either is given.
-pub fn switched(constraint: &Constraint, on: Option<bool>, locked: Option<bool>) -> Constraint {
-    let mut constraint = constraint.clone();
-    let (enabled, lock) = match &mut constraint {
-        Constraint::DirectedLine(line) => (&mut line.enabled, &mut line.locked),
-        Constraint::Wall(wall) => (&mut wall.enabled, &mut wall.locked),
-    };
-    *enabled = on.unwrap_or(*enabled);
-    *lock = locked.unwrap_or(*lock);
-    constraint
+/// A constraint in another group; an empty name takes it out of all.
+fn in_group(constraint: &Constraint, name: &str) -> Constraint {
+    constraint.with(|common| name.clone_into(common.group))
 }
 
 #[cfg(test)]

@@ -8,18 +8,14 @@
 use arrayvec::ArrayVec;
 use glam::Vec2;
 
+use super::moves::slide;
 use super::path_state::{PathState, PathStatus};
-use crate::constraint::barrier::Barriers;
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{VisibilityGraph, WallPath};
 use crate::flow::fade::ease;
 use crate::flow::guidance::position;
 use crate::flow::step::{StageVelocity, Step};
 
-/// Distance from a wall at which the field leaves a photon, plane units: far above rounding, far below a cell.
-pub(super) const MARGIN: f32 = 1e-5;
-/// Limit of walls that a photon slides along in one step.
-pub(super) const SLIDES: usize = 3;
 /// Bisections in the search for the last visible point, to 1/64 of a leg.
 const BISECTIONS: usize = 6;
 /// Limit of corners passed in one step.
@@ -261,21 +257,4 @@ impl Walker<'_> {
         let drift = moved(middle, c + 0.5 * moved(begin, c));
         if drift.is_finite() { drift } else { Vec2::ZERO }
     }
-}
-
-/// The end of a move from `c` by `drift` that slides along the walls it meets.
-pub(crate) fn slide(barriers: &Barriers, mut c: Vec2, mut drift: Vec2) -> Vec2 {
-    for _ in 0..SLIDES {
-        let Some(contact) = barriers.first_contact(c, c + drift) else { return c + drift };
-        let along = contact.edge.direction();
-        let normal = along.perp();
-        let side = if drift.dot(normal) > 0.0 { -normal } else { normal };
-        let near = c + drift * contact.share + side * MARGIN;
-        if barriers.blocks(c, near) {
-            return c;
-        }
-        drift = along * (drift * (1.0 - contact.share)).dot(along);
-        c = near;
-    }
-    c
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use egui::{Align2, Button, CornerRadius, Id, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
-use lightloom_core::constraint::Constraint;
+use lightloom_core::constraint::{CommonFields, Constraint};
 
 use super::row::{BUTTON, HEIGHT};
 use crate::editor::action::Action;
@@ -116,18 +116,17 @@ fn switches(
     if button.on_hover_text("Lets this group alone act; once more, and everything acts.").clicked() {
         editor.ask(groups::solo(constraints, members));
     }
-    let all = |on: Option<bool>, locked: Option<bool>| {
-        let change = |&index: &usize| (index, groups::switched(&constraints[index], on, locked));
-        Edit::Change(members.iter().map(change).collect())
+    let all = |change: &dyn Fn(CommonFields)| {
+        Edit::Change(members.iter().map(|&index| (index, constraints[index].with(change))).collect())
     };
     let on = members.iter().any(|&index| constraints[index].is_enabled());
     let (icon, what) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
     if icons::button_at(ui, eye, icon, &format!("{what} all of {name}"), on).clicked() {
-        editor.ask(all(Some(!on), None));
+        editor.ask(all(&|common| *common.enabled = !on));
     }
     let locked = members.iter().all(|&index| constraints[index].is_locked());
     let (icon, what) = if locked { (Icon::Lock, "Unlock") } else { (Icon::LockOpen, "Lock") };
     if icons::button_at(ui, padlock, icon, &format!("{what} all of {name}"), locked).clicked() {
-        editor.ask(all(None, Some(!locked)));
+        editor.ask(all(&|common| *common.locked = !locked));
     }
 }

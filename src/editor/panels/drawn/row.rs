@@ -10,7 +10,6 @@ use crate::editor::panels::control::text;
 use crate::editor::panels::icons::{self, Icon};
 use crate::editor::selection::Selection;
 use crate::editor::theme;
-use crate::editor::tools::groups;
 
 /// Height of a line, points.
 pub(super) const HEIGHT: f32 = 24.0;
@@ -104,7 +103,7 @@ fn rename(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, inde
     let mut place = ui.new_child(egui::UiBuilder::new().max_rect(words));
     let (response, new) = text::field(&mut place, field_id(index), now, words.width());
     if let Some(new) = new {
-        editor.ask(Edit::Change(vec![(index, named(constraint, new))]));
+        editor.ask(Edit::Change(vec![(index, constraint.with(|common| *common.name = new))]));
     }
     if response.lost_focus() || !response.has_focus() {
         ui.data_mut(|data| data.remove::<usize>(Id::unique("renamed constraint")));
@@ -118,21 +117,11 @@ fn switches(ui: &mut Ui, editor: &mut EditorContext, constraint: &Constraint, in
     let on = constraint.is_enabled();
     let (icon, what) = if on { (Icon::Eye, "Switch off") } else { (Icon::EyeShut, "Switch on") };
     if icons::button_at(ui, eye, icon, &format!("{what}: {name}"), on).clicked() {
-        editor.ask(Edit::Change(vec![(index, groups::switched(constraint, Some(!on), None))]));
+        editor.ask(Edit::Change(vec![(index, constraint.with(|common| *common.enabled = !on))]));
     }
     let locked = constraint.is_locked();
     let (icon, what) = if locked { (Icon::Lock, "Unlock") } else { (Icon::LockOpen, "Lock") };
     if icons::button_at(ui, padlock, icon, &format!("{what}: {name}"), locked).clicked() {
-        editor.ask(Edit::Change(vec![(index, groups::switched(constraint, None, Some(!locked)))]));
+        editor.ask(Edit::Change(vec![(index, constraint.with(|common| *common.locked = !locked))]));
     }
-}
-
-/// The constraint with another name.
-fn named(constraint: &Constraint, name: String) -> Constraint {
-    let mut constraint = constraint.clone();
-    match &mut constraint {
-        Constraint::DirectedLine(line) => line.name = name,
-        Constraint::Wall(wall) => wall.name = name,
-    }
-    constraint
 }

@@ -1,22 +1,38 @@
-//! Moves that walls mirror.
+//! Moves that walls turn.
 
 use glam::Vec2;
 
-use super::walker::{MARGIN, SLIDES};
 use crate::constraint::barrier::Barriers;
 
+/// Distance from a wall at which a turned move goes on, plane units: far above rounding, far below a cell.
+const MARGIN: f32 = 1e-5;
+/// Limit of walls that turn one move.
+const TURNS: usize = 3;
+
+/// The end of a move from `c` by `drift` that slides along the walls it meets.
+pub(crate) fn slide(barriers: &Barriers, c: Vec2, drift: Vec2) -> Vec2 {
+    turned(barriers, (c, drift), |left, along| along * left.dot(along))
+}
+
 /// The end of a move from `c` by `by` that the walls it meets mirror: light that spreads evenly stays even beside them, where it
-/// would pile up if it [slid](super::slide) or stopped.
-pub(crate) fn bounce(barriers: &Barriers, mut c: Vec2, mut by: Vec2) -> Vec2 {
-    for _ in 0..SLIDES {
+/// would pile up if it slid or stopped.
+pub(crate) fn bounce(barriers: &Barriers, c: Vec2, by: Vec2) -> Vec2 {
+    turned(barriers, (c, by), |left, along| left.reflect(along.perp()))
+}
+
+/// The end of a move from `c` by `by`, of which each wall it meets turns what is left; `turn` has that and the direction of
+/// the wall.
+fn turned(barriers: &Barriers, (mut c, mut by): (Vec2, Vec2), turn: impl Fn(Vec2, Vec2) -> Vec2) -> Vec2 {
+    for _ in 0..TURNS {
         let Some(contact) = barriers.first_contact(c, c + by) else { return c + by };
-        let normal = contact.edge.direction().perp();
+        let along = contact.edge.direction();
+        let normal = along.perp();
         let side = if by.dot(normal) > 0.0 { -normal } else { normal };
         let near = c + by * contact.share + side * MARGIN;
         if barriers.blocks(c, near) {
             return c;
         }
-        by = (by * (1.0 - contact.share)).reflect(normal);
+        by = turn(by * (1.0 - contact.share), along);
         c = near;
     }
     c
