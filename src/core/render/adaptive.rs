@@ -10,14 +10,32 @@
 //! for a number of samples (Neyman 1934, optimum allocation), but the worst pixels would be twice as bad.
 //!
 //! Paths branch at glass, so that samples cost more there and are better: they end earlier. That, too, the neighbours decide.
+//!
+//! On even ground in smooth light the samples of many pixels count together (`smooth`), and few are enough.
 
 use rayon::prelude::*;
+
+use super::smooth::{Quadratic, VARIANCE, neighbourhood};
 
 /// The accepted error after the first samples, relative to a pixel's luminance plus a floor.
 const TOLERANCE: f32 = 0.0045;
 
 /// Most samples beside pixels where a sample is several paths, over the first samples.
 const MOST_OF_BRANCHES: u32 = 16;
+
+/// Accepted error of pixels taken together, over that of a pixel alone: what is left of their noise is coarser, and seen sooner.
+const TOGETHER: f32 = 0.6;
+
+/// What a pixel needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Need {
+    /// More samples.
+    Samples,
+    /// To be taken together with its neighbours.
+    Neighbours,
+    /// Nothing.
+    Nothing,
+}
 
 /// What the samples of a pixel say so far.
 #[derive(Clone, Copy, Debug)]
@@ -30,11 +48,13 @@ pub(super) struct Estimate {
     pub(super) count: u32,
     /// Whether a sample is several paths, because it met glass or a mirror first.
     pub(super) branches: bool,
+    /// Whether all samples met the same even ground first.
+    pub(super) even: bool,
 }
 
-/// Whether each pixel needs more samples than it has. `floor` is added to the luminance that errors are relative to, `first`
-/// are the samples that all pixels got.
-pub(super) fn noisy(estimates: &[Estimate], width: usize, floor: f32, first: u32) -> Vec<bool> {
+/// What each pixel needs. `floor` is added to the luminance that errors are relative to, `first` are the samples that all
+/// pixels got.
+pub(super) fn needs(estimates: &[Estimate], width: usize, floor: f32, first: u32) -> Vec<Need> {
     let height = estimates.len() / width.max(1);
     let around = |i: usize, count: usize| i.saturating_sub(1)..(i + 2).min(count);
     let needs = |i: usize| {
@@ -50,24 +70,48 @@ pub(super) fn noisy(estimates: &[Estimate], width: usize, floor: f32, first: u32
                 branches |= estimates[j].branches;
             }
         }
-        if branches && estimates[i].count >= MOST_OF_BRANCHES * first {
-            return false;
+        let accepted = (TOLERANCE * (luminance / neighbours + floor)).powi(2) * (count / first as f32).sqrt();
+        match together(estimates, i, [width, height]) {
+            Some(variance) if variance <= accepted * TOGETHER * TOGETHER => Need::Neighbours,
+            _ if branches && estimates[i].count >= MOST_OF_BRANCHES * first => Need::Nothing,
+            _ if variance > accepted * neighbours => Need::Samples,
+            _ => Need::Nothing,
         }
-        let accepted = TOLERANCE * (luminance + floor * neighbours);
-        variance * neighbours > accepted.powi(2) * (count / first as f32).sqrt()
     };
     (0..estimates.len()).into_par_iter().map(needs).collect()
+}
+
+/// The variance of a pixel that is taken together with its neighbours; none where their light is not smooth.
+fn together(estimates: &[Estimate], i: usize, size: [usize; 2]) -> Option<f32> {
+    if !estimates[i].even {
+        return None;
+    }
+    let around = neighbourhood(i, size)?.map(|j| estimates[j]);
+    if !around.iter().all(|estimate| estimate.even) {
+        return None;
+    }
+    let noise = around.iter().map(|estimate| estimate.change.powi(2)).sum::<f32>() / around.len() as f32;
+    let fit = Quadratic::through(&around.map(|estimate| estimate.luminance));
+    // What changes as samples are doubled is more than the error that is left.
+    (fit.variance <= noise).then_some(noise * VARIANCE)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const SETTLED: Estimate =
+        Estimate { luminance: 1.0, change: 0.0, count: 16, branches: false, even: false };
+
     /// A picture of 9 x 9 pixels that has settled but for some.
     fn asked(unsettled: &[usize]) -> Vec<bool> {
-        let mut estimates = vec![Estimate { luminance: 1.0, change: 0.0, count: 16, branches: false }; 81];
+        let mut estimates = vec![SETTLED; 81];
         unsettled.iter().for_each(|i| estimates[*i].change = 0.1);
-        noisy(&estimates, 9, 0.5, 16)
+        more(&estimates, 9, 0.5)
+    }
+
+    fn more(estimates: &[Estimate], width: usize, floor: f32) -> Vec<bool> {
+        needs(estimates, width, floor, 16).iter().map(|need| *need == Need::Samples).collect()
     }
 
     #[test]
@@ -81,7 +125,7 @@ mod tests {
 
     #[test]
     fn beside_glass_the_samples_end_earlier_whatever_the_pixel_itself_met() {
-        let mut row = [Estimate { luminance: 1.0, change: 1.0, count: 256, branches: false }; 4];
+        let mut row = [Estimate { change: 1.0, count: 256, ..SETTLED }; 4];
         assert_eq!(noisy(&row, 4, 0.5, 16), [true; 4]);
         row[1].branches = true;
         assert_eq!(noisy(&row, 4, 0.5, 16), [false, true, false, true]);

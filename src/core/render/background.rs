@@ -6,17 +6,19 @@
 //! does pass through glass.
 //!
 //! Sampling is adaptive (`adaptive`): pixels get more samples where their neighbours are noisy. A few samples can miss what is
-//! rare and bright, but hardly in a whole neighbourhood. What still stands out alone in glass is clamped, and counted.
+//! rare and bright, but hardly in a whole neighbourhood. On the ground in smooth light, neighbours are taken together (`smooth`).
+//! What still stands out alone in glass is clamped, and counted.
 
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
-use super::adaptive::{Estimate, noisy};
+use super::adaptive::{Estimate, Need, needs};
 use super::camera_sampler::FAINT as FAINT_WAY;
 use super::fireflies::{ClampedLight, clamp_outliers};
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
+use super::smooth::{Quadratic, neighbourhood};
 use crate::math::colour::luminance;
 use crate::math::rng::{Purpose, Stream};
 use crate::scene::light::LightRole;
@@ -102,14 +104,18 @@ fn render(
     trace(&mut pixels, &|_| first.div_ceil(2))?;
     trace(&mut pixels, &|_| first)?;
     let floor = 0.5 * brightness;
-    let mut open = vec![adaptive; pixels.len()];
+    let mut need = vec![if adaptive { Need::Samples } else { Need::Nothing }; pixels.len()];
     for _ in 0..if adaptive { ROUNDS } else { 0 } {
         let estimates: Vec<Estimate> = pixels.iter().map(Pixel::estimate).collect();
-        let noisy = noisy(&estimates, width, floor, first);
-        open.iter_mut().zip(noisy).for_each(|(open, noisy)| *open &= noisy);
-        trace(&mut pixels, &|i| if open[i] { 2 * estimates[i].count } else { 0 })?;
+        let now = needs(&estimates, width, floor, first);
+        // What is settled stays so: its samples no longer change.
+        need.iter_mut()
+            .zip(now)
+            .filter(|(need, _)| **need == Need::Samples)
+            .for_each(|(need, now)| *need = now);
+        trace(&mut pixels, &|i| if need[i] == Need::Samples { 2 * estimates[i].count } else { 0 })?;
     }
-    Ok(tracer.finish(&pixels, floor))
+    Ok(tracer.finish(&pixels, &need, floor))
 }
 
 /// The accumulated samples of a pixel.
@@ -124,13 +130,15 @@ struct Pixel {
     clamped: f32,
     /// Whether a path met glass or a mirror first.
     specular: bool,
+    /// Whether all paths met the ground first: the receiver or the floor around it.
+    even: bool,
 }
 
 impl Pixel {
     fn new(mut rng: Stream) -> Self {
         let sampler = Sampler::new(rng.u32());
         let sum = Vec3::ZERO;
-        Self { rng, sampler, sum, half: sum, count: 0, clamped: 0.0, specular: false }
+        Self { rng, sampler, sum, half: sum, count: 0, clamped: 0.0, specular: false, even: true }
     }
 
     fn add(&mut self, value: Vec3) {
@@ -154,6 +162,7 @@ impl Pixel {
             change: luminance_of_half - self.luminance(),
             count: self.count,
             branches: self.specular,
+            even: self.even,
         }
     }
 }
@@ -189,10 +198,20 @@ impl PathTracer<'_> {
         (lights.sum::<f64>() / PATHS as f64) as f32
     }
 
-    /// The means of the pixels, without the outliers among those that are brighter than `floor`.
-    fn finish(&self, pixels: &[Pixel], floor: f32) -> Background {
+    /// The means of the pixels, or of those together that need it, without the outliers among those that are brighter than
+    /// `floor`.
+    fn finish(&self, pixels: &[Pixel], need: &[Need], floor: f32) -> Background {
         let (width, height) = (self.width, self.height);
-        let mut image = Image { width, height, pixels: pixels.iter().map(Pixel::mean).collect() };
+        let alone: Vec<Vec3> = pixels.iter().map(Pixel::mean).collect();
+        let value = |i: usize| match neighbourhood(i, [width, height]) {
+            Some(around) if need[i] == Need::Neighbours => {
+                let channel = |c: usize| Quadratic::through(&around.map(|j| alone[j][c])).middle;
+                Vec3::from_array([0, 1, 2].map(channel)).max(Vec3::ZERO)
+            }
+            _ => alone[i],
+        };
+        let mut image =
+            Image { width, height, pixels: (0..pixels.len()).into_par_iter().map(value).collect() };
         let specular: Vec<bool> = pixels.iter().map(|pixel| pixel.specular).collect();
         let mut lost = clamp_outliers(&mut image, &specular, floor);
         for (lost, pixel) in lost.iter_mut().zip(pixels) {
@@ -233,7 +252,7 @@ impl PathTracer<'_> {
         &self,
         Open { mut ray, mut beam, surfaces }: Open,
         index: u32,
-        Pixel { sampler, rng, clamped, specular, .. }: &mut Pixel,
+        Pixel { sampler, rng, clamped, specular, even, .. }: &mut Pixel,
         rest: &mut Vec<Open>,
     ) -> Vec3 {
         let (scene, sampler) = (self.scene, *sampler);
@@ -249,6 +268,7 @@ impl PathTracer<'_> {
                 radiance += seen * (most / bright.max(f32::MIN_POSITIVE)).min(1.0);
                 *clamped += (bright - most).max(0.0);
             }
+            *even &= surface > 0 || hit.is_some_and(|hit| hit.surface.is_ground());
             let Some(hit) = hit else {
                 return radiance + beam.weight * scene.environment().radiance(ray.direction);
             };

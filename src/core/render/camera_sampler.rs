@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, vec2};
 use super::sampler::{Sampler, tent};
 use crate::math::rng::Stream;
 use crate::scene::material::{Beam, Material, Way};
-use crate::scene::{Hit, Media, Ray, Scene, SurfaceId};
+use crate::scene::{Hit, Media, Ray, Scene};
 
 /// Factor on the samples of a pixel that sees glass or a mirror, where paths branch.
 const SPECULAR_FACTOR: u32 = 4;
@@ -107,7 +107,7 @@ impl<'a> CameraSampler<'a> {
             let material = scene.material(hit.surface);
             if let Material::Diffuse(diffuse) = material {
                 let is_lit_side = ray.direction.dot(hit.geometric_normal) < 0.0;
-                if matches!(hit.surface, SurfaceId::Receiver | SurfaceId::Floor) && is_lit_side {
+                if hit.surface.is_ground() && is_lit_side {
                     let weight = beam.weight * Vec3::from(diffuse.albedo) / std::f32::consts::PI;
                     see(Seen { point: scene.receiver().plane_from_world(hit.point), weight, in_glass });
                 }

@@ -29,6 +29,7 @@ mod camera_sampler;
 mod fireflies;
 mod in_view;
 mod sampler;
+mod smooth;
 
 pub use background::{Background, background, rough_background};
 pub use fireflies::ClampedLight;

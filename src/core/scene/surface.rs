@@ -55,6 +55,13 @@ pub enum SurfaceId {
     Floor,
 }
 
+impl SurfaceId {
+    /// Whether it is the receiver or the floor around it.
+    pub fn is_ground(self) -> bool {
+        matches!(self, Self::Receiver | Self::Floor)
+    }
+}
+
 /// The hit of a ray on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {

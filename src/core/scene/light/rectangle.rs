@@ -109,6 +109,10 @@ impl RectangleLight {
     }
 
     pub(super) fn intersect(&self, ray: &Ray) -> Option<(f32, Vec3)> {
+        // Nearly all rays pass by; its axes take longer to find than that.
+        if !self.bounding_sphere().intersects(ray) {
+            return None;
+        }
         let (normal, half_x, half_y) = self.axes();
         let against = -ray.direction.dot(normal);
         let t = (ray.origin - Vec3::from(self.position)).dot(normal) / against;
