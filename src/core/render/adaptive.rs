@@ -126,16 +126,35 @@ mod tests {
     #[test]
     fn beside_glass_the_samples_end_earlier_whatever_the_pixel_itself_met() {
         let mut row = [Estimate { change: 1.0, count: 256, ..SETTLED }; 4];
-        assert_eq!(noisy(&row, 4, 0.5, 16), [true; 4]);
+        assert_eq!(more(&row, 4, 0.5), [true; 4]);
         row[1].branches = true;
-        assert_eq!(noisy(&row, 4, 0.5, 16), [false, true, false, true]);
+        assert_eq!(more(&row, 4, 0.5), [false, true, false, true]);
     }
 
     #[test]
     fn corners_and_pictures_of_one_row_have_fewer_neighbours() {
         assert!(asked(&[0])[1] && asked(&[0])[10] && !asked(&[0])[0]);
-        let row = [Estimate { luminance: 0.0, change: 1.0, count: 16, branches: false }; 3];
-        assert_eq!(noisy(&row, 3, 0.1, 16), [true; 3]);
-        assert_eq!(noisy(&row[..1], 1, 0.1, 16), [false]);
+        let row = [Estimate { luminance: 0.0, change: 1.0, ..SETTLED }; 3];
+        assert_eq!(more(&row, 3, 0.1), [true; 3]);
+        assert_eq!(more(&row[..1], 1, 0.1), [false]);
+    }
+
+    #[test]
+    fn even_ground_in_smooth_light_is_taken_together_and_an_edge_of_a_shadow_is_not() {
+        // The noise of a pixel alone is twice what is accepted; its sign changes from pixel to pixel.
+        let noise = 2.0 * TOLERANCE * 1.5;
+        let sign = |i: usize| if i.wrapping_mul(2_654_435_761) >> 16 & 1 == 0 { 1.0 } else { -1.0 };
+        let middle = |shade: f32, even: bool| {
+            let pixel = |i: usize| Estimate {
+                luminance: if i % 9 < 4 { 1.0 - shade } else { 1.0 } + 0.5 * noise * sign(i),
+                change: noise,
+                even,
+                ..SETTLED
+            };
+            needs(&(0..81).map(pixel).collect::<Vec<_>>(), 9, 0.5, 16)[40]
+        };
+        assert_eq!(middle(0.0, true), Need::Neighbours);
+        assert_eq!(middle(0.0, false), Need::Samples, "an uneven surface");
+        assert_eq!(middle(0.2, true), Need::Samples, "an edge");
     }
 }
