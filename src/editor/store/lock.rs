@@ -68,9 +68,10 @@ impl FileLock {
             let notice = match old {
                 None => None,
                 Some(old) if old.host != own.host && age < SILENCE => return Locked::Elsewhere(old.words()),
-                Some(old) => {
-                    Some(format!("{} had it open and ended without closing it; you have it now", old.words()))
-                }
+                Some(old) => Some(format!(
+                    "It was open in {}, which ended without closing it; you have it now",
+                    old.words()
+                )),
             };
             if own.write(&mut file).is_err() {
                 return Locked::Impossible;
