@@ -54,11 +54,15 @@ impl Convergence {
 /// The curve, with what the last of its points says; nothing before there is one.
 pub(super) fn show(ui: &mut Ui, points: &[Point]) {
     let Some(now) = points.last() else { return };
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    // One point is no curve.
+    let height = if points.len() > 1 { HEIGHT } else { WORDS };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let words = format!("Noise {} after {}", percent(now.noise), counted(now.passes));
     let weak = ui.visuals().weak_text_color();
     ui.painter().text(rect.left_top(), Align2::LEFT_TOP, &words, FontId::proportional(11.0), weak);
-    plot(ui, rect.with_min_y(rect.top() + WORDS), points);
+    if points.len() > 1 {
+        plot(ui, rect.with_min_y(rect.top() + WORDS), points);
+    }
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
     let more = now.passes.saturating_mul(4);
     response.on_hover_text(format!(

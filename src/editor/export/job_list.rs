@@ -43,7 +43,7 @@ impl JobList {
         });
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
         jobs[active].show(playhead);
-        ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
+        ScrollArea::vertical().max_height(480.0).auto_shrink([false, true]).show(ui, |ui| {
             // The one at work first, then the newest.
             let others = (0..jobs.len()).rev().filter(|index| *index != active);
             for index in std::iter::once(active).chain(others) {

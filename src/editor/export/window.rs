@@ -72,11 +72,11 @@ impl ExportWindow {
             .open(&mut open)
             .collapsible(false)
             .resizable(false);
-        window.default_pos(middle).fixed_size([780.0, 470.0]).show(ctx, |ui| {
+        window.default_pos(middle).fixed_size([780.0, 520.0]).show(ctx, |ui| {
             ui.horizontal_top(|ui| {
                 ui.vertical(|ui| {
                     ui.set_width(LEFT);
-                    ui.set_min_height(450.0);
+                    ui.set_min_height(500.0);
                     if let (Some(options), Some((own, _))) = (&mut self.options, &self.own) {
                         form::show(ui, editor, (options, own), &mut self.limit, picker);
                     }
