@@ -86,6 +86,10 @@ pub(crate) struct RenderArgs {
     /// done in parts, on many machines: no contact sheet and no summary.json is written.
     #[arg(long, value_name = "DIR", conflicts_with = "film")]
     pub(crate) bake: Option<PathBuf>,
+    /// Share the frames with other processes that are started with the same options, here or on other machines: each claims a chunk
+    /// of so many frames, makes it, and takes the next that nobody has. No contact sheet and no summary.json is written.
+    #[arg(long, value_name = "FRAMES", conflicts_with = "film", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) claim: Option<u32>,
 }
 
 #[derive(Args)]

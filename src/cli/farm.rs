@@ -89,7 +89,7 @@ fn words(path: &Path) -> Result<String> {
 }
 
 /// Frames as a list, runs of them as spans.
-fn list(frames: &[i32]) -> String {
+pub(super) fn list(frames: &[i32]) -> String {
     let mut spans: Vec<[i32; 2]> = Vec::new();
     for &frame in frames {
         match spans.last_mut() {

@@ -2,6 +2,7 @@
 
 pub(crate) mod args;
 mod check;
+mod claim;
 mod collect;
 mod compare;
 mod exit_code;

@@ -22,7 +22,11 @@ const STEP: f32 = 0.1;
 /// Shows the window if it is open. Changes apply at once. Returns whether the files that are trusted, so many, shall be forgotten.
 pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trusted: usize) -> bool {
     let mut forgets = false;
-    let window = egui::Window::new("Preferences").open(open).collapsible(false).resizable(false);
+    let window = egui::Window::new("Preferences")
+        .id(egui::Id::unique("Preferences"))
+        .open(open)
+        .collapsible(false)
+        .resizable(false);
     window.default_pos(ctx.content_rect().center() - egui::vec2(210.0, 160.0)).show(ctx, |ui| {
         ui.set_width(400.0);
         Grid::new("preferences").num_columns(2).spacing([18.0, 10.0]).show(ui, |ui| {
@@ -91,7 +95,12 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
                 preferences.recent.clear();
             }
             let tip = "Files outside of their projects' folders that you trusted for good.";
-            let forget = egui::Button::new(format!("Forget {trusted} trusted files"));
+            let words = match trusted {
+                0 => "Forget trusted files".to_owned(),
+                1 => "Forget 1 trusted file".to_owned(),
+                _ => format!("Forget {trusted} trusted files"),
+            };
+            let forget = egui::Button::new(words);
             forgets = ui.add_enabled(trusted > 0, forget).on_hover_text(tip).clicked();
         });
     });

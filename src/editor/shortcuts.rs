@@ -1,6 +1,6 @@
 //! Shortcuts in words, and the window that lists them.
 
-use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, Modifiers, RichText, ScrollArea, TextEdit};
+use egui::{Context, Grid, Key, KeyboardShortcut, ModifierNames, RichText, ScrollArea, TextEdit};
 
 use super::command::{COMMANDS, CommandInfo, Menu};
 
@@ -50,7 +50,7 @@ const TRANSFORMS: [(&str, &str); 6] = [
 ];
 
 /// Mouse gestures and modifier keys, which are not commands.
-const GESTURES: [(&str, &str); 10] = [
+const GESTURES: [(&str, &str); 11] = [
     ("Zoom at the pointer", "Wheel"),
     ("Pan", "Middle button, drag"),
     ("Add to the selection", "Shift+Click"),
@@ -58,6 +58,7 @@ const GESTURES: [(&str, &str); 10] = [
     ("Draw without snapping", "Hold Ctrl"),
     ("Finish the line", "Enter"),
     ("Cancel the line or drag", "Escape"),
+    ("Close a window", "Escape"),
     ("Remove the last point", "Backspace"),
     ("Nudge the selection", "Arrow keys"),
     ("Reset a setting to its default", "Double click"),
@@ -104,8 +105,7 @@ pub fn group(menu: Menu) -> &'static str {
 impl ShortcutSheet {
     /// Shows the window if it is open.
     pub fn show(&mut self, ctx: &Context, tools: &[(&'static str, Key)]) {
-        if !self.open || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-            self.open = false;
+        if !self.open {
             return;
         }
         let filter = self.filter.to_lowercase();
@@ -113,8 +113,11 @@ impl ShortcutSheet {
             format!("{} {} {}", line.group, line.name, line.key).to_lowercase().contains(&filter)
         };
         let lines: Vec<ShortcutLine> = lines(tools).into_iter().filter(found).collect();
-        let window =
-            egui::Window::new("Shortcuts").open(&mut self.open).collapsible(false).resizable([false, true]);
+        let window = egui::Window::new("Shortcuts")
+            .id(egui::Id::unique("Shortcuts"))
+            .open(&mut self.open)
+            .collapsible(false)
+            .resizable([false, true]);
         let placed = window
             .default_size([700.0, 560.0])
             .default_pos(ctx.content_rect().center() - egui::vec2(360.0, 320.0));

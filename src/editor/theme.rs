@@ -19,6 +19,12 @@ pub const BAD: Color32 = Color32::from_rgb(232, 92, 84);
 /// Surround of the pictures in both themes: judging light needs a dark, neutral surround.
 pub const SURROUND: Color32 = Color32::from_gray(22);
 
+/// One of the colours above as that of words on a panel or window: apart from the ground in both themes.
+pub fn words(visuals: &Visuals, colour: Color32) -> Color32 {
+    let (towards, share) = if visuals.dark_mode { (Color32::WHITE, 0.15) } else { (Color32::BLACK, 0.45) };
+    colour.lerp_to_gamma(towards, share)
+}
+
 /// Applies colours, spacing and fonts to both themes of a context.
 pub fn apply(ctx: &egui::Context) {
     for theme in [Theme::Dark, Theme::Light] {
@@ -56,7 +62,8 @@ fn visuals(theme: Theme) -> Visuals {
     v.window_stroke = Stroke::new(1.0, grey(62, 200));
     v.selection.bg_fill = ACCENT.gamma_multiply(if dark { 0.55 } else { 0.4 });
     v.selection.stroke = Stroke::new(1.0, if dark { Color32::WHITE } else { Color32::BLACK });
-    v.hyperlink_color = ACCENT;
+    v.hyperlink_color = words(&v, ACCENT);
+    v.weak_text_color = Some(grey(155, 98));
     v.slider_trailing_fill = true;
     let radius = CornerRadius::same(4);
     let w = &mut v.widgets;
@@ -79,4 +86,34 @@ fn visuals(theme: Theme) -> Visuals {
     v.window_corner_radius = CornerRadius::same(8);
     v.menu_corner_radius = CornerRadius::same(6);
     v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance, and contrast, as WCAG 2.2 defines them.
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let luminance = |colour: Color32| {
+            let [r, g, b, _] = egui::Rgba::from(colour).to_array();
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn words_stand_apart_from_panels_and_windows_in_both_themes() {
+        for theme in [Theme::Dark, Theme::Light] {
+            let visuals = visuals(theme);
+            let of_words = [GOOD, WARN, BAD, ACCENT].map(|colour| words(&visuals, colour));
+            for colour in of_words.into_iter().chain([visuals.weak_text_color(), visuals.hyperlink_color]) {
+                for ground in [visuals.panel_fill, visuals.window_fill] {
+                    let contrast = contrast(colour, ground);
+                    // What WCAG 2.2 asks of text at least, level AA.
+                    assert!(contrast >= 4.5, "{theme:?}: {colour:?} on {ground:?} has {contrast:.2}");
+                }
+            }
+        }
+    }
 }

@@ -150,7 +150,7 @@ def exported(folder):
 def rendered(program, path, folder, *more):
     """The first frame by Lightloom; the project must pass its check, too."""
     subprocess.run([program, "check", path], check=True, stdout=subprocess.DEVNULL)
-    command = [program, "render", path, "--out", folder, "--frames", "5", "--format", "exr", *more]
+    command = [program, "render", path, "--out", folder, "--frames", "5", "--format", "exr", "--overwrite", *more]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return os.path.join(folder, "scene.0005.exr")
 

@@ -10,6 +10,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lightloom::editor::App;
 use lightloom::editor::action::Action;
+use lightloom::editor::command::Command;
 use lightloom::editor::dialogs::PickResult;
 use lightloom::editor::document::Edit;
 use lightloom::editor::store::Theme;
@@ -185,4 +186,45 @@ fn every_example_is_shown_in_every_view_and_size_in_the_dark_theme() {
 #[test]
 fn every_example_is_shown_in_every_view_and_size_in_the_light_theme() {
     examples_are_shown_in(Theme::Light);
+}
+
+#[test]
+fn escape_closes_one_window_after_the_other_and_then_is_that_of_the_tools() {
+    let folder = examples();
+    let mut harness = window(&folder, "letters_free", Vec::new());
+    // A word that only this window has.
+    let words = ["Equivalent command line", "Reset all"];
+    for command in [Command::Export, Command::Preferences] {
+        harness.state_mut().ask(Action::Command(command));
+        harness.run_steps(4);
+    }
+    let open = |harness: &Harness<App>| words.map(|word| harness.query_by_label(word).is_some());
+    for expected in [[true, true], [true, false], [false, false]] {
+        assert_eq!(open(&harness), expected);
+        harness.key_press(Key::Escape);
+        harness.run_steps(4);
+    }
+}
+
+#[test]
+fn the_space_bar_is_that_of_the_player_while_it_is_on_top() {
+    let folder = examples();
+    for number in 1..=3 {
+        image::RgbImage::new(8, 6).save(folder.path().join(format!("shot.{number:04}.png"))).unwrap();
+    }
+    let mut harness = window(&folder, "letters_free", Vec::new());
+    harness.run_steps(4);
+    harness.state_mut().ask(Action::PlayFrames(folder.path().to_owned()));
+    harness.run_steps(6);
+    let plays = |harness: &Harness<App>| harness.state().session().playing;
+    assert!(!plays(&harness));
+    harness.key_press(Key::Space);
+    harness.run_steps(4);
+    assert!(!plays(&harness), "the time line plays behind the player");
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Player").is_none());
+    harness.key_press(Key::Space);
+    harness.run_steps(4);
+    assert!(plays(&harness));
 }

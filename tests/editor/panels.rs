@@ -87,6 +87,25 @@ fn the_gamma_slider_asks_for_that_gamma_and_does_not_write_it() {
 }
 
 #[test]
+fn a_field_that_is_left_as_it_was_keeps_the_digits_that_it_does_not_show() {
+    let mut project = support::example("letters_free");
+    project.flow.gamma = 0.123_456_79;
+    let mut harness = panel_harness(project, Panel::Flow);
+    for typed in [None, Some("0.2")] {
+        harness.get_by_role_and_label(Role::SpinButton, "Gamma value").click();
+        harness.run();
+        if let Some(typed) = typed {
+            harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+            harness.event(egui::Event::Text(typed.to_owned()));
+        }
+        harness.key_press(egui::Key::Enter);
+        harness.run();
+        let expected = if typed.is_some() { 0.2 } else { 0.123_456_79 };
+        assert_eq!(harness.state().document.project().flow.gamma, expected);
+    }
+}
+
+#[test]
 fn a_double_click_on_the_name_resets() {
     let mut project = support::example("letters_free");
     project.flow.gamma = 0.1;

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+mod claim;
 mod cli;
 mod collect;
 mod compare;

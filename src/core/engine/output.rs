@@ -14,9 +14,10 @@ pub struct Output<'a> {
     pub film: Option<&'a Path>,
     /// What becomes of frames of other renders that are in the folder.
     pub existing: Existing,
-    /// The folder of a bake of the same project ([`Engine::bake`](super::Engine::bake)): the frames are a part of a render that is done in parts, so
-    /// that no contact sheet is written.
+    /// The folder of a bake of the same project ([`Engine::bake`](super::Engine::bake)); the frames are then a part.
     pub bake: Option<&'a Path>,
+    /// Whether the frames are a part of a render that is done in parts, so that no contact sheet is written.
+    pub is_part: bool,
     /// The progress of the work.
     pub progress: &'a Progress,
     /// Called with each finished file.
@@ -29,6 +30,6 @@ impl<'a> Output<'a> {
     /// Frames alone, which replace others.
     pub fn new(folder: &'a Path, progress: &'a Progress, saved: &'a (dyn Fn(&Path) + Sync)) -> Self {
         let (existing, film, bake) = (Existing::Overwrite, None, None);
-        Self { folder, film, existing, bake, progress, saved, observer: &() }
+        Self { folder, film, existing, bake, is_part: false, progress, saved, observer: &() }
     }
 }

@@ -58,7 +58,8 @@ impl RunFiles {
         }
         let found = Found::in_folder(&prepared.project, output.folder, &print, output.existing)?;
         found.require(output.existing, "--out")?;
-        let mut files = Self { sheet: output.bake.is_none(), ..Self::fresh(output.folder, print) };
+        let mut files =
+            Self { sheet: output.bake.is_none() && !output.is_part, ..Self::fresh(output.folder, print) };
         let wanted = if found.wanted.is_empty() && output.film.is_some() {
             prepared.project.frames()?
         } else {

@@ -5,23 +5,35 @@ const DIGITS: i32 = 5;
 
 /// The number as it is shown: whole numbers in groups of three, others with five digits that count.
 pub fn number(value: f64, whole: bool) -> String {
-    if whole {
-        return grouped(value);
+    if whole { grouped(value) } else { with_digits(value, DIGITS) }
+}
+
+/// The number as it is shown where there is room for so many characters, with fewer digits if need be.
+pub fn number_within(value: f64, whole: bool, room: usize) -> String {
+    let text = number(value, whole);
+    if whole || text.len() <= room {
+        return text;
     }
+    let shorter = (2..DIGITS).rev().map(|digits| with_digits(value, digits));
+    shorter.into_iter().find(|text| text.len() <= room).unwrap_or(text)
+}
+
+/// With so many digits that count.
+fn with_digits(value: f64, digits: i32) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-4..1e6).contains(&size) {
-        return scientific(value);
+        return scientific(value, digits);
     }
     let before = if size < 1.0 { 0 } else { size.log10().floor() as i32 + 1 };
     // Leading zeros behind the point do not count as digits.
     let leading = if size > 0.0 && size < 1.0 { (-size.log10()).floor() as i32 } else { 0 };
-    let decimals = (DIGITS - before + leading).max(0) as usize;
+    let decimals = (digits - before + leading).max(0) as usize;
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }
 
 /// "1.5e-9"
-fn scientific(value: f64) -> String {
-    let text = format!("{value:.prec$e}", prec = DIGITS as usize - 1);
+fn scientific(value: f64, digits: i32) -> String {
+    let text = format!("{value:.prec$e}", prec = digits as usize - 1);
     match text.split_once('e') {
         Some((digits, power)) => format!("{}e{power}", trimmed(digits)),
         None => text,
@@ -74,6 +86,16 @@ mod tests {
             // Half a unit of the fifth digit.
             assert!((parse(text, "").unwrap_or(f64::NAN) - value).abs() <= 5e-5 * value.abs());
         }
+    }
+
+    #[test]
+    fn numbers_lose_digits_where_there_is_little_room() {
+        let shown =
+            [(-0.003_571_152_7, "-0.00357"), (0.109_546_36, "0.10955"), (-1234.567, "-1234.6"), (0.5, "0.5")];
+        for (value, text) in shown {
+            assert_eq!(number_within(value, false, 8), text);
+        }
+        assert_eq!(number_within(1_000_000.0, true, 3), "1 000 000");
     }
 
     #[test]

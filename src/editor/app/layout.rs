@@ -29,7 +29,7 @@ impl App {
         let mut editor = self.editor.context(actions);
         let editor = &mut editor;
         Panel::top("menu").show(ui, |ui| menu::show(ui, editor, &self.recents.found(), &self.files.backups));
-        Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
+        Panel::bottom("status").exact_size(28.0).show(ui, |ui| {
             let told = self.details.as_ref().is_some_and(|details| details.status == *editor.status);
             let tasks = [
                 self.importing.as_ref().map(Task::shown),

@@ -210,6 +210,9 @@ impl App {
         let transforms = self.editor.session.transforming.is_some();
         if !transforms {
             let busy = (self.toolbox.tool().is_busy(), self.windows.palette.is_open());
+            if busy == (false, false) && !ctx.text_edit_focused() && !keyboard::is_covered(&ctx) {
+                self.windows.take_keys(&ctx);
+            }
             actions.extend(keyboard::pressed(&ctx, &tools, busy, self.views.key_place(&ctx)));
         }
         self.layout(ui, &mut actions);

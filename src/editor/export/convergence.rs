@@ -7,8 +7,8 @@ use lightloom_core::render::Image;
 
 use crate::editor::theme;
 
-/// Size of the curve, points.
-const SIZE: egui::Vec2 = vec2(376.0, 74.0);
+/// Height of the curve, points.
+const HEIGHT: f32 = 74.0;
 /// Room for its words, points.
 const WORDS: f32 = 16.0;
 
@@ -54,11 +54,15 @@ impl Convergence {
 /// The curve, with what the last of its points says; nothing before there is one.
 pub(super) fn show(ui: &mut Ui, points: &[Point]) {
     let Some(now) = points.last() else { return };
-    let (rect, response) = ui.allocate_exact_size(SIZE, Sense::hover());
-    let words = format!("noise {} after {}", percent(now.noise), counted(now.passes));
+    // One point is no curve.
+    let height = if points.len() > 1 { HEIGHT } else { WORDS };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let words = format!("Noise {} after {}", percent(now.noise), counted(now.passes));
     let weak = ui.visuals().weak_text_color();
     ui.painter().text(rect.left_top(), Align2::LEFT_TOP, &words, FontId::proportional(11.0), weak);
-    plot(ui, rect.with_min_y(rect.top() + WORDS), points);
+    if points.len() > 1 {
+        plot(ui, rect.with_min_y(rect.top() + WORDS), points);
+    }
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
     let more = now.passes.saturating_mul(4);
     response.on_hover_text(format!(

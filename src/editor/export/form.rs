@@ -13,6 +13,9 @@ use crate::editor::reset_label::reset_label;
 /// Width of the boxes of layers, points.
 const LAYERS_WIDTH: f32 = 250.0;
 
+/// Width of the field of the folder, points: with its button as wide as the rest.
+const FOLDER: f32 = 202.0;
+
 /// Shows the options, which reset to the project's `own`, and the time limit in minutes with its switch.
 pub(super) fn show(
     ui: &mut Ui,
@@ -70,7 +73,7 @@ pub(super) fn show(
         row(ui, "Folder", tip, &mut options.folder, &own.folder, |ui, folder| {
             let mut text = folder.to_string_lossy().into_owned();
             let tooltip = text.clone();
-            let field = TextEdit::singleline(&mut text).desired_width(170.0);
+            let field = TextEdit::singleline(&mut text).desired_width(FOLDER);
             if ui.add(field).accessible_name("Folder").on_hover_text(tooltip).changed() {
                 *folder = text.into();
             }

@@ -43,7 +43,7 @@ impl JobList {
         });
         let active = jobs.iter().position(|job| job.is_open()).unwrap_or(jobs.len() - 1);
         jobs[active].show(playhead);
-        ScrollArea::vertical().max_height(430.0).auto_shrink([false, true]).show(ui, |ui| {
+        ScrollArea::vertical().max_height(480.0).auto_shrink([false, true]).show(ui, |ui| {
             // The one at work first, then the newest.
             let others = (0..jobs.len()).rev().filter(|index| *index != active);
             for index in std::iter::once(active).chain(others) {
@@ -72,7 +72,8 @@ impl JobList {
         if let Some((.., texture)) = &self.picture {
             let passes = convergence::counted(passes);
             let label = format!("Frame {frame} after {passes}");
-            let shown = egui::Image::new(texture).max_size(vec2(376.0, 230.0)).corner_radius(3.0);
+            let shown =
+                egui::Image::new(texture).max_size(vec2(ui.available_width(), 230.0)).corner_radius(3.0);
             let tip = format!("{label}. The frame under the playhead is shown after the next pass.");
             ui.add(shown.alt_text(&label)).on_hover_text(tip);
             ui.label(RichText::new(label).small().weak());

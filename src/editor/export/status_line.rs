@@ -1,6 +1,6 @@
 //! The status line of the active export.
 
-use egui::{Button, ProgressBar, Response, RichText, Ui};
+use egui::{Button, ProgressBar, RichText, Ui};
 
 use super::{ExportJob, Exports, Status};
 use crate::editor::theme;
@@ -20,8 +20,17 @@ pub fn status_line(ui: &mut Ui, exports: &Exports) -> bool {
                 .text(text)
                 .desired_width(260.0)
                 .corner_radius(4);
-            wanted |= ui.add(bar).accessible_name("Export").interact(egui::Sense::click()).clicked();
-            controls(ui, job);
+            let show = |ui: &mut Ui| {
+                wanted |= ui.add(bar).accessible_name("Export").interact(egui::Sense::click()).clicked();
+            };
+            // The bar comes first for the reader, from whichever side it is laid out.
+            if ui.layout().prefer_right_to_left() {
+                controls(ui, job);
+                show(ui);
+            } else {
+                show(ui);
+                controls(ui, job);
+            }
         } else {
             let text = RichText::new(words(job)).color(colour(&job.status(), ui));
             wanted |= ui.add(Button::new(text).frame(false)).clicked();
@@ -30,12 +39,25 @@ pub fn status_line(ui: &mut Ui, exports: &Exports) -> bool {
     wanted
 }
 
-/// The buttons to pause, stop with the completed passes, and cancel.
+/// The buttons to pause, stop with the completed passes, and cancel, in this order for the reader.
 pub(super) fn controls(ui: &mut Ui, job: &ExportJob) {
+    let mut buttons: [fn(&mut Ui, &ExportJob); 3] = [pause, stop, cancel];
+    if ui.layout().prefer_right_to_left() {
+        buttons.reverse();
+    }
+    for button in buttons {
+        button(ui, job);
+    }
+}
+
+fn pause(ui: &mut Ui, job: &ExportJob) {
     let paused = job.is_paused();
     if ui.button(if paused { "Resume" } else { "Pause" }).clicked() {
         if paused { job.resume() } else { job.pause() }
     }
+}
+
+fn stop(ui: &mut Ui, job: &ExportJob) {
     let passes = job.passes();
     let stop = ui.add_enabled(passes > 0, Button::new("Stop"));
     let stop =
@@ -43,7 +65,10 @@ pub(super) fn controls(ui: &mut Ui, job: &ExportJob) {
     if stop.on_disabled_hover_text("Frames can be written once the first pass is complete.").clicked() {
         job.stop();
     }
-    let cancel: Response = ui.button("Cancel");
+}
+
+fn cancel(ui: &mut Ui, job: &ExportJob) {
+    let cancel = ui.button("Cancel");
     if cancel.on_hover_text("Cancels the export; nothing more is written.").clicked() {
         job.cancel();
     }
@@ -76,13 +101,14 @@ pub(super) fn words(job: &ExportJob) -> String {
 }
 
 pub(super) fn colour(status: &Status, ui: &Ui) -> egui::Color32 {
-    match status {
+    let colour = match status {
         Status::Done(outcome) if outcome.bad => theme::WARN,
         Status::Occupied(_) => theme::WARN,
         Status::Done(_) => theme::GOOD,
         Status::Failed(_) => theme::BAD,
-        Status::Waiting | Status::Running | Status::Cancelled => ui.visuals().text_color(),
-    }
+        Status::Waiting | Status::Running | Status::Cancelled => return ui.visuals().text_color(),
+    };
+    theme::words(ui.visuals(), colour)
 }
 
 fn passes(job: &ExportJob) -> String {

@@ -67,12 +67,16 @@ impl ExportWindow {
         self.follow(ExportOptions::of(&project, file.as_deref()), file);
         let mut open = true;
         let middle = ctx.content_rect().center() - vec2(390.0, 260.0);
-        let window = egui::Window::new("Export").open(&mut open).collapsible(false).resizable(false);
-        window.default_pos(middle).fixed_size([780.0, 470.0]).show(ctx, |ui| {
+        let window = egui::Window::new("Export")
+            .id(egui::Id::unique("Export"))
+            .open(&mut open)
+            .collapsible(false)
+            .resizable(false);
+        window.default_pos(middle).fixed_size([780.0, 520.0]).show(ctx, |ui| {
             ui.horizontal_top(|ui| {
                 ui.vertical(|ui| {
                     ui.set_width(LEFT);
-                    ui.set_min_height(450.0);
+                    ui.set_min_height(500.0);
                     if let (Some(options), Some((own, _))) = (&mut self.options, &self.own) {
                         form::show(ui, editor, (options, own), &mut self.limit, picker);
                     }
@@ -110,7 +114,7 @@ impl ExportWindow {
         let button = Button::new(RichText::new(text).strong()).fill(ui.visuals().selection.bg_fill);
         let begin = ui.add_enabled_ui(applied.is_ok(), |ui| ui.add_sized([LEFT - 8.0, 30.0], button)).inner;
         if let Err(error) = &applied {
-            ui.colored_label(theme::BAD, error.to_string());
+            ui.colored_label(theme::words(ui.visuals(), theme::BAD), error.to_string());
         }
         if let Ok(project) = applied.as_ref()
             && begin.clicked()
@@ -141,7 +145,7 @@ fn command_line(ui: &mut Ui, editor: &EditorContext, project: &Project, options:
     };
     let line = options.command_line(project, file);
     let mut text = line.as_str();
-    let field = TextEdit::multiline(&mut text).font(egui::TextStyle::Monospace).desired_rows(3);
+    let field = TextEdit::multiline(&mut text).font(egui::TextStyle::Monospace).desired_rows(5);
     ui.add(field.desired_width(LEFT - 8.0)).accessible_name("Command line");
     ui.horizontal(|ui| {
         if ui.small_button("Copy").clicked() {

@@ -59,8 +59,9 @@ fn turn(axis: Vec3, degrees: f32) -> DQuat {
     DQuat::from_axis_angle(axis.as_dvec3().normalize_or(DVec3::Y), f64::from(degrees).to_radians())
 }
 
+/// Rounded, and never a negative zero.
 fn rounded(value: f64, steps: f64) -> f64 {
-    (value * steps).round() / steps
+    (value * steps).round() / steps + 0.0
 }
 
 /// A place, rounded.
@@ -78,7 +79,7 @@ fn turned([x, y, z]: [f32; 3], by: DQuat) -> [f32; 3] {
     let matrix = DMat3::from_quat(by) * DMat3::from_euler(EulerRot::ZYX, z, y, x);
     let (z, y, x) = matrix.to_euler(EulerRot::ZYX);
     // + 0.0: no "-0".
-    [x, y, z].map(|radians| (rounded(radians.to_degrees(), ANGLE) + 0.0) as f32)
+    [x, y, z].map(|radians| rounded(radians.to_degrees(), ANGLE) as f32)
 }
 
 fn placed(transform: &mut Transform, change: Change, pivot: DVec3) {

@@ -136,7 +136,7 @@ fn percent(share: f64) -> String {
 /// The panel of readouts.
 pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     if let Some(problem) = editor.preview.problem() {
-        ui.colored_label(theme::BAD, problem);
+        ui.colored_label(theme::words(ui.visuals(), theme::BAD), problem);
         ui.add_space(4.0);
     }
     let Some(preview) = editor.preview.preview() else {
@@ -158,7 +158,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         ui.weak("From before the last change.");
     }
     for readout in of(preview, frame, editor.document.project().flow.tolerance) {
-        let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
+        let colour = if readout.is_bad { bad(ui) } else { ui.visuals().text_color() };
         line(ui, readout.name, &readout.value, colour, readout.help);
     }
     if let Some(segments) = editor.preview.continuity() {
@@ -201,10 +201,15 @@ fn show_continuity(ui: &mut Ui, segments: &[SegmentContinuity], frame: i32) {
     for (name, figures) in segment.named_figures() {
         section(ui, &format!("Holding together, {name}"));
         for readout in of_continuity(figures) {
-            let colour = if readout.is_bad { theme::WARN } else { ui.visuals().text_color() };
+            let colour = if readout.is_bad { bad(ui) } else { ui.visuals().text_color() };
             line(ui, &capitalised(readout.name), &readout.value, colour, readout.help);
         }
     }
+}
+
+/// The colour of a figure that is not as it should be.
+fn bad(ui: &Ui) -> Color32 {
+    theme::words(ui.visuals(), theme::WARN)
 }
 
 /// With a capital first letter, as labels have it.
@@ -238,7 +243,7 @@ pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
     let Some(preview) = editor.preview.preview() else { return };
     for readout in in_short(preview, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
-        let text = if readout.is_bad { text.color(theme::WARN) } else { text.weak() };
+        let text = if readout.is_bad { text.color(bad(ui)) } else { text.weak() };
         ui.label(text).on_hover_text(readout.help);
     }
 }

@@ -15,7 +15,6 @@ use super::widgets::fold;
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 use crate::editor::look::object::SceneObject;
-use crate::editor::theme;
 
 pub(in crate::editor) use lights::lamp_words;
 
@@ -72,7 +71,7 @@ fn fold_of(ui: &mut Ui, name: &str, selected: bool, add: impl FnOnce(&mut Ui)) {
     let id = ui.scope_id().with((name, "was selected"));
     let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(id), selected));
     let heading = egui::RichText::new(name);
-    let heading = if selected { heading.color(theme::ACCENT) } else { heading };
+    let heading = if selected { heading.color(ui.visuals().hyperlink_color) } else { heading };
     let open = (selected && !was).then_some(true);
     egui::CollapsingHeader::new(heading).id_salt(name).open(open).show_unindented(ui, add);
 }

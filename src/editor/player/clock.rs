@@ -38,6 +38,20 @@ impl Clock {
         self.at = before.iter().map(|hold| f64::from(*hold)).sum();
     }
 
+    /// Plays or rests; at the end it begins anew.
+    pub fn toggle(&mut self) {
+        if !self.playing && self.index() + 1 == self.holds.len() {
+            self.go(0);
+        }
+        self.playing = !self.playing;
+    }
+
+    /// Rests at a picture so many before or after.
+    pub fn step(&mut self, by: isize) {
+        self.playing = false;
+        self.go(self.index().saturating_add_signed(by));
+    }
+
     /// Goes on by `seconds` at `rate` frames a second, and returns the seconds until the next picture; none at rest.
     pub fn advance(&mut self, seconds: f64, rate: f64) -> Option<f64> {
         let length: f64 = self.holds.iter().map(|hold| f64::from(*hold)).sum();

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{
-    ColorImage, Context, DragValue, Pos2, Rect, Response, Sense, Slider, Stroke, StrokeKind, TextureHandle,
-    TextureOptions, Ui, vec2,
+    Align, ColorImage, Context, DragValue, Key, Label, Modifiers, Pos2, Rect, Response, Sense, Slider,
+    Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, vec2,
 };
 
 use super::noise::{self, Steadiness};
@@ -15,6 +15,8 @@ use crate::editor::dialogs::{PickRequest, Picker, Purpose};
 use crate::editor::theme;
 use crate::editor::timeline::icons::{self, Icon};
 
+/// Width of a digit, points.
+const DIGIT: f32 = 7.5;
 /// Height of everything below the picture, points.
 const CONTROLS: f32 = 64.0;
 
@@ -65,6 +67,19 @@ impl Player {
         };
     }
 
+    /// Takes the keys that play and step, for the window on top.
+    pub fn take_keys(&mut self, ctx: &Context) {
+        let Some(show) = self.show.as_mut().filter(|_| self.open) else { return };
+        let hit = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if hit(Key::Space) {
+            show.clock.toggle();
+        }
+        let steps = [(Key::Comma, -1), (Key::Period, 1), (Key::ArrowLeft, -1), (Key::ArrowRight, 1)];
+        for (_, by) in steps.into_iter().filter(|(key, _)| hit(*key)) {
+            show.clock.step(by);
+        }
+    }
+
     /// Shows the window if it is open.
     pub fn show(&mut self, ctx: &Context, picker: &mut Picker) {
         if !self.open {
@@ -73,7 +88,11 @@ impl Player {
             return;
         }
         let mut open = true;
-        let window = egui::Window::new("Player").open(&mut open).collapsible(false).resizable(true);
+        let window = egui::Window::new("Player")
+            .id(egui::Id::unique("Player"))
+            .open(&mut open)
+            .collapsible(false)
+            .resizable(true);
         let middle = ctx.content_rect().center() - vec2(380.0, 260.0);
         let window = window.default_pos(middle).default_size([760.0, 500.0]).min_size([420.0, 260.0]);
         window.show(ctx, |ui| {
@@ -90,7 +109,7 @@ impl Player {
                 }
             });
             if let Some(problem) = &self.problem {
-                ui.colored_label(theme::BAD, problem);
+                ui.colored_label(theme::words(ui.visuals(), theme::BAD), problem);
             }
             match &mut self.show {
                 Some(show) => show.show(ui),
@@ -121,7 +140,7 @@ impl Show {
                 ui.set_min_size(room);
                 match (&slot, &self.texture) {
                     (Some(Err(problem)), _) => {
-                        ui.colored_label(theme::BAD, problem);
+                        ui.colored_label(theme::words(ui.visuals(), theme::BAD), problem);
                     }
                     (_, Some((_, texture))) => {
                         let (number, _) = &self.sequence.frames[index];
@@ -179,9 +198,9 @@ impl Show {
         }
         Some(match self.steady?.1 {
             Some(Steadiness { noise, pictures }) => {
-                format!("noise {noise:.2} of 255, over {pictures} pictures")
+                format!("Noise {noise:.2} of 255, over {pictures} pictures")
             }
-            None => "no three pictures of it in a row".into(),
+            None => "No three pictures of it in a row".into(),
         })
     }
 
@@ -202,7 +221,7 @@ impl Show {
     /// The slider over all pictures.
     fn scrub(&mut self, ui: &mut Ui, index: usize) {
         let mut at = index;
-        ui.spacing_mut().slider_width = ui.available_width() - 8.0;
+        ui.spacing_mut().slider_width = ui.available_width();
         let last = self.sequence.frames.len() - 1;
         let slider = ui.add(Slider::new(&mut at, 0..=last).show_value(false)).accessible_name("Position");
         if slider.dragged() || slider.changed() {
@@ -226,10 +245,7 @@ impl Show {
         step(ui, Icon::Last, "Last picture", last);
         let (icon, label) = if clock.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
         if icons::button(ui, icon, label, clock.playing).on_hover_text(label).clicked() {
-            if !clock.playing && index == last {
-                clock.go(0);
-            }
-            clock.playing = !clock.playing;
+            clock.toggle();
         }
         if icons::button(ui, Icon::Loop, "Loop", clock.looping).on_hover_text("Loop").clicked() {
             clock.looping = !clock.looping;
@@ -238,7 +254,11 @@ impl Show {
         let tip = "Frames per second of playback; the files keep theirs.";
         ui.add(field.suffix(" fps")).on_hover_text(tip).accessible_name("Playback rate");
         let (number, _) = &self.sequence.frames[index];
-        ui.label(format!("Frame {number}"));
+        // As wide as the longest number: what follows stays where it is while it plays.
+        let digits =
+            self.sequence.frames.iter().map(|(number, _)| number.to_string().len()).max().unwrap_or(1);
+        let label = Label::new(format!("Frame {number}")).halign(Align::Min);
+        ui.add_sized([42.0 + DIGIT * digits as f32, 18.0], label);
         let count = self.sequence.frames.len();
         let read = self.loader.count();
         ui.weak(if read < count { format!("{read} of {count} read") } else { format!("{count} pictures") });

@@ -16,9 +16,12 @@ const SAMPLES: [u32; 3] = [1, 4, 24];
 pub(super) struct BackgroundWorker {
     worker: Worker<Request>,
     found: Arc<Mutex<Found>>,
+    /// Number of requests so far.
+    asked: u64,
 }
 
 struct Request {
+    number: u64,
     subject: Subject,
     size: [u32; 2],
 }
@@ -28,6 +31,8 @@ struct Request {
 struct Found {
     shot: Option<Arc<Shot>>,
     problem: Option<String>,
+    /// The request that was answered last.
+    answered: u64,
 }
 
 impl BackgroundWorker {
@@ -42,10 +47,11 @@ impl BackgroundWorker {
                 let tell = |shot: Result<Shot>| {
                     let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
                     match shot {
-                        Ok(shot) => *found = Found { shot: Some(Arc::new(shot)), problem: None },
+                        Ok(shot) => (found.shot, found.problem) = (Some(Arc::new(shot)), None),
                         Err(Error::Cancelled) => return false,
                         Err(error) => found.problem = Some(error.to_string()),
                     }
+                    found.answered = request.number;
                     drop(found);
                     seen();
                     true
@@ -60,11 +66,17 @@ impl BackgroundWorker {
                 }
             }
         });
-        Self { worker, found }
+        Self { worker, found, asked: 0 }
     }
 
-    pub(super) fn ask(&self, subject: Subject, size: [u32; 2]) {
-        self.worker.ask(Request { subject, size });
+    pub(super) fn ask(&mut self, subject: Subject, size: [u32; 2]) {
+        self.asked += 1;
+        self.worker.ask(Request { number: self.asked, subject, size });
+    }
+
+    /// Whether the newest request is answered, be it coarsely.
+    pub(super) fn is_newest(&self) -> bool {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner).answered == self.asked
     }
 
     /// The newest look.

@@ -61,6 +61,8 @@ pub struct LivePreview {
     requests: Requests,
     /// Whether the graphics card draws the photons.
     by_card: bool,
+    /// Whether the shot is seen.
+    shows_shot: bool,
     subject: Option<Subject>,
     frame: i32,
     found: Found,
@@ -98,6 +100,7 @@ impl LivePreview {
             figures: FigureTaker::new(wake),
             requests: Requests::default(),
             by_card: false,
+            shows_shot: false,
             subject: None,
             frame: 0,
             found: Found::default(),
@@ -282,13 +285,15 @@ impl LivePreview {
         self.found.previews.iter().any(Option::is_some)
     }
 
-    /// Whether the pictures that are shown are those of the project as it is: light and paintings are of its newest version.
+    /// Whether the pictures that are shown are those of the project as it is: light, paintings and what the camera sees besides are of
+    /// its newest version.
     pub fn is_shown(&self) -> bool {
         let is_newest = |light: &Arc<Preview>| {
             self.found.previews.iter().flatten().any(|newest| Arc::ptr_eq(newest, light))
         };
         let shown = [self.pictures.painted().light, self.orbit.seen().light];
-        self.problem.is_none() && shown.iter().flatten().any(is_newest)
+        let camera = !self.shows_shot || self.background.is_newest();
+        self.problem.is_none() && camera && shown.iter().flatten().any(is_newest)
     }
 
     /// Whether a veil belongs over the pictures: the project is wrong, and they show what it was.

@@ -65,6 +65,7 @@ impl LivePreview {
     }
 
     fn request_shot(&mut self, subject: &Subject, wanted: &Wanted) {
+        self.shows_shot = wanted.shot.is_some();
         let Some(size) = wanted.shot else { return };
         let asked = background_key(subject, size);
         if self.requests.staged.as_ref() != Some(&asked) {

@@ -1,4 +1,4 @@
-//! A panic in each thread of the preview.
+//! A panic in each thread of the preview; what "ready" means.
 #![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
@@ -79,5 +79,28 @@ fn a_panic_in_any_thread_is_told_until_the_next_edit_which_is_answered() {
         };
         follow(0.25, "the message", &is_told);
         follow(0.75, "the answer", &|preview| preview.problem().is_none() && is_done(name, preview));
+    }
+}
+
+#[test]
+fn what_is_ready_shows_no_glass_of_an_older_scene() {
+    let mut preview = LivePreview::new(SharedEngine::default(), || ());
+    let (session, wanted) = needing("background", &subject(0.5));
+    let mut shots: Vec<Arc<Shot>> = Vec::new();
+    for x in [0.0, 0.1, 0.2] {
+        let mut subject = subject(0.5);
+        let mut project = (*subject.project).clone();
+        project.scene.as_mut().unwrap().meshes[0].transform.translate[0] += x;
+        subject.project = Arc::new(project);
+        let begun = Instant::now();
+        preview.follow(&subject, &session, &wanted);
+        while !preview.is_shown() {
+            assert!(begun.elapsed() < Duration::from_secs(120), "waited in vain");
+            preview.follow(&subject, &session, &wanted);
+        }
+        let shot = preview.shot().unwrap();
+        let other = |old: &Arc<Shot>| old.background().pixels != shot.background().pixels;
+        assert!(shots.iter().all(other), "the glass stands where it stood");
+        shots.push(shot);
     }
 }

@@ -22,7 +22,7 @@ const MOST_BYTES: u64 = 4096;
 
 /// Whether this editor may write the file.
 #[derive(Debug)]
-pub(super) enum Locked {
+pub(crate) enum Locked {
     /// It may; with a notice where a lock was taken over.
     Here(FileLock, Option<String>),
     /// Another editor has it open: who.
@@ -33,7 +33,7 @@ pub(super) enum Locked {
 
 /// A lock that this editor holds until it is dropped.
 #[derive(Debug)]
-pub(super) struct FileLock {
+pub(crate) struct FileLock {
     path: PathBuf,
     file: File,
     touched: Instant,
@@ -48,7 +48,7 @@ struct Owner {
 
 impl FileLock {
     /// Takes the lock of the project file at `project`, canonical.
-    pub(super) fn take(project: &Path) -> Locked {
+    pub(crate) fn take(project: &Path) -> Locked {
         let Some(name) = project.file_name() else { return Locked::Impossible };
         let path = project.with_file_name(format!(".{}.lock", name.to_string_lossy()));
         for _ in 0..TRIES {
@@ -68,9 +68,10 @@ impl FileLock {
             let notice = match old {
                 None => None,
                 Some(old) if old.host != own.host && age < SILENCE => return Locked::Elsewhere(old.words()),
-                Some(old) => {
-                    Some(format!("{} had it open and ended without closing it; you have it now", old.words()))
-                }
+                Some(old) => Some(format!(
+                    "It was open in {}, which ended without closing it; you have it now",
+                    old.words()
+                )),
             };
             if own.write(&mut file).is_err() {
                 return Locked::Impossible;
@@ -81,7 +82,7 @@ impl FileLock {
     }
 
     /// Shows other machines that the owner lives, once a minute.
-    pub(super) fn beat(&mut self) {
+    pub(crate) fn beat(&mut self) {
         if self.touched.elapsed() >= BEAT {
             // A disk that is gone for a moment comes back.
             let _ = self.file.set_modified(SystemTime::now());

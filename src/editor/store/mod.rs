@@ -31,6 +31,7 @@ pub use disk::Fingerprint;
 pub(crate) use disk::make_private;
 pub use folders::Folders;
 pub use journal::{Journal, Note};
+pub(crate) use lock::{FileLock, Locked};
 pub use preferences::{PhotonRenderer, Preferences, Theme};
 pub use recovery::{Recovery, recoverable};
 pub use save::{Origin, SaveRequest, Saved};

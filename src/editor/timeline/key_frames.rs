@@ -96,7 +96,7 @@ impl Timeline {
             ui.strong(&name);
             for thumbnail in &thumbnails {
                 if let Thumbnail::Failed(why) = thumbnail {
-                    ui.colored_label(theme::BAD, why);
+                    ui.colored_label(theme::words(ui.visuals(), theme::BAD), why);
                 }
             }
             ui.label("Drag to retime, click to go there, right click for easing and more.");

@@ -21,6 +21,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorCo
     response.widget_info(|| WidgetInfo::slider(true, f64::from(frame), "Time ruler"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
+    shade(ui, rect, scale, editor);
     ticks(ui, rect, scale, editor);
     let held = response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary);
     if held && let Some(at) = response.interact_pointer_pos() {
@@ -42,6 +43,8 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
     let [step, tick] = scale.steps();
     let visuals = ui.visuals();
     let (strong, weak) = (visuals.text_color(), visuals.weak_text_color());
+    let played = playback::played(project, editor.session);
+    let is_played = |frame: i64| (i64::from(*played.start())..=i64::from(*played.end())).contains(&frame);
     if tick as f32 * scale.per_frame() >= 4.0 {
         for frame in scale.multiples(tick) {
             let x = painter.round_to_pixel_center(scale.x(frame as f64));
@@ -51,26 +54,27 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
     for frame in scale.multiples(step) {
         let x = painter.round_to_pixel_center(scale.x(frame as f64));
         painter.vline(x, rect.bottom() - 8.0..=rect.bottom(), Stroke::new(1.0, weak));
+        let unit = if step as f64 / fps < 0.1 { 100.0 } else { 10.0 };
         // Added to 0, the negative zero of frames just before the first is none.
-        let seconds = (100.0 * (frame - i64::from(first)) as f64 / fps).round() / 100.0 + 0.0;
+        let seconds = (unit * (frame - i64::from(first)) as f64 / fps).round() / unit + 0.0;
         let font = FontId::proportional(11.5);
-        painter.text(pos2(x + 4.0, rect.top() + 3.0), Align2::LEFT_TOP, frame, font, strong);
-        let text =
-            if step as f64 / fps < 0.1 { format!("{seconds:.2} s") } else { format!("{seconds:.1} s") };
+        let dimmed =
+            |colour: egui::Color32| if is_played(frame) { colour } else { colour.gamma_multiply(0.4) };
+        painter.text(pos2(x + 4.0, rect.top() + 3.0), Align2::LEFT_TOP, frame, font, dimmed(strong));
+        let text = if unit > 10.0 { format!("{seconds:.2} s") } else { format!("{seconds:.1} s") };
         painter.text(
             pos2(x + 4.0, rect.top() + 17.0),
             Align2::LEFT_TOP,
             text,
             FontId::proportional(9.5),
-            weak,
+            dimmed(weak),
         );
     }
 }
 
-/// Shades the frames outside of the marks, and shows the marks' handles.
-fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
-    let project = editor.document.project().clone();
-    let played = playback::played(&project, editor.session);
+/// Shades what is not played, beneath the numbers: that of the last frame stands to the right of its tick.
+fn shade(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
+    let played = playback::played(editor.document.project(), editor.session);
     let (from, to) = (scale.x(f64::from(*played.start())), scale.x(f64::from(*played.end())));
     let shade = ui.visuals().panel_fill.gamma_multiply(0.7);
     let painter = ui.painter_at(rect);
@@ -84,6 +88,10 @@ fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
         0.0,
         shade,
     );
+}
+
+/// The handles of the marks.
+fn marks(ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
     for (end, name) in ["In point", "Out point"].into_iter().enumerate() {
         let Some(frame) = editor.session.marks[end] else { continue };
         let x = scale.x(f64::from(frame));

@@ -71,6 +71,7 @@ fn input(ui: &Ui, transforming: &mut Transforming, shown: &Viewpoint) -> Option<
 
 /// The words below the view: the transform in progress, what the selected lamp does, or what the pointer does.
 pub(super) fn words(ui: &Ui, view: Rect, editor: &EditorContext, through: bool) {
+    let lamp = || lamp_words(editor).map(|(name, words)| format!("{name}: {words}"));
     let (strong, line) = match &editor.session.transforming {
         Some(transforming) => {
             let reason = transforming.scene().err().map_or_else(String::new, |reason| format!(" ({reason})"));
@@ -78,11 +79,11 @@ pub(super) fn words(ui: &Ui, view: Rect, editor: &EditorContext, through: bool) 
             (Some(format!("{}{reason}", transforming.words())), help)
         }
         None if through => (
-            lamp_words(editor),
+            lamp(),
             "Through the camera: drag orbits it, Shift pans, wheel dollies · 0 looks freely · click selects",
         ),
         None => (
-            lamp_words(editor),
+            lamp(),
             "Click selects · drag orbits, Shift pans, wheel zooms · G R S move, turn, scale · 0 through the camera",
         ),
     };

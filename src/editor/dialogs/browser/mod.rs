@@ -86,7 +86,8 @@ impl Browser {
         }
         let mut answer = None;
         let shown = modal(ctx, "file dialog").show(ctx, |ui| {
-            ui.set_width(LIST.x + PLACES + 24.0);
+            // The list has a margin, and stands apart from the places.
+            ui.set_width(LIST.x + PLACES + 16.0);
             ui.heading(self.purpose.title());
             ui.add_space(4.0);
             self.above(ui);
@@ -195,7 +196,12 @@ impl Browser {
                 };
                 area.show(ui, |ui| {
                     if let Some(problem) = &read.problem {
-                        ui.add(egui::Label::new(RichText::new(problem).color(theme::BAD)).wrap());
+                        ui.add(
+                            egui::Label::new(
+                                RichText::new(problem).color(theme::words(ui.visuals(), theme::BAD)),
+                            )
+                            .wrap(),
+                        );
                     }
                     ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
                         for entry in &read.entries {
@@ -284,7 +290,8 @@ impl Browser {
 
     fn ask_again(&mut self, ui: &mut Ui, path: PathBuf) -> Option<Option<PathBuf>> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        ui.colored_label(theme::WARN, format!("'{name}' already exists. Overwrite it?"));
+        let colour = theme::words(ui.visuals(), theme::WARN);
+        ui.colored_label(colour, format!("'{name}' already exists. Overwrite it?"));
         let mut answer = None;
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Overwrite").clicked() {

@@ -9,6 +9,8 @@ use super::Control;
 
 /// Width of a field beside a slider, points.
 const FIELD: f32 = 82.0;
+/// Width of a digit, points.
+const DIGIT: f32 = 7.2;
 /// Least width of a slider: below it there is only the field.
 const SLIDER: f32 = 48.0;
 
@@ -129,9 +131,16 @@ impl Control {
             String::new()
         };
         let before = value.to_f64();
+        // No wider than its place: the panel would grow.
+        let room = if suffix.is_empty() { ((width - 6.0) / DIGIT) as usize } else { usize::MAX };
+        let shown = move |value: f64| format::number_within(value, whole, room);
         let field = DragValue::from_get_set(|new| {
             if let Some(new) = new {
-                *value = T::from_f64(self.clamp(if whole { new.round() } else { new }));
+                let new = self.clamp(if whole { new.round() } else { new });
+                // Who leaves a field as it was has typed nothing: digits that are not shown stay.
+                if format::parse(&shown(before), "") != Some(new) {
+                    *value = T::from_f64(new);
+                }
             }
             value.to_f64()
         })
@@ -141,7 +150,7 @@ impl Control {
         .suffix(suffix)
         // What is typed counts when it is complete.
         .update_while_editing(false)
-        .custom_formatter(|value, _| format::number(value, whole))
+        .custom_formatter(move |value, _| shown(value))
         .custom_parser(|text| format::parse(text, self.setting.unit));
         // Long numbers need the room.
         ui.spacing_mut().button_padding.x = 2.0;

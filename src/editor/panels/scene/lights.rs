@@ -99,7 +99,7 @@ pub(super) fn show(
     let taken: Vec<String> = scene.lights.iter().map(|light| light.name().to_owned()).collect();
     let light = &mut scene.lights[index];
     section(ui, light.name());
-    if let Some(words) = lamp_words(editor) {
+    if let Some((_, words)) = lamp_words(editor) {
         ui.add(egui::Label::new(egui::RichText::new(words).small()).wrap());
     }
     if let Some(name) = NAME.text(ui, index, light.name()).filter(|name| !name.is_empty()) {
@@ -131,11 +131,11 @@ fn changed(old: &LightDesc, new: LightDesc) -> LightDesc {
     serde_json::from_value(values).unwrap_or(new)
 }
 
-/// Where the light of the selected lamp goes, in words: "key: 12 % of its light meets glass, 0.8 W reach the receiver".
-pub(in crate::editor) fn lamp_words(editor: &EditorContext) -> Option<String> {
+/// Where the light of the selected lamp goes, in words, after its name: "12 % of its light meets glass, 0.8 W reach the receiver".
+pub(in crate::editor) fn lamp_words(editor: &EditorContext) -> Option<(String, String)> {
     let index = editor.session.focus.object?.light()?;
     let scene = editor.document.project().scene.as_ref()?;
-    let name = scene.lights.get(index)?.name();
+    let name = scene.lights.get(index)?.name().to_owned();
     let light = editor.preview.lamp(index)?;
     let short = |watts: f64| {
         let watts = format!("{watts:.1e}").parse().unwrap_or(watts);
@@ -143,10 +143,10 @@ pub(in crate::editor) fn lamp_words(editor: &EditorContext) -> Option<String> {
     };
     let met = match light.power {
         Some(power) if power > 0.0 => format!("{} % of its light meets", short(100.0 * light.met / power)),
-        Some(_) => return Some(format!("{name}: gives no light")),
+        Some(_) => return Some((name, "gives no light".into())),
         None => format!("{} W meet", short(light.met)),
     };
-    Some(format!("{name}: {met} glass or mirrors, {} W reach the receiver through them", short(light.landed)))
+    Some((name, format!("{met} glass or mirrors, {} W reach the receiver through them", short(light.landed))))
 }
 
 fn values(ui: &mut Ui, light: &mut LightDesc) {

@@ -36,7 +36,7 @@ pub(super) fn show(
     scene: &mut SceneDesc,
     caustics: &mut [CausticDesc],
 ) {
-    let kind = |mesh: &MeshDesc| mesh.material.as_ref().map_or("as file", materials::name);
+    let kind = |mesh: &MeshDesc| mesh.material.as_ref().map_or("from file", materials::name);
     let names = scene.meshes.iter().map(|mesh| (mesh.name.clone(), kind(mesh))).collect::<Vec<_>>();
     objects::list(ui, editor, scene, "Mesh", &names, SceneObject::Mesh);
     let is_there = |index: &usize| *index < scene.meshes.len();

@@ -54,7 +54,9 @@ fn row(
         let chosen = selected == Some(object)
             || object.light().is_some_and(|own| selected.and_then(SceneObject::light) == Some(own));
         let text = if on { RichText::new(name) } else { RichText::new(name).weak() };
-        let button = Button::selectable(chosen, text).right_text(RichText::new(what).weak()).truncate();
+        // Weak words are lost on the colour of the selection.
+        let what = if chosen { RichText::new(what) } else { RichText::new(what).weak() };
+        let button = Button::selectable(chosen, text).right_text(what).truncate();
         let size = vec2(ui.available_width(), SIDE);
         if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
             editor.session.focus.object = (!chosen).then_some(object);
