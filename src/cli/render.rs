@@ -22,10 +22,14 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8> {
         let output = Output { existing, film, bake, ..Output::new(&args.out, progress, saved) };
         engine.render_to(project, &output)
     })?;
-    if summary.passes < summary.passes_planned {
-        eprintln!(
-            "lightloom: stopped early; every frame is there, at the quality reached so far; the same command goes on from there"
-        );
+    if summary.passes < summary.passes_planned || summary.frames_left > 0 {
+        let there = match summary.frames_left {
+            0 => "every frame is there, at the quality reached so far".to_owned(),
+            left => format!(
+                "there was no time for {left} frames, whose light is kept; the others are there, at the quality reached so far"
+            ),
+        };
+        eprintln!("lightloom: stopped early; {there}; the same command goes on from there");
         return Err(Error::Cancelled);
     }
     Ok(if summary.has_bad_frames() { BAD_FRAMES } else { 0 })
