@@ -70,7 +70,7 @@ pub fn background_from(
     scene: &Scene,
     settings: &RenderSettings,
     seed: u64,
-    (keep, every): (&dyn Fn(&BackgroundSamples) -> Result<()>, Duration),
+    (keep, every): (KeepSamples, Duration),
     progress: &Progress,
 ) -> Result<Background> {
     render(
@@ -127,6 +127,9 @@ fn render(
     Ok(tracer.finish(&samples.pixels, floor))
 }
 
+/// Keeps samples for a run that takes them up.
+pub type KeepSamples<'a> = &'a dyn Fn(&BackgroundSamples) -> Result<()>;
+
 /// The samples of a picture on the way.
 #[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct BackgroundSamples {
@@ -150,7 +153,7 @@ impl BackgroundSamples {
 #[derive(Default)]
 struct Keeper<'a> {
     /// What keeps them, and how often.
-    keep: Option<(&'a dyn Fn(&BackgroundSamples) -> Result<()>, Duration)>,
+    keep: Option<(KeepSamples<'a>, Duration)>,
     /// None before the first offer.
     due: Option<Instant>,
 }

@@ -30,7 +30,9 @@ mod fireflies;
 mod in_view;
 mod sampler;
 
-pub use background::{Background, BackgroundSamples, background, background_from, rough_background};
+pub use background::{
+    Background, BackgroundSamples, KeepSamples, background, background_from, rough_background,
+};
 pub use fireflies::ClampedLight;
 pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};
