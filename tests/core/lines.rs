@@ -54,7 +54,7 @@ fn the_field_follows_a_line_ever_closer_as_beta_grows() {
 }
 
 #[test]
-fn light_three_widths_away_keeps_its_speed() {
+fn light_four_widths_away_keeps_its_speed() {
     let width = 0.05;
     for gamma in [0.0, 0.5, 1.0] {
         let free = field(&[], &settings(gamma, 100.0));
@@ -62,7 +62,7 @@ fn light_three_widths_away_keeps_its_speed() {
             let steered = field(&[upwards(width)], &settings(gamma, beta));
             let away = everywhere(60).into_iter().filter(|p| {
                 let nearest = Vec2::new(0.5, p.y.clamp(0.35, 0.65));
-                p.distance(nearest) > 3.0 * width
+                p.distance(nearest) > 4.0 * width
             });
             let change = away.map(|p| {
                 let (u, v) = (steered.velocity(p), free.velocity(p));

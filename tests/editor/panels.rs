@@ -11,6 +11,7 @@ use lightloom::editor::look::object::SceneObject;
 use lightloom::editor::panels::{PANELS, PanelInfo};
 use lightloom::editor::selection::Selection;
 use lightloom::editor::session::{Focus, Panel};
+use lightloom_core::constraint::{Constraint, Wall};
 use lightloom_core::project::Project;
 use support::{PanelHarness, examples, panel_harness};
 
@@ -19,6 +20,14 @@ fn focused(project: &Project) -> impl Iterator<Item = (&'static PanelInfo, Focus
     PANELS
         .iter()
         .flat_map(|entry| support::firsts(project, entry.panel).into_iter().map(move |focus| (entry, focus)))
+}
+
+fn with_two_walls() -> Project {
+    let mut project = support::example("letters");
+    let mut lower = Wall::new(vec![[0.35, 0.405], [0.62, 0.34]]);
+    lower.name = "lower hollow".to_owned();
+    project.constraints.push(Constraint::Wall(lower));
+    project
 }
 
 /// The last edit that was asked for.
@@ -119,7 +128,7 @@ fn a_preset_sets_the_flow_in_one_click() {
 
 #[test]
 fn a_click_selects_what_was_drawn_and_ctrl_adds() {
-    let mut harness = panel_harness(support::example("letters"), Panel::Drawn);
+    let mut harness = panel_harness(with_two_walls(), Panel::Drawn);
     harness.get_by_label("upper hollow").click();
     harness.run();
     assert_eq!(harness.state().session.selection, Selection::one(0));
@@ -129,14 +138,14 @@ fn a_click_selects_what_was_drawn_and_ctrl_adds() {
     harness.get_by_role_and_label(Role::Slider, "Thickness").set_value_accesskit(0.1);
     harness.run();
     for constraint in &harness.state().document.project().constraints {
-        let lightloom_core::constraint::Constraint::Wall(wall) = constraint else { panic!("a wall") };
+        let Constraint::Wall(wall) = constraint else { panic!("a wall") };
         assert_eq!(wall.thickness, 0.1);
     }
 }
 
 #[test]
 fn what_is_locked_keeps_its_values_and_stays() {
-    let mut harness = panel_harness(support::example("letters"), Panel::Drawn);
+    let mut harness = panel_harness(with_two_walls(), Panel::Drawn);
     harness.get_by_label("Lock: upper hollow").click();
     harness.run();
     harness.state_mut().session.selection = Selection::all([0, 1]);

@@ -1,7 +1,7 @@
 //! Directed lines that the flow follows, Term (6).
 //!
 //! A line asks the field for its own direction, along itself and, with falling weight, up to `width` beside it; its
-//! strength is beta times its weight; beyond three widths it changes nothing. The speed asked for is that of the photons
+//! strength is beta times its weight; beyond four widths it changes nothing. The speed asked for is that of the photons
 //! around it times a factor. Houdini's POP Curve Incompressible Flow is the same idea at gamma 0.
 
 use glam::Vec2;
