@@ -63,7 +63,8 @@ impl FrameWriter<'_> {
         progress: &Progress,
     ) -> Result<Written> {
         progress.begin("write", requested.len() as u64);
-        let left = AtomicUsize::new(0);
+        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
+        let done = AtomicUsize::new(0);
         let view = self.lights.project.render.view.view();
         let pictures = self.lights.pictures;
         let hits = pictures.first_hits.as_deref();
@@ -74,12 +75,12 @@ impl FrameWriter<'_> {
                     return Err(Error::Cancelled);
                 }
                 if progress.is_late() {
-                    left.fetch_add(usize::from(light.is_some()), Relaxed);
                     return Ok((frame, RepairedSamples::default()));
                 }
                 let (look, light) = ((&backdrop, &view), light.as_ref());
                 let written = light.map(|light| self.frame(frame, light, look, disk)).transpose()?;
                 film.map_or(Ok(()), |film| self.keep((index, frame), light, look, film))?;
+                done.fetch_add(usize::from(light.is_some()), Relaxed);
                 progress.advance(1);
                 Ok((frame, written.unwrap_or_default()))
             };
@@ -87,23 +88,27 @@ impl FrameWriter<'_> {
             if progress.ends_soon() {
                 frames.sort_by_key(|(index, _)| index.reverse_bits());
             }
-            self.in_batches(times, &frames, write)
+            // What is too late is not even gathered.
+            let slot = |frame| rendered.get(&frame).copied().filter(|_| !progress.is_late());
+            self.in_batches(times, slot, &frames, write)
         })?;
         let thumbnails = if progress.is_late() { Vec::new() } else { self.write_sheet(times, requested)? };
-        Ok(Written { bad_values: BadValues::sum(&repairs), thumbnails, left: left.into_inner() })
+        let wanted = requested.iter().filter(|frame| rendered.contains_key(frame)).count();
+        let left = wanted - done.into_inner();
+        Ok(Written { bad_values: BadValues::sum(&repairs), thumbnails, left })
     }
 
-    /// Calls `write` with each frame and its place among those requested, and its light where it is rendered: those of one batch in
+    /// Calls `write` with each frame and its place among those requested, and its light where it has a slot: those of one batch in
     /// parallel, while the light of the next is gathered.
     fn in_batches(
         &self,
         times: &FrameTimes,
+        slot: impl Fn(i32) -> Option<usize> + Sync,
         frames: &[(usize, i32)],
         write: impl Fn(&(usize, i32), Option<FrameLight>) -> Result<(i32, RepairedSamples)> + Sync,
     ) -> Result<Vec<(i32, RepairedSamples)>> {
-        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
         let light = |frames: &[(usize, i32)]| {
-            let slots: Vec<_> = frames.iter().map(|(_, frame)| rendered.get(frame).copied()).collect();
+            let slots: Vec<_> = frames.iter().map(|(_, frame)| slot(*frame)).collect();
             let moments: Vec<_> = slots.iter().flatten().map(|&slot| (slot, times.moments[slot])).collect();
             let mut lights = self.lights.of(&moments)?.into_iter();
             Ok::<_, Error>(slots.into_iter().map(|slot| slot.and_then(|_| lights.next())).collect::<Vec<_>>())
