@@ -143,7 +143,7 @@ fn light_that_is_shut_off_is_counted_and_said() {
 fn walls_that_touch_are_named_and_a_thick_one_over_all_the_light_does_no_harm() {
     let report =
         check(json!([wall(json!([[0.5, 0.2], [0.5, 0.8]])), wall(json!([[0.2, 0.5], [0.49, 0.5]]))]));
-    assert!(texts(&report.notes).join("\n").contains("walls 0 and 1"));
+    assert!(texts(&report.notes).join("\n").contains("wall 1 and wall 2 touch"));
     let huge = json!({ "type": "wall", "points": [[0.2, 0.2], [0.3, 0.7]], "thickness": 0.5 });
     notes_of(huge);
 }
