@@ -2,8 +2,9 @@
 //!
 //! The archive holds the program, its desktop entry, the file type `.lightloom`, icons, the notices of all libraries that the
 //! program is built from, and `install.sh`, which puts them where a desktop finds them. `--target x86_64-unknown-linux-gnu.2.28` builds with
-//! `cargo zigbuild` for systems from that version of the C library on; otherwise the program needs that of the machine it was built on.
-//! `--program FILE` packs one that is built already.
+//! `cargo zigbuild` (`pip install cargo-zigbuild ziglang`) for systems from that version of the C library on; otherwise the program needs
+//! that of the machine it was built on. `--program FILE` packs one that is built already. What a program needs is read from it; one that needs a
+//! newer C library than its target has is refused.
 
 mod archive;
 mod glibc;
@@ -29,11 +30,12 @@ const ICON_SIZES: [u32; 6] = [16, 32, 48, 64, 128, 256];
 
 fn main() -> io::Result<()> {
     let Arguments { out, target, program } = arguments(env::args().skip(1)).map_err(|what| {
-        let usage = "lightloom_package --out DIR [--target TRIPLE.GLIBC | --program FILE]";
+        let usage = "lightloom_package --out DIR [--target TRIPLE.GLIBC] [--program FILE]";
         io::Error::other(format!("{what}; use: {usage}"))
     })?;
     let program = program.map_or_else(|| build(target.as_deref()), Ok)?;
     let needed = glibc::newest(&fs::read(&program)?);
+    glibc::require(needed, target.as_deref()).map_err(io::Error::other)?;
     let name = format!("lightloom-{}-{}-linux", env!("CARGO_PKG_VERSION"), env::consts::ARCH);
     fs::create_dir_all(&out)?;
     let path = out.join(format!("{name}.tar.gz"));
@@ -48,7 +50,7 @@ fn main() -> io::Result<()> {
 struct Arguments {
     /// The folder of the archive.
     out: PathBuf,
-    /// What the program is built for.
+    /// What the program is built for, or was: a triple, with a version of the C library where that matters.
     target: Option<String>,
     /// A program that is built already.
     program: Option<PathBuf>,

@@ -37,7 +37,7 @@ impl Claimed {
 
     /// Whether it was stopped before its passes were done.
     pub(super) fn is_stopped(&self) -> bool {
-        self.chunks.iter().any(|chunk| chunk.passes < chunk.passes_planned)
+        self.chunks.iter().any(Summary::is_stopped)
     }
 }
 

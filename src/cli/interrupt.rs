@@ -11,6 +11,9 @@ use signal_hook::flag;
 /// How often signals are looked for: a cancellation takes less than half a second.
 const PERIOD: Duration = Duration::from_millis(50);
 
+/// How long a run that the system ends still writes frames: farms kill what is there after ten seconds or more.
+const GRACE: Duration = Duration::from_secs(7);
+
 /// A signal that ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Signal(i32);
@@ -40,8 +43,8 @@ pub(super) fn stops(progress: &Progress) {
     for number in [SIGINT, SIGTERM] {
         let listen = || {
             flag::register_conditional_shutdown(number, 128 + number, come.clone())?;
-            flag::register(number, come.clone())?;
-            flag::register_usize(number, last().clone(), usize::try_from(number).unwrap_or_default())
+            flag::register_usize(number, last().clone(), usize::try_from(number).unwrap_or_default())?;
+            flag::register(number, come.clone())
         };
         if let Err(error) = listen() {
             eprintln!("lightloom: signal {number} stops at once and keeps nothing: {error}");
@@ -53,6 +56,9 @@ pub(super) fn stops(progress: &Progress) {
         while !come.load(Relaxed) {
             std::thread::sleep(PERIOD);
         }
-        progress.cancel();
+        match signal() {
+            Some(Signal(SIGTERM)) => progress.cancel_within(GRACE),
+            _ => progress.cancel(),
+        }
     });
 }

@@ -14,7 +14,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8> {
         (_, true) => Existing::Skip,
         _ => Existing::Refuse,
     };
-    let (stopped, bad) = match args.claim {
+    let (parts, stopped) = match args.claim {
         None => {
             let summary = job::run(&args.project, &args.out, |engine, project, progress, saved| {
                 if let Some(film) = film {
@@ -23,21 +23,27 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8> {
                 let output = Output { existing, film, bake, ..Output::new(&args.out, progress, saved) };
                 engine.render_to(project, &output)
             })?;
-            (summary.passes < summary.passes_planned, summary.has_bad_frames())
+            let stopped = summary.is_stopped();
+            (vec![summary], stopped)
         }
         Some(size) => {
             let claimed = job::run(&args.project, &args.out, |engine, project, progress, saved| {
                 let output = Output { existing, bake, is_part, ..Output::new(&args.out, progress, saved) };
                 claim::run(engine, project, &output, size as usize)
             })?;
-            (claimed.is_stopped(), claimed.chunks.iter().any(Summary::has_bad_frames))
+            let stopped = claimed.is_stopped();
+            (claimed.chunks, stopped)
         }
     };
     if stopped {
-        eprintln!(
-            "lightloom: stopped early; every frame is there, at the quality reached so far; the same command goes on from there"
-        );
+        let there = match parts.iter().map(|part| part.frames_left).sum() {
+            0_usize => "every frame is there, at the quality reached so far".to_owned(),
+            left => format!(
+                "there was no time for {left} frames, whose light is kept; the others are there, at the quality reached so far"
+            ),
+        };
+        eprintln!("lightloom: stopped early; {there}; the same command goes on from there");
         return Err(Error::Cancelled);
     }
-    Ok(if bad { BAD_FRAMES } else { 0 })
+    Ok(if parts.iter().any(Summary::has_bad_frames) { BAD_FRAMES } else { 0 })
 }

@@ -84,6 +84,14 @@ impl Error {
         Self::Value { place: place.into(), what: what.into() }
     }
 
+    /// The same error; one of a value tells `whose` it is, besides its place: `wall "upper hollow"`.
+    pub fn of(self, whose: &str) -> Self {
+        match self {
+            Self::Value { place, what } => Self::Value { place, what: format!("{what} ({whose})") },
+            error => error,
+        }
+    }
+
     /// The same error with notes, unless there are none, or nothing is wrong.
     pub fn with_notes(self, more: &[Note]) -> Self {
         match self {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::{Error, Result};
@@ -19,6 +19,8 @@ pub struct Progress {
 struct Control {
     cancelled: AtomicBool,
     abandoned: AtomicBool,
+    /// When the work must end, where it was told.
+    deadline: OnceLock<Instant>,
     /// Whether `pause` is active: read often, and cheaper than its lock.
     paused: AtomicBool,
     pause: Mutex<Pause>,
@@ -119,6 +121,23 @@ impl Progress {
     /// Whether a stop was requested.
     pub fn is_cancelled(&self) -> bool {
         self.control.cancelled.load(Relaxed)
+    }
+
+    /// As [`Self::cancel`]; what keeps results ends within `time`, and leaves out what takes longer.
+    pub fn cancel_within(&self, time: Duration) {
+        // The first counts.
+        let _ = self.control.deadline.set(Instant::now() + time);
+        self.cancel();
+    }
+
+    /// Whether there is a time by which the work must end.
+    pub fn ends_soon(&self) -> bool {
+        self.control.deadline.get().is_some()
+    }
+
+    /// Whether the time is over by which the work must end.
+    pub fn is_late(&self) -> bool {
+        self.control.deadline.get().is_some_and(|deadline| Instant::now() >= *deadline)
     }
 
     /// As [`Self::cancel`], but complete results are dropped too: no more files are written.

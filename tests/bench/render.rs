@@ -98,7 +98,13 @@ fn write(bencher: Bencher<'_, '_>, format: FrameFormat) {
         settings: Vec::new(),
     };
     let backdrop = Backdrop::new(&FrameLayer::DEFAULT, &background, None);
-    let frame = Frame { backdrop: &backdrop, caustic: &caustic, caustics: &[], metadata: &metadata };
+    let frame = Frame {
+        backdrop: &backdrop,
+        caustic: &caustic,
+        caustics: &[],
+        metadata: &metadata,
+        compressed: true,
+    };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("frame.0001");
     let view = ViewSettings::default().view();

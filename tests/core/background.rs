@@ -2,10 +2,12 @@
 
 use std::f32::consts::PI;
 use std::fmt::Write;
+use std::time::Duration;
 
 use glam::{Vec3, vec2};
 use lightloom_core::render::{
-    GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background, layout_for,
+    BackgroundSamples, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
+    background_from, layout_for,
 };
 use lightloom_core::scene::light::{LightDesc, LightRole, PointLight, RectangleLight};
 use lightloom_core::scene::material::{Diffuse, Glass, Material, Mirror};
@@ -245,4 +247,32 @@ fn a_cancelled_render_stops() {
     progress.cancel();
     let scene = scene(None, Vec::new(), 1.0);
     assert!(matches!(background(&scene, &settings(4), 1, &progress), Err(Error::Cancelled)));
+}
+
+#[test]
+fn samples_that_were_kept_are_taken_up_with_the_same_picture() {
+    let lamp = LightDesc::Rectangle(RectangleLight {
+        position: [0.0, 3.0, 0.0],
+        target: [0.0; 3],
+        ..RectangleLight::default()
+    });
+    let scene = scene(Some((ball(), Material::Glass(Glass::default()), at(1.0, 0.5))), vec![lamp], 0.1);
+    // More rows than are traced at once.
+    let settings = RenderSettings { width: 12, height: 150, background_samples: 4, ..settings(4) };
+    let kept = std::sync::Mutex::new(Vec::new());
+    let keep = |samples: &BackgroundSamples| {
+        kept.lock().unwrap().push(serde_json::to_string(samples).unwrap());
+        Ok(())
+    };
+    let render = |from| {
+        let keeps = (&keep as &dyn Fn(&BackgroundSamples) -> Result<(), Error>, Duration::ZERO);
+        background_from(from, &scene, &settings, 3, keeps, &Progress::new()).unwrap().image
+    };
+    let whole = background(&scene, &settings, 3, &Progress::new()).unwrap().image;
+    assert!(render(None) == whole);
+    let kept = std::mem::take(&mut *kept.lock().unwrap());
+    assert!(kept.len() > 2 && kept.iter().any(|samples| !samples.contains("\"rows\":0")));
+    for samples in [&kept[0], &kept[kept.len() / 2], &kept[kept.len() - 1]] {
+        assert!(render(Some(serde_json::from_str(samples).unwrap())) == whole);
+    }
 }

@@ -77,7 +77,7 @@ pub(crate) fn wall(points: Value) -> Value {
 fn dots_and_empty_strokes_do_nothing_and_are_named() {
     for points in [json!([]), json!([[0.5, 0.5]]), json!([[0.5, 0.5], [0.5, 0.5], [0.5, 0.5]])] {
         for stroke in [line(points.clone()), wall(points.clone())] {
-            assert!(notes_of(stroke).contains("constraints[0]: is no longer than a dot"));
+            assert!(notes_of(stroke).contains(" 1 is no longer than a dot"));
         }
     }
 }
@@ -108,7 +108,18 @@ fn a_note_says_what_it_is_about() {
     let told: Value = serde_json::from_str(&report.to_json()).unwrap();
     let [_, note] = &told["notes"].as_array().unwrap()[..] else { panic!("{told}") };
     assert_eq!((&note["kind"], &note["object"]), (&json!("constraint"), &json!("constraints[1]")));
-    assert!(note["text"].as_str().unwrap().contains("reaches the border"));
+    assert!(note["text"].as_str().unwrap().starts_with("wall 2 reaches the border"));
+    // By the artist's name, where there is one: in an error beside its place in the file.
+    let named = |thickness: f64| {
+        let points = [[0, 0], [1, 1]];
+        json!({ "type": "wall", "name": "upper hollow", "points": points, "thickness": thickness })
+    };
+    assert!(notes_of(named(0.01)).contains("wall \"upper hollow\" is 0.32 cells thick"));
+    let error = project(json!([named(0.0)])).unwrap_err().to_string();
+    assert!(
+        error.contains("constraints[0].thickness: ") && error.ends_with("(wall \"upper hollow\")"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -132,7 +143,7 @@ fn light_that_is_shut_off_is_counted_and_said() {
 fn walls_that_touch_are_named_and_a_thick_one_over_all_the_light_does_no_harm() {
     let report =
         check(json!([wall(json!([[0.5, 0.2], [0.5, 0.8]])), wall(json!([[0.2, 0.5], [0.49, 0.5]]))]));
-    assert!(texts(&report.notes).join("\n").contains("walls 0 and 1"));
+    assert!(texts(&report.notes).join("\n").contains("wall 1 and wall 2 touch"));
     let huge = json!({ "type": "wall", "points": [[0.2, 0.2], [0.3, 0.7]], "thickness": 0.5 });
     notes_of(huge);
 }

@@ -38,7 +38,7 @@ fn metadata() -> Metadata {
 }
 
 fn frame<'a>(backdrop: &'a Backdrop<'a>, caustic: &'a Image, metadata: &'a Metadata) -> Frame<'a> {
-    Frame { backdrop, caustic, caustics: &[], metadata }
+    Frame { backdrop, caustic, caustics: &[], metadata, compressed: true }
 }
 
 fn backdrop(background: &Image) -> Backdrop<'_> {

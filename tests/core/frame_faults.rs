@@ -43,7 +43,8 @@ fn victim_writes_frames() {
         settings: vec![("gamma".into(), "0.5".into())],
     };
     let backdrop = Backdrop::new(&FrameLayer::DEFAULT, &light, None);
-    let frame = Frame { backdrop: &backdrop, caustic: &light, caustics: &[], metadata: &metadata };
+    let frame =
+        Frame { backdrop: &backdrop, caustic: &light, caustics: &[], metadata: &metadata, compressed: true };
     for (format, name) in [(FrameFormat::Exr, "a.0001.exr"), (FrameFormat::Png, "a.0001.png")] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);

@@ -128,6 +128,23 @@ fn work_that_was_cut_off_reads_the_picked_files_again_without_a_question() {
 }
 
 #[test]
+fn work_whose_owner_is_still_dying_when_the_window_opens_is_offered_once_it_is_gone() {
+    let folder = examples();
+    let (_far, logo) = logo();
+    let mut dying = window(&folder, "letters_free", vec![PickResult::Picked(logo)]);
+    pick_picture(&mut dying);
+    click(&mut dying, "Copy beside the project");
+    until(&mut dying, "the picture", |app| app.document().is_unsaved());
+    dying.run_steps(3);
+    let mut harness = window(&folder, "dark_glass", Vec::new());
+    // The first look finds nothing.
+    until(&mut harness, "the light", |app| app.preview().is_current());
+    assert!(harness.query_by_label("Recover").is_none());
+    drop(dying);
+    until_seen(&mut harness, "Recover");
+}
+
+#[test]
 fn a_project_that_names_files_elsewhere_asks_when_it_is_opened() {
     let folder = examples();
     let (_far, logo) = logo();

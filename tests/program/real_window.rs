@@ -8,6 +8,7 @@ use crate::window;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use egui::Rect;
@@ -39,7 +40,8 @@ impl Drop for Screen {
 impl Screen {
     /// A screen of its own number; none where there is no Xvfb.
     fn start(folder: &Path) -> Option<Self> {
-        let display = format!(":{}", 200 + std::process::id() % 700);
+        static SCREENS: AtomicU32 = AtomicU32::new(0);
+        let display = format!(":{}", 200 + (4 * std::process::id() + SCREENS.fetch_add(1, Relaxed)) % 2800);
         let mut server = Command::new("Xvfb");
         server.args([&display, "-screen", "0", "1440x900x24", "-nolisten", "tcp"]);
         let server = server.stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()?;
@@ -141,13 +143,26 @@ fn places(folder: &tempfile::TempDir) -> Places {
     Places { plane, gamma, frames, export: harness.get_by_label("Export 60 frames").rect() }
 }
 
+/// Exports frames 1 to 5 by hand.
+fn export_five_frames(screen: &Screen, Places { frames, export, .. }: &Places) {
+    screen.key("ctrl+e");
+    // A busy machine shows the window late; a click before would go to what lies beneath.
+    std::thread::sleep(Duration::from_millis(1500));
+    let middle = |place: Rect| [place.center().x, place.center().y];
+    screen.click(middle(*frames));
+    screen.key("ctrl+a");
+    screen.tool(&["type", "1-5"]);
+    screen.key("Tab");
+    screen.click(middle(*export));
+}
+
 /// The example with frames that are rendered in no time.
-fn make_small(path: &Path) {
+fn make_small(path: &Path, passes: usize) {
     let text = fs::read_to_string(path).unwrap();
     let size = r#""width": 720, "height": 720, "photons": 500000, "passes": 8"#;
     assert!(text.contains(size), "the example says its size in other words");
-    let small = r#""width": 96, "height": 96, "photons": 6000, "passes": 1"#;
-    fs::write(path, text.replace(size, small)).unwrap();
+    let small = format!(r#""width": 96, "height": 96, "photons": 6000, "passes": {passes}"#);
+    fs::write(path, text.replace(size, &small)).unwrap();
 }
 
 #[test]
@@ -158,9 +173,10 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path);
+    make_small(&path, 1);
     let original = fs::read(&path).unwrap();
-    let Places { plane, gamma, frames, export } = places(&folder);
+    let places = places(&folder);
+    let (plane, gamma) = (places.plane, places.gamma);
     fs::create_dir_all(folder.path().join("config")).unwrap();
     window::preferences().save(&folder.path().join("config")).unwrap();
     let Some(()) = screen.open(&path) else {
@@ -190,15 +206,7 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     screen.until("both undone in the file", || saved().constraints.is_empty() && saved().flow.gamma == 0.25);
     assert_eq!(fs::read(&path).unwrap(), original);
 
-    screen.key("ctrl+e");
-    // A busy machine shows the window late; a click before would go to what lies beneath.
-    std::thread::sleep(Duration::from_millis(1500));
-    let middle = |place: Rect| [place.center().x, place.center().y];
-    screen.click(middle(frames));
-    screen.key("ctrl+a");
-    screen.tool(&["type", "1-5"]);
-    screen.key("Tab");
-    screen.click(middle(export));
+    export_five_frames(&screen, &places);
     let folder = ExportOptions::of(&saved(), Some(&path)).folder;
     screen.until("the export", || folder.join("summary.json").is_file());
     let pictures =
@@ -213,5 +221,51 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     while program.try_wait().unwrap().is_none() {
         assert!(begun.elapsed() < Duration::from_secs(60), "the window does not close");
         std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn an_export_that_was_killed_is_offered_and_ends_with_the_bytes_of_the_command_line() {
+    let folder = window::examples();
+    let Some(mut screen) = Screen::start(folder.path()) else {
+        eprintln!("no Xvfb or no xdotool: no window is tested");
+        return;
+    };
+    let path = window::project(&folder, "letters_free");
+    make_small(&path, 150);
+    let places = places(&folder);
+    fs::create_dir_all(folder.path().join("config")).unwrap();
+    window::preferences().save(&folder.path().join("config")).unwrap();
+    let Some(()) = screen.open(&path) else {
+        eprintln!("nothing draws on a screen here: no window is tested");
+        return;
+    };
+    export_five_frames(&screen, &places);
+    let out = ExportOptions::of(&Project::load(&path).unwrap(), Some(&path)).folder;
+    let passes_kept = || {
+        let entries = fs::read_dir(&out).into_iter().flatten().flatten();
+        entries
+            .filter_map(|entry| fs::metadata(entry.path().join("journal")).ok())
+            .any(|file| file.len() > 200)
+    };
+    screen.until("light that is kept", passes_kept);
+    let program = screen.program.as_mut().unwrap();
+    program.kill().unwrap();
+    program.wait().unwrap();
+    assert!(!out.join("summary.json").exists(), "the export was over too soon");
+
+    screen.open(&path).unwrap();
+    // The export is offered; yes.
+    screen.key("Return");
+    screen.until("the export", || out.join("summary.json").is_file());
+    let text = fs::read_to_string(out.join("summary.json")).unwrap();
+    assert!(text.contains("passes of an earlier run"), "{text}");
+    let alone = folder.path().join("alone");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lightloom"));
+    command.args(["render", path.to_str().unwrap(), "--frames", "1-5", "--out", alone.to_str().unwrap()]);
+    assert!(command.output().unwrap().status.success());
+    for entry in fs::read_dir(&alone).unwrap().map(|entry| entry.unwrap().file_name()) {
+        let same = fs::read(alone.join(&entry)).unwrap() == fs::read(out.join(&entry)).unwrap();
+        assert!(same || entry == "summary.json", "{entry:?} has other bytes");
     }
 }

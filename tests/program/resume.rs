@@ -140,6 +140,10 @@ fn parts_that_start_from_a_bake_have_the_bytes_of_one_render() {
         };
         assert!(sheet(files(&whole)) == files(&parts), "{name}: parts have other bytes than the whole");
         run(0, &["sheet", text(&parts)]);
+        assert!(
+            files(&whole) == files(&parts),
+            "{name}: the sheet of the files has other bytes than that of the render"
+        );
         run(0, &["verify", text(&parts), "--bake", text(&bake), "--frames", "1,4,8-9"]);
         let other =
             ["render", project, "--out", text(&parts), "--bake", text(&bake), "--frames", "1", "--seed", "9"];

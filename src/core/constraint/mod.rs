@@ -15,7 +15,7 @@ mod common;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use barrier::Barriers;
+pub use barrier::{Barriers, Closed};
 pub use common::Common;
 pub use directed_line::{ActiveLine, DirectedLine};
 pub use span::{Span, Window};
@@ -48,6 +48,15 @@ pub struct CommonFields<'a> {
 }
 
 impl Constraint {
+    /// Its name as the artist reads it, such as `wall "upper hollow"`; one without is called by its number among all, from 1.
+    pub fn called(&self, index: usize) -> String {
+        let (kind, name) = match self {
+            Self::DirectedLine(line) => ("directed line", &line.name),
+            Self::Wall(wall) => ("wall", &wall.name),
+        };
+        if name.is_empty() { format!("{kind} {}", index + 1) } else { format!("{kind} \"{name}\"") }
+    }
+
     /// Refuses values out of range; `place` is the path of this constraint, such as `constraints[0]`.
     ///
     /// # Errors

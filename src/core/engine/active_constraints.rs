@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use crate::Note;
-use crate::constraint::{ActiveLine, ActiveWall, Barriers, Constraint, Window, stroke};
+use crate::constraint::{ActiveLine, ActiveWall, Barriers, Closed, Constraint, Window, stroke};
 use crate::export::{MAGENTA, ORANGE, OverlayLine};
 use crate::note::About;
 use crate::project::Project;
@@ -89,7 +89,7 @@ pub(super) fn notes(project: &Project, extent: Vec2) -> Vec<Note> {
         } else {
             odd(constraint, extent, cell)
         };
-        notes.extend(odd.map(|odd| About::Constraint(i).note(format!("constraints[{i}]: {odd}"))));
+        notes.extend(odd.map(|odd| About::Constraint(i).note(format!("{} {odd}", constraint.called(i)))));
     }
     for segment in 0..project.keys.len() - 1 {
         notes.extend(notes_on_segment(project, segment, extent));
@@ -112,9 +112,23 @@ fn notes_on_segment(project: &Project, segment: usize, extent: Vec2) -> Vec<Note
         }
     }
     let barriers = Barriers::new(&walls.iter().collect::<Vec<_>>(), extent);
-    let of_walls = barriers.notes().iter();
-    let of_walls = of_walls.map(|(wall, text)| About::Constraint(drawn_as[*wall]).note(text));
-    of_walls.chain(conflict(&lines)).collect()
+    let called = |index: usize| project.constraints[index].called(index);
+    let of_walls = barriers.closed().iter().map(|closed| match *closed {
+        Closed::Between(a, b) => {
+            let [a, b] = [a, b].map(|wall| drawn_as[wall]);
+            About::Constraint(a).note(format!(
+                "{} and {} touch, or leave a gap narrower than they are thick: it is closed",
+                called(a),
+                called(b)
+            ))
+        }
+        Closed::Across(wall) => {
+            let wall = drawn_as[wall];
+            let what = "reaches the border at both ends: no way leads around it";
+            About::Constraint(wall).note(format!("{} {what}", called(wall)))
+        }
+    });
+    of_walls.chain(conflict(&lines, called)).collect()
 }
 
 /// A note on one constraint on the receiver.
@@ -146,17 +160,21 @@ fn odd(constraint: &Constraint, extent: Vec2, cell: f32) -> Option<String> {
 }
 
 /// Lines that ask for opposite directions in one place.
-fn conflict(lines: &[(usize, ActiveLine)]) -> Option<Note> {
-    let mut seen: std::collections::BTreeMap<[i32; 2], Vec2> = Default::default();
+fn conflict(lines: &[(usize, ActiveLine)], called: impl Fn(usize) -> String) -> Option<Note> {
+    let mut seen: std::collections::BTreeMap<[i32; 2], (usize, Vec2)> = Default::default();
     let places = lines
         .iter()
         .flat_map(|(index, line)| line.positions.iter().zip(&line.directions).map(|of| (*index, of)));
     for (index, (place, &direction)) in places {
         let cell = (*place * CELLS).floor().as_ivec2().to_array();
-        let first = *seen.entry(cell).or_insert(direction);
+        let (other, first) = *seen.entry(cell).or_insert((index, direction));
         if first.dot(direction) < -0.5 {
+            let who = match other == index {
+                true => format!("{} contradicts itself", called(index)),
+                false => format!("{} and {} contradict each other", called(other), called(index)),
+            };
             return Some(About::Constraint(index).note(format!(
-                "directed lines contradict each other near ({:.2}, {:.2}): the field takes the mean of what they ask for",
+                "{who} near ({:.2}, {:.2}): the field takes the mean of what is asked for",
                 place.x, place.y
             )));
         }

@@ -1,7 +1,7 @@
 //! Results of stages in files, so that another process need not make them again: before the first pass of a render nothing
 //! else takes time.
 
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -119,10 +119,18 @@ impl Bake {
     /// # Errors
     /// The system refuses.
     pub(super) fn keep<T: Serialize>(&self, name: &str, result: &T) -> Result<()> {
-        let path = self.path(name);
-        if !self.grows || path.exists() {
+        if !self.grows || self.path(name).exists() {
             return Ok(());
         }
+        self.replace(name, result)
+    }
+
+    /// Keeps a result in place of an earlier one.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub(super) fn replace<T: Serialize>(&self, name: &str, result: &T) -> Result<()> {
+        let path = self.path(name);
         let content = postcard::to_stdvec(result)
             .map_err(|error| Error::format(&path, "", format!("cannot be made: {error}")))?;
         write_atomic(&path, |file| {
@@ -131,6 +139,18 @@ impl Bake {
             file.write_all(&content)?;
             file.write_all(&crc32fast::hash(&content).to_le_bytes())
         })
+    }
+
+    /// Removes a result, where there is one.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub(super) fn remove(&self, name: &str) -> Result<()> {
+        let path = self.path(name);
+        match std::fs::remove_file(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(Error::io("remove", &path)(error)),
+            _ => Ok(()),
+        }
     }
 
     fn path(&self, name: &str) -> PathBuf {

@@ -1,6 +1,7 @@
 //! The camera's stages: the visible points of the receiver, the picture without caustics, and the light that does not flow.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use glam::Vec2;
 
@@ -13,13 +14,17 @@ use super::prepare::Prepared;
 use super::stages::Stages;
 use super::still_light::{StillLight, shares};
 use crate::project::{Project, SegmentTime};
-use crate::render::density::radius_of_pass;
 use crate::render::{
-    Background, FirstHits, GatherMatrix, Image, ReceiverTexture, RenderSettings, TextureLayout, background,
-    first_radius, layout_for, rough_background,
+    Background, BackgroundSamples, FirstHits, GatherMatrix, Image, ReceiverTexture, RenderSettings,
+    TextureLayout, background, background_from, rough_background,
 };
 use crate::scene::Scene;
 use crate::{Error, Progress, Result};
+
+/// How often the samples of a background are kept.
+const KEPT_EVERY: Duration = Duration::from_secs(2);
+/// Name of the samples of an unfinished background among baked results.
+const SAMPLES: &str = "background-samples";
 
 /// A project's camera, receiver and the texture that lies on it.
 pub(super) struct CameraView<'a> {
@@ -50,10 +55,8 @@ pub(super) enum BackgroundQuality {
 impl<'a> CameraView<'a> {
     /// The view of a render of a prepared project.
     pub(super) fn of_render(prepared: &'a Prepared) -> Self {
-        let Prepared { project, extent, plan, .. } = prepared;
-        let first = first_radius(&project.render, *extent);
-        let radii = (first, radius_of_pass(first, plan.passes - 1));
-        let layout = layout_for(prepared.scene.as_deref(), *extent, &project.render, radii);
+        let Prepared { project, extent, .. } = prepared;
+        let layout = prepared.layout();
         let shown = project.output.shows_background();
         let background = if shown { BackgroundQuality::Final } else { BackgroundQuality::None };
         let surfaces = project.output.shows_surfaces();
@@ -160,18 +163,25 @@ impl Stages {
             let image = plate.image.clone();
             return Ok(Arc::new(Background { image, clamped: Default::default() }));
         }
-        let draw = match quality {
-            BackgroundQuality::Rough => rough_background,
-            BackgroundQuality::None | BackgroundQuality::Final => background,
-        };
         match scene.filter(|_| quality != BackgroundQuality::None) {
             None => {
                 let image = Image::new(render.width as usize, render.height as usize);
                 Ok(Arc::new(Background { image, clamped: Default::default() }))
             }
             Some(scene) => self.backgrounds.get(slot, input, progress, |_| {
-                let make = || draw(scene, render, *seed, progress);
-                meter.measure("background", || baked(bake, "background", make)).map(Arc::new)
+                let make = || match (quality, bake) {
+                    (BackgroundQuality::Rough, _) => rough_background(scene, render, *seed, progress),
+                    (_, None) => background(scene, render, *seed, progress),
+                    (_, Some(bake)) => {
+                        // Damaged samples are traced anew.
+                        let kept = bake.read(SAMPLES).unwrap_or_default();
+                        let keep = |samples: &BackgroundSamples| bake.replace(SAMPLES, samples);
+                        background_from(kept, scene, render, *seed, (&keep, KEPT_EVERY), progress)
+                    }
+                };
+                let background = meter.measure("background", || baked(bake, "background", make))?;
+                bake.map_or(Ok(()), |bake| bake.remove(SAMPLES))?;
+                Ok(Arc::new(background))
             }),
         }
     }

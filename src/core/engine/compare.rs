@@ -108,7 +108,7 @@ impl Engine {
                 Err(Error::Cancelled) if !done.is_empty() => stopped = true,
                 rendered => {
                     let rendered = rendered?;
-                    stopped = rendered.summary.passes < rendered.summary.passes_planned;
+                    stopped = rendered.summary.is_stopped();
                     done.push((*method, rendered));
                 }
             }

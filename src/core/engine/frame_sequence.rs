@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::frame_writer::{SHEET_COLUMNS, SHEET_PICTURES, sheet_texts, small};
-use super::kept_picture::picture_of;
-use super::output_folder::CONTACT_SHEET;
-use crate::export::{FrameFormat, Overlay, evenly_chosen, inspect, write_contact_sheet};
+use super::contact_sheet::{ContactSheet, PICTURES};
+use super::kept_picture::thumbnail_of;
+use crate::export::{FrameFormat, evenly_chosen, inspect};
 use crate::render::RenderSettings;
 use crate::{Error, Result};
 
@@ -42,7 +41,7 @@ pub fn write_sheet(folder: &Path) -> Result<PathBuf> {
     let pictures = sequences.iter().find(|(name, frames)| {
         // EXR files come first: their light is what a sheet is made from.
         let first = frames.values().next();
-        first.is_some_and(|path| picture_of(path, &view_of(path)).is_ok_and(|picture| picture.is_some()))
+        first.is_some_and(|path| thumbnail_of(path, &view_of(path)).is_ok_and(|picture| picture.is_some()))
             && !name.contains("_plane.")
     });
     let Some((_, frames)) = pictures else {
@@ -51,17 +50,13 @@ pub fn write_sheet(folder: &Path) -> Result<PathBuf> {
     };
     let numbers: Vec<i32> = frames.keys().copied().collect();
     let mut thumbnails = Vec::new();
-    for frame in evenly_chosen(&numbers, SHEET_PICTURES) {
+    for frame in evenly_chosen(&numbers, PICTURES) {
         let path = &frames[&frame];
-        if let Some(picture) = picture_of(path, &view_of(path))? {
-            thumbnails.push((frame, small(&picture)));
-        }
+        thumbnails.extend(thumbnail_of(path, &view_of(path))?.map(|picture| (frame, picture)));
     }
-    let fingerprint = frames.values().next().and_then(|path| inspect(path).ok());
-    let texts = sheet_texts(fingerprint.as_ref().and_then(|file| file.fingerprint()).unwrap_or_default());
-    let path = folder.join(CONTACT_SHEET);
-    write_contact_sheet(&path, &thumbnails, SHEET_COLUMNS, Overlay::NONE, &texts)?;
-    Ok(path)
+    let first = frames.values().next().and_then(|path| inspect(path).ok());
+    let fingerprint = first.as_ref().and_then(|file| file.fingerprint()).unwrap_or_default();
+    ContactSheet { folder, fingerprint, drawn: &[], plane: None }.write(&thumbnails)
 }
 
 /// The view transform that a frame was made for, by the settings in it.

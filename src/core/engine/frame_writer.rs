@@ -2,47 +2,37 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use glam::{Vec2, vec2};
 use rayon::prelude::*;
 
+use super::contact_sheet::{PICTURES, Thumbnails, thumbnails};
 use super::disk_queue::{DiskQueue, with_disk};
 use super::film_writer::FilmWriter;
 use super::frame_light::{FrameLight, FrameLights};
 use super::frame_times::FrameTimes;
-use super::kept_picture::kept_picture;
-use super::output_folder::CONTACT_SHEET;
+use super::kept_picture::{kept_picture, small};
 use super::run_files::RunFiles;
 use super::summary::BadValues;
 use crate::export::{
-    Backdrop, Frame, FrameFormat, FrameLayer, FramePattern, Metadata, Overlay, OverlayLine, RepairedSamples,
-    encode_frame, encode_plane, sheet,
+    Backdrop, Frame, FrameFormat, FrameLayer, FramePattern, Metadata, OverlayLine, RepairedSamples,
+    encode_frame, encode_plane, evenly_chosen,
 };
 use crate::project::Project;
 use crate::render::{Image, PlaneView, View};
 use crate::scene::camera::Camera;
 use crate::{Error, Progress, Result};
 
-/// Pictures on the contact sheet.
-pub(super) const SHEET_PICTURES: usize = 12;
-/// Its columns.
-pub(super) const SHEET_COLUMNS: usize = 4;
-/// Width of one of its pictures in pixels.
-const SHEET_WIDTH: usize = 480;
-
-/// Small pictures in screen values with the numbers of their frames.
-pub(super) type Thumbnails = Vec<(i32, Image)>;
-
-/// A picture as small as on the sheet.
-pub(super) fn small(image: &Image) -> Image {
-    image.resized(SHEET_WIDTH, (SHEET_WIDTH * image.height).div_ceil(image.width))
-}
-
-/// What a contact sheet tells of itself. It is as finished as it can be: any run of the same makes it anew.
-pub(super) fn sheet_texts(fingerprint: &str) -> [(&'static str, String); 3] {
-    [("passes", "0"), ("passes_planned", "0"), ("fingerprint", fingerprint)]
-        .map(|(name, text)| (name, text.to_owned()))
+/// What was written.
+#[derive(Default)]
+pub(super) struct Written {
+    /// The replaced values.
+    pub(super) bad_values: BadValues,
+    /// The pictures on the contact sheet.
+    pub(super) thumbnails: Thumbnails,
+    /// Frames for which there was no time.
+    pub(super) left: usize,
 }
 
 /// Everything that the frames of a run are made from.
@@ -63,19 +53,18 @@ pub(super) struct FrameWriter<'a> {
 }
 
 impl FrameWriter<'_> {
-    /// Writes the `requested` frames that are not there, and the contact sheet of all; keeps the pictures of a film. Returns
-    /// the replaced values, and the pictures on the sheet with their numbers.
+    /// Writes the `requested` frames that are not there, and the contact sheet of all; keeps the pictures of a film. Where the
+    /// time is short, frames all over the sequence come first.
     pub(super) fn run(
         &self,
         times: &FrameTimes,
         requested: &[i32],
         film: Option<&FilmWriter>,
         progress: &Progress,
-    ) -> Result<(BadValues, Thumbnails)> {
+    ) -> Result<Written> {
         progress.begin("write", requested.len() as u64);
-        let on_sheet =
-            if self.files.sheet { sheet::evenly_chosen(requested, SHEET_PICTURES) } else { Vec::new() };
-        let thumbnails = Mutex::new(Vec::new());
+        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
+        let done = AtomicUsize::new(0);
         let view = self.lights.project.render.view.view();
         let pictures = self.lights.pictures;
         let hits = pictures.first_hits.as_deref();
@@ -85,42 +74,48 @@ impl FrameWriter<'_> {
                 if progress.is_abandoned() {
                     return Err(Error::Cancelled);
                 }
+                if progress.is_late() {
+                    return Ok((frame, RepairedSamples::default()));
+                }
                 let (look, light) = ((&backdrop, &view), light.as_ref());
                 let written = light.map(|light| self.frame(frame, light, look, disk)).transpose()?;
-                let shown = on_sheet.contains(&frame);
-                let small = self.show((index, frame), light, look, (film, shown))?;
-                let thumbnail = small.map(|small| (frame, small));
-                thumbnails.lock().unwrap_or_else(PoisonError::into_inner).extend(thumbnail);
+                film.map_or(Ok(()), |film| self.keep((index, frame), light, look, film))?;
+                done.fetch_add(usize::from(light.is_some()), Relaxed);
                 progress.advance(1);
                 Ok((frame, written.unwrap_or_default()))
             };
-            self.in_batches(times, requested, write)
+            let mut frames: Vec<(usize, i32)> = requested.iter().copied().enumerate().collect();
+            if progress.ends_soon() {
+                frames.sort_by_key(|(index, _)| index.reverse_bits());
+            }
+            // What is too late is not even gathered.
+            let slot = |frame| rendered.get(&frame).copied().filter(|_| !progress.is_late());
+            self.in_batches(times, slot, &frames, write)
         })?;
-        let mut thumbnails = thumbnails.into_inner().unwrap_or_else(PoisonError::into_inner);
-        thumbnails.sort_by_key(|(frame, _)| requested.iter().position(|n| n == frame));
-        self.write_sheet(&thumbnails)?;
-        Ok((BadValues::sum(&repairs), thumbnails))
+        let thumbnails = if progress.is_late() { Vec::new() } else { self.write_sheet(times, requested)? };
+        let wanted = requested.iter().filter(|frame| rendered.contains_key(frame)).count();
+        let left = wanted - done.into_inner();
+        Ok(Written { bad_values: BadValues::sum(&repairs), thumbnails, left })
     }
 
-    /// Calls `write` with each requested frame and its place among them, and its light where it is rendered: those of one batch in
+    /// Calls `write` with each frame and its place among those requested, and its light where it has a slot: those of one batch in
     /// parallel, while the light of the next is gathered.
     fn in_batches(
         &self,
         times: &FrameTimes,
-        requested: &[i32],
+        slot: impl Fn(i32) -> Option<usize> + Sync,
+        frames: &[(usize, i32)],
         write: impl Fn(&(usize, i32), Option<FrameLight>) -> Result<(i32, RepairedSamples)> + Sync,
     ) -> Result<Vec<(i32, RepairedSamples)>> {
-        let rendered: HashMap<i32, usize> = times.frames.iter().copied().collect();
         let light = |frames: &[(usize, i32)]| {
-            let slots: Vec<_> = frames.iter().map(|(_, frame)| rendered.get(frame).copied()).collect();
+            let slots: Vec<_> = frames.iter().map(|(_, frame)| slot(*frame)).collect();
             let moments: Vec<_> = slots.iter().flatten().map(|&slot| (slot, times.moments[slot])).collect();
             let mut lights = self.lights.of(&moments)?.into_iter();
             Ok::<_, Error>(slots.into_iter().map(|slot| slot.and_then(|_| lights.next())).collect::<Vec<_>>())
         };
-        let frames: Vec<(usize, i32)> = requested.iter().copied().enumerate().collect();
         let mut batches = frames.chunks(self.batch());
         let mut next = || batches.next().map(|batch| Ok::<_, Error>((batch, light(batch)?))).transpose();
-        let mut done = Vec::with_capacity(requested.len());
+        let mut done = Vec::with_capacity(frames.len());
         let mut current = next()?;
         while let Some((batch, lights)) = current {
             let write = || batch.par_iter().zip(lights).map(|(frame, light)| write(frame, light));
@@ -131,41 +126,35 @@ impl FrameWriter<'_> {
         Ok(done)
     }
 
-    /// Keeps a frame, by its place and number, for the film; returns its small picture where it is shown on the sheet.
-    fn show(
+    /// Keeps a frame, by its place and number, for the film.
+    fn keep(
         &self,
         (index, frame): (usize, i32),
         light: Option<&FrameLight>,
         (backdrop, view): (&Backdrop, &View),
-        (film, shown): (Option<&FilmWriter>, bool),
-    ) -> Result<Option<Image>> {
-        if film.is_none() && !shown {
-            return Ok(None);
-        }
-        let keep = |picture: &Image| film.map_or(Ok(()), |film| film.keep(index, picture));
+        film: &FilmWriter,
+    ) -> Result<()> {
         if let Some(light) = light {
-            let beauty = backdrop.background.plus(&light.all);
-            film.map_or(Ok(()), |_| keep(&view.apply(&beauty)))?;
-            return Ok(shown.then(|| view.apply(&small(&beauty))));
+            return film.keep(index, &view.apply(&backdrop.background.plus(&light.all)));
         }
         let kept = kept_picture(&self.lights.project.output, self.folder, frame, view)?;
-        kept.iter().try_for_each(keep)?;
-        Ok(kept.filter(|_| shown).map(|picture| small(&picture)))
+        kept.iter().try_for_each(|picture| film.keep(index, picture))
     }
 
-    /// Writes the contact sheet, where one is wanted and not there.
-    fn write_sheet(&self, thumbnails: &Thumbnails) -> Result<()> {
-        let path = self.folder.join(CONTACT_SHEET);
-        if !self.files.sheet || self.files.found.kept.contains(&path) {
-            return Ok(());
+    /// Writes the contact sheet, where one is wanted; returns the pictures on it.
+    fn write_sheet(&self, times: &FrameTimes, requested: &[i32]) -> Result<Thumbnails> {
+        if !self.files.sheet {
+            return Ok(Vec::new());
         }
-        let size = thumbnails.first().map_or([1, 1], |(_, p)| [p.width, p.height]);
-        let pixel_from_plane = |point| self.plane.pixel_from_plane(point, size);
-        let overlay = Overlay { lines: self.drawn, pixel_from_plane: &pixel_from_plane };
-        let texts = sheet_texts(&self.files.fingerprint);
-        sheet::write_contact_sheet(&path, thumbnails, SHEET_COLUMNS, overlay, &texts)?;
-        (self.saved)(&path);
-        Ok(())
+        let mut thumbnails = thumbnails(self.lights.project, self.folder, requested)?;
+        if thumbnails.is_empty() {
+            // No file has a picture, such as where the light on the plane alone is written.
+            for frame in evenly_chosen(requested, PICTURES) {
+                thumbnails.extend(self.picture(times, frame)?.map(|picture| (frame, small(&picture))));
+            }
+        }
+        self.files.write_sheet(&thumbnails, (self.drawn, &self.plane), (self.folder, self.saved))?;
+        Ok(thumbnails)
     }
 
     /// Frames whose light is in memory at once: as many as there are threads, and at least as many as are gathered together.
@@ -194,7 +183,10 @@ impl FrameWriter<'_> {
     ) -> Result<RepairedSamples> {
         let output = &self.lights.project.output;
         let metadata = self.metadata(frame, light.passes);
-        let picture = Frame { backdrop, caustic: &light.all, caustics: &light.caustics, metadata: &metadata };
+        // An unfinished frame is replaced soon, and may be wanted within seconds.
+        let compressed = light.passes >= self.planned;
+        let (caustic, caustics) = (&light.all, &light.caustics[..]);
+        let picture = Frame { backdrop, caustic, caustics, metadata: &metadata, compressed };
         let pattern = FramePattern::parse(&output.name, "output.name")?;
         let mut all = RepairedSamples::default();
         for &format in &output.formats {

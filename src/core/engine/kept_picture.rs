@@ -12,6 +12,8 @@ use crate::render::Image;
 use crate::render::view::View;
 use crate::{Error, Result};
 
+/// Width of a picture on a contact sheet, pixels.
+const THUMBNAIL: usize = 480;
 /// Largest frame that is read.
 const MAX_BYTES: u64 = 8 << 30;
 
@@ -26,7 +28,10 @@ pub(super) fn kept_picture(
     view: &View,
 ) -> Result<Option<Image>> {
     let plane = format!("_{}.", FrameLayer::Plane.name());
-    for path in files_of(output, folder, frame)? {
+    let mut files = files_of(output, folder, frame)?;
+    // The screen values themselves come before the light that they are made from.
+    files.sort_by(|a, b| b.cmp(a));
+    for path in files {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if !path.is_file() || name.contains(&plane) {
             continue;
@@ -42,11 +47,31 @@ pub(super) fn kept_picture(
 ///
 /// # Errors
 /// A file that cannot be read.
-pub(super) fn picture_of(path: &Path, view: &View) -> Result<Option<Image>> {
-    if path.extension().is_some_and(|ending| ending == "png") {
+fn picture_of(path: &Path, view: &View) -> Result<Option<Image>> {
+    if is_png(path) {
         return of_png(path).map(Some);
     }
     Ok(exr::read_beauty(path)?.map(|light| view.apply(&light)))
+}
+
+/// As [`picture_of`], as small as on a contact sheet; of an EXR file the light is averaged, not what a screen shows of it.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn thumbnail_of(path: &Path, view: &View) -> Result<Option<Image>> {
+    if is_png(path) {
+        return of_png(path).map(|picture| Some(small(&picture)));
+    }
+    Ok(exr::read_beauty(path)?.map(|light| view.apply(&small(&light))))
+}
+
+/// A picture as small as on a contact sheet.
+pub(super) fn small(image: &Image) -> Image {
+    image.resized(THUMBNAIL, (THUMBNAIL * image.height).div_ceil(image.width))
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "png")
 }
 
 /// The screen values of a PNG.

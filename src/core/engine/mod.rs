@@ -18,6 +18,7 @@ mod camera;
 mod check;
 mod checkpoint;
 mod compare;
+mod contact_sheet;
 mod continuity;
 mod disk_queue;
 mod energy_balance;

@@ -38,13 +38,19 @@ pub struct Plan {
     pub stages: Vec<(&'static str, f64)>,
     /// Expected peak memory in MiB.
     pub memory_mib: f64,
-    /// Expected size of the scratch file that holds all frames while they are rendered, in MiB.
+    /// Expected size of the files that hold all frames while they are rendered, and what they are made with, in MiB.
     pub scratch_mib: f64,
     /// Expected size of the frames in MiB.
     pub output_mib: f64,
     /// Seconds that the photons of all passes take before they are counted into frames.
     #[serde(skip)]
     pub(super) shared_seconds: f64,
+    /// Texels of a texture.
+    #[serde(skip)]
+    texels: usize,
+    /// Of the scratch files, what is not the light of frames, in MiB.
+    #[serde(skip)]
+    kept_mib: f64,
 }
 
 /// Bytes of a pixel in a frame, measured on noisy pictures.
@@ -88,13 +94,14 @@ mod pace {
 }
 
 /// Plans `frames` frames of `project`. `given_rows` are the rows of its point files where those are paired as given;
-/// `fixed` tells that every pass has the same points.
+/// `fixed` tells that every pass has the same points, and `texels` how many the texture of so many passes has.
 pub(super) fn plan(
     project: &Project,
     extent: Vec2,
     frames: usize,
     given_rows: Option<usize>,
     fixed: bool,
+    texels: impl Fn(usize) -> usize,
 ) -> Plan {
     let photons = given_rows.unwrap_or(project.render.photons as usize);
     let passes = if fixed { 1 } else { project.render.passes as usize };
@@ -107,13 +114,16 @@ pub(super) fn plan(
         memory_mib: 0.0,
         scratch_mib: 0.0,
         shared_seconds: 0.0,
-        output_mib: frames as f64 * frame_bytes(project, extent) / MIB,
+        output_mib: 0.0,
+        texels: texels(passes),
+        kept_mib: 0.0,
     };
+    plan.output_mib = frames as f64 * frame_bytes(project, plan.texels as f64) / MIB;
     plan.stages = stages(project, extent, &plan);
     plan.memory_mib = memory_mib(project, extent, &plan);
     plan.shared_seconds = passes as f64 * shared_by_frames(project, photons as f64, moving_segments(project));
-    plan.scratch_mib =
-        FrameStore::bytes(texels(project, extent) as usize, frames * textures(project)) as f64 / MIB;
+    plan.kept_mib = kept_bytes(project) / MIB;
+    plan.set_scratch(FrameStore::bytes(plan.texels, frames * textures(project)));
     plan
 }
 
@@ -183,13 +193,6 @@ fn textures(project: &Project) -> usize {
     if project.output.separates_caustics() { project.caustics.len() + 1 } else { 1 }
 }
 
-/// About the texels of the receiver texture; its real size follows from the camera.
-fn texels(project: &Project, extent: Vec2) -> f64 {
-    let render = &project.render;
-    let side = f64::from(render.max_texels).min(1.5 * f64::from(render.width.max(render.height)));
-    side * side * f64::from(extent.x * extent.y)
-}
-
 fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f64)> {
     let render = &project.render;
     let layers: Vec<usize> = (1..project.keys.len()).map(|key| layers(project, key)).collect();
@@ -211,7 +214,7 @@ fn stages(project: &Project, extent: Vec2, plan: &Plan) -> Vec<(&'static str, f6
     stages.extend(motion_stages(project, extent, photons, &layers));
     let per_pass = shared_by_frames(project, photons, segments)
         + plan.frames as f64
-            * (photons / pace::SPLAT + textures(project) as f64 * texels(project, extent) / pace::FILTER);
+            * (photons / pace::SPLAT + textures(project) as f64 * plan.texels as f64 / pace::FILTER);
     stages.push(("render", passes * per_pass));
     stages.push(("write", plan.frames as f64 * pixels / pace::WRITE));
     stages
@@ -292,10 +295,11 @@ fn unknowns(project: &Project, extent: Vec2) -> f64 {
     if both { 2.0 * nodes } else { nodes }
 }
 
+/// Measured on the examples: the peak is in the passes.
 fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     let moving = project.keys.len() > 1;
-    // Two keys' positions and flux, the pairing, the carrier's copy.
-    let photons = plan.photons as f64 * if moving { 120.0 } else { 40.0 };
+    // Both keys' positions and flux, the pairing, the tracks, and copies of them; what is remembered of the first pass.
+    let photons = plan.photons as f64 * if moving { 600.0 } else { 150.0 };
     let layers: usize = (1..project.keys.len()).map(|key| layers(project, key)).sum();
     let fields = if project.fits() {
         8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1)
@@ -308,12 +312,25 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
     };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
     // The texture of a pass, its filtered copy, and the sums read back from the scratch file.
-    let textures = 6.0 * 16.0 * texels(project, extent);
-    60.0 + (photons + fields + noises + pixels * 600.0 + textures) / MIB
+    let textures = 6.0 * 16.0 * plan.texels as f64;
+    40.0 + (photons + fields + noises + pixels * (100.0 + bytes_seen(project)) + textures) / MIB
+}
+
+/// Bytes for the texels that a pixel sees: four for each sample, and no more than lie under it.
+fn bytes_seen(project: &Project) -> f64 {
+    let under: f64 = if project.scene.is_some() { 32.0 } else { 16.0 };
+    16.0 * under.min(4.0 * f64::from(project.render.camera_samples))
+}
+
+/// Bytes on disk of what a render keeps besides the light of its frames: what the camera sees, and samples on their way, of which there
+/// are two for a moment.
+fn kept_bytes(project: &Project) -> f64 {
+    let pixels = f64::from(project.render.width) * f64::from(project.render.height);
+    pixels * (bytes_seen(project) + 150.0)
 }
 
 /// About the size of one frame in all formats.
-fn frame_bytes(project: &Project, extent: Vec2) -> f64 {
+fn frame_bytes(project: &Project, texels: f64) -> f64 {
     let (output, render) = (&project.output, &project.render);
     let pixels = f64::from(render.width) * f64::from(render.height);
     let halves = |layer: &FrameLayer| match layer {
@@ -328,7 +345,7 @@ fn frame_bytes(project: &Project, extent: Vec2) -> f64 {
         (FrameFormat::Png, PngDepth::Eight) => bytes::PNG,
         (FrameFormat::Png, PngDepth::Sixteen) => bytes::PNG_16,
     };
-    let plane = if output.shows_plane() { 6.0 * bytes::HALF * texels(project, extent) } else { 0.0 };
+    let plane = if output.shows_plane() { 6.0 * bytes::HALF * texels } else { 0.0 };
     pixels * output.formats.iter().map(of_format).sum::<f64>() + plane
 }
 
@@ -346,9 +363,9 @@ impl Plan {
         Err(Error::Limit { place: "render".into(), what })
     }
 
-    /// Sets the size of the scratch file, once the texture of the camera is known.
+    /// Sets the size of the light of all frames in files.
     pub(super) fn set_scratch(&mut self, bytes: u64) {
-        self.scratch_mib = bytes as f64 / MIB;
+        self.scratch_mib = bytes as f64 / MIB + self.kept_mib;
     }
 
     /// Refuses work whose scratch file and frames would not fit into `folder`, where the system tells how much is free there.

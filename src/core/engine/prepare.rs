@@ -17,7 +17,8 @@ use crate::export::caustic_layer_names;
 use crate::flow::{FlowSettings, GridSize};
 use crate::note::About;
 use crate::project::{Project, Shows};
-use crate::render::PlaneMaterial;
+use crate::render::density::radius_of_pass;
+use crate::render::{PlaneMaterial, TextureLayout, first_radius, layout_for};
 use crate::scene::Scene;
 use crate::{Note, Progress, Result};
 
@@ -83,6 +84,7 @@ impl Stages {
             frames.len(),
             sources.given_rows(project.matching)?,
             sources.is_fixed(project.render.photons as usize),
+            |passes| layout(project, scene.as_deref(), extent, passes).len(),
         );
         let photons = plan.photons;
         let (project, quality) = (project.clone(), Quality::Final);
@@ -109,6 +111,11 @@ impl Prepared {
         if self.project.output.separates_caustics() { self.sources.grouping().count() } else { 1 }
     }
 
+    /// The texture on the receiver.
+    pub(super) fn layout(&self) -> TextureLayout {
+        layout(&self.project, self.scene.as_deref(), self.extent, self.plan.passes)
+    }
+
     /// The names of the layers of single caustics, one for each texture of a frame; none where their light is one.
     pub(super) fn caustic_layer_names(&self) -> Vec<String> {
         if !self.project.output.separates_caustics() {
@@ -129,7 +136,8 @@ impl Prepared {
     pub(super) fn plan_frames(&mut self, frames: &[i32]) -> Result<()> {
         let rows = self.sources.given_rows(self.project.matching)?;
         let fixed = self.sources.is_fixed(self.project.render.photons as usize);
-        self.plan = plan::plan(&self.project, self.extent, frames.len(), rows, fixed);
+        let texels = |passes| layout(&self.project, self.scene.as_deref(), self.extent, passes).len();
+        self.plan = plan::plan(&self.project, self.extent, frames.len(), rows, fixed, texels);
         self.times = FrameTimes::new(&self.project.keys, frames);
         Ok(())
     }
@@ -148,6 +156,12 @@ impl Prepared {
         let project = Project { seed, ..self.project.clone() };
         Self { project, sources: self.sources.with_seed(seed), photons, ..self.clone() }
     }
+}
+
+/// The texture on the receiver for so many passes.
+fn layout(project: &Project, scene: Option<&Scene>, extent: Vec2, passes: usize) -> TextureLayout {
+    let first = first_radius(&project.render, extent);
+    layout_for(scene, extent, &project.render, (first, radius_of_pass(first, passes.max(1) - 1)))
 }
 
 /// A grid of long cells smooths more along them than across.

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use super::bake::Bake;
 use super::camera::CameraView;
+use super::contact_sheet::Thumbnails;
 use super::film_writer::FilmWriter;
 use super::fingerprint::fingerprint;
 use super::fitted_project::FittedProject;
 use super::frame_light::FrameLights;
-use super::frame_writer::{FrameWriter, Thumbnails};
+use super::frame_writer::{FrameWriter, Written};
 use super::job::Job;
 use super::memo::Slot;
 use super::meter::Meter;
@@ -70,6 +71,7 @@ impl Engine {
         progress.set_stages(stages);
         observer.planned(&prepared.plan);
         if files.is_done() && film.is_none() {
+            files.write_sheet_of_kept(&prepared, output)?;
             return Ok(files.summary_of_kept(&prepared, &meter));
         }
         let unfinished = files.unfinished();
@@ -125,9 +127,9 @@ impl Engine {
         let passed = |passes| observer.passed(passes, &|frame| writer.picture(times, frame));
         let (passes, balance) =
             meter.measure("render", || fitted.render_passes(&render, progress, &passed))?;
-        let (bad_values, thumbnails) =
+        let Written { bad_values, thumbnails, left } =
             meter.measure("write", || writer.run(times, &requested, film.as_ref(), progress))?;
-        if let Some(film) = &film {
+        if let Some(film) = film.as_ref().filter(|_| !progress.ends_soon()) {
             meter.measure("film", || film.write(progress))?;
             saved(film.path());
         }
@@ -135,9 +137,10 @@ impl Engine {
         let clamped = camera.background.clamped;
         let done = Done { command: "render", passes, flow, continuity, balance, bad_values, clamped };
         let mut summary = Summary::new(prepared, done, meter);
+        (summary.frames, summary.frames_left) = (summary.frames.saturating_sub(left), left);
         files.tell(&mut summary, before);
         drop(render);
-        if summary.passes >= summary.passes_planned {
+        if summary.passes >= summary.passes_planned && left == 0 {
             files.finish(folder, &requested)?;
         }
         Ok(Rendered { summary, fitted, thumbnails, plane })

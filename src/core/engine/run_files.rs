@@ -3,21 +3,23 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Engine;
 use super::bake::Bake;
-use super::camera::CameraView;
 use super::checkpoint::{Checkpoint, bytes_kept, remove_finished};
+use super::contact_sheet::{ContactSheet, Thumbnails, thumbnails};
 use super::existing::Found;
 use super::fingerprint::fingerprint;
 use super::fitted_segment::FittedFlow;
 use super::frame_times::FrameTimes;
 use super::meter::Meter;
 use super::output::Output;
+use super::output_folder::CONTACT_SHEET;
 use super::prepare::Prepared;
 use super::summary::{Done, Summary};
+use super::{Engine, active_constraints};
+use crate::export::OverlayLine;
 use crate::note::About;
 use crate::render::frames::FrameStore;
-use crate::render::{ProgressiveRender, TextureLayout};
+use crate::render::{PlaneView, ProgressiveRender, TextureLayout};
 use crate::{Note, Result};
 
 /// What a render keeps, and where its unfinished light is.
@@ -72,7 +74,7 @@ impl RunFiles {
             remove_finished(output.folder, &files.fingerprint, &prepared.project.frames()?)?;
             return Ok(files);
         }
-        let texels = CameraView::of_render(prepared).layout.len();
+        let texels = prepared.layout().len();
         let textures = prepared.times.moments.len() * prepared.textures();
         prepared.plan.set_scratch(FrameStore::bytes(texels, textures));
         prepared.plan.require_space(output.folder, bytes_kept(output.folder, &files.fingerprint))?;
@@ -90,6 +92,42 @@ impl RunFiles {
     /// The folder of the unfinished light, where it is kept.
     pub(super) fn unfinished(&self) -> Option<PathBuf> {
         self.checkpoint.as_ref().map(|checkpoint| checkpoint.folder().to_owned())
+    }
+
+    /// Writes the contact sheet of these pictures, unless another is kept. `drawn` are the constraints, on their plane.
+    ///
+    /// # Errors
+    /// The system refuses.
+    pub(super) fn write_sheet(
+        &self,
+        thumbnails: &Thumbnails,
+        (drawn, plane): (&[OverlayLine], &PlaneView),
+        (folder, saved): (&Path, &(dyn Fn(&Path) + Sync)),
+    ) -> Result<()> {
+        if !self.found.kept.contains(&folder.join(CONTACT_SHEET)) {
+            let fingerprint = &self.fingerprint;
+            saved(&ContactSheet { folder, fingerprint, drawn, plane: Some(plane) }.write(thumbnails)?);
+        }
+        Ok(())
+    }
+
+    /// Writes the contact sheet of frames that are all there already: the run that wrote the last of them may have been cut off
+    /// before it.
+    ///
+    /// # Errors
+    /// A frame that cannot be read; the system refuses.
+    pub(super) fn write_sheet_of_kept(&self, prepared: &Prepared, output: &Output) -> Result<()> {
+        let (project, folder) = (&prepared.project, output.folder);
+        if !self.sheet {
+            return Ok(());
+        }
+        let thumbnails = thumbnails(project, folder, &project.frames()?)?;
+        if thumbnails.is_empty() {
+            return Ok(());
+        }
+        let plane = PlaneView::new(prepared.scene.as_deref(), prepared.extent);
+        let drawn = active_constraints::drawn(project);
+        self.write_sheet(&thumbnails, (&drawn, &plane), (folder, output.saved))
     }
 
     /// Whether all frames are there.

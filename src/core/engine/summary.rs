@@ -58,6 +58,9 @@ pub struct Summary {
     pub passes_planned: usize,
     /// Frames that were written.
     pub frames: usize,
+    /// Frames that a run that was told to end had no time to write; their light is kept.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub frames_left: usize,
     /// Files of frames that were there already, and kept.
     pub kept: usize,
     /// The hash of all that the frames are made from; empty where they do not tell it.
@@ -110,6 +113,10 @@ impl BadValues {
     }
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 /// The results of a run.
 pub(super) struct Done<'a> {
     pub(super) command: &'static str,
@@ -148,6 +155,7 @@ impl Summary {
             passes: done.passes,
             passes_planned: if done.command == "render" { prepared.plan.passes } else { 0 },
             frames: if done.command == "render" { prepared.plan.frames } else { 0 },
+            frames_left: 0,
             kept: 0,
             fingerprint: String::new(),
             partial: false,
@@ -169,6 +177,11 @@ impl Summary {
     /// Whether it is about all frames of the run.
     pub fn is_of_all(&self) -> bool {
         !self.partial
+    }
+
+    /// Whether it was stopped before all frames had all their passes.
+    pub fn is_stopped(&self) -> bool {
+        self.passes < self.passes_planned || self.frames_left > 0
     }
 
     /// Whether a frame holds values that were not finite and had to be replaced.

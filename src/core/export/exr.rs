@@ -69,7 +69,7 @@ pub(super) fn encode(path: &Path, frame: &Frame) -> Result<(Vec<u8>, RepairedSam
             FrameLayer::Plane => (),
         }
     }
-    Ok((bytes(path, parts, size, frame.metadata, repairs)?, repairs))
+    Ok((bytes(path, (parts, frame.compressed), size, frame.metadata, repairs)?, repairs))
 }
 
 /// The bytes of the file of the light on the plane in 32-bit floats, `R`, `G` and `B`, and the repaired samples.
@@ -90,13 +90,13 @@ pub fn encode_plane(
     };
     let channels = ["R", "G", "B"].into_iter().enumerate().map(channel).collect();
     let (parts, size) = (vec![("plane", Part::Fresh(channels))], (irradiance.width, irradiance.height));
-    Ok((bytes(path, parts, size, metadata, repairs)?, repairs))
+    Ok((bytes(path, (parts, true), size, metadata, repairs)?, repairs))
 }
 
-/// The bytes of a file of parts of one size.
+/// The bytes of a file of parts of one size; whether fresh ones are compressed.
 fn bytes(
     path: &Path,
-    parts: Vec<(&str, Part)>,
+    (parts, compressed): (Vec<(&str, Part)>, bool),
     size: (usize, usize),
     metadata: &Metadata,
     repairs: RepairedSamples,
@@ -107,7 +107,7 @@ fn bytes(
     shared.time_code = time_code(metadata.frame, metadata.frames_per_second);
     let with_attributes = |(name, part)| (attributes(name, metadata, size, repairs), part);
     let parts = parts.into_iter().map(with_attributes).collect();
-    let mut bytes = part::bytes(parts, size, &shared).map_err(|error| unmade(path, &error))?;
+    let mut bytes = part::bytes((parts, compressed), size, &shared).map_err(|error| unmade(path, &error))?;
     sort_attributes(&mut bytes, count);
     Ok(bytes)
 }

@@ -16,6 +16,8 @@ pub struct Frame<'a> {
     pub caustics: &'a [(String, Image)],
     /// Metadata of the file.
     pub metadata: &'a Metadata,
+    /// Whether its own layers are compressed in EXR files. Otherwise they take twice the room and less time.
+    pub compressed: bool,
 }
 
 /// The metadata of a frame's file.

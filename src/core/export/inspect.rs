@@ -154,7 +154,13 @@ mod tests {
         };
         let image = Image::new(20, 10);
         let backdrop = Backdrop::new(&[FrameLayer::Beauty, FrameLayer::Caustic], &image, None);
-        let frame = Frame { backdrop: &backdrop, caustic: &image, caustics: &[], metadata: &metadata };
+        let frame = Frame {
+            backdrop: &backdrop,
+            caustic: &image,
+            caustics: &[],
+            metadata: &metadata,
+            compressed: true,
+        };
         for format in FrameFormat::ALL {
             let path = folder.path().join("frame").with_extension(format.extension());
             write_frame(&path, format, &frame, &ViewSettings::default().view(), PngDepth::Eight).unwrap();

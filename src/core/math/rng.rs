@@ -23,7 +23,7 @@ pub enum Purpose {
 }
 
 /// A small, fast generator.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 pub struct Stream(Pcg32);
 
 impl Stream {

@@ -38,7 +38,8 @@ impl Project {
         check_caustics(self)?;
         self.check_given()?;
         for (i, constraint) in self.constraints.iter().enumerate() {
-            constraint.check(&format!("constraints[{i}]"))?;
+            let checked = constraint.check(&format!("constraints[{i}]"));
+            checked.map_err(|error| error.of(&constraint.called(i)))?;
         }
         self.flow.check("flow")?;
         self.render.check("render")?;

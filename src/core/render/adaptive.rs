@@ -27,7 +27,7 @@ const MOST_OF_BRANCHES: u32 = 16;
 const TOGETHER: f32 = 0.6;
 
 /// What a pixel needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
 pub(super) enum Need {
     /// More samples.
     Samples,

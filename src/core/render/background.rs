@@ -9,6 +9,8 @@
 //! rare and bright, but hardly in a whole neighbourhood. On the ground in smooth light, neighbours are taken together (`smooth`).
 //! What still stands out alone in glass is clamped, and counted.
 
+use std::time::{Duration, Instant};
+
 use glam::{Vec2, Vec3, vec2};
 use rayon::prelude::*;
 
@@ -35,6 +37,8 @@ const MAX_SURFACES: usize = 32;
 const FAINT: f32 = 0.1;
 /// Times that the samples of a noisy pixel are doubled, at most.
 const ROUNDS: u32 = 6;
+/// Rows that are traced before the samples are looked at as a whole, at least.
+const ROWS: usize = 64;
 /// Clamp on fireflies: largest luminance of a light seen in glass or a mirror, over the mean of the picture. Lamps are
 /// thousands of times brighter, and one chance reflection of a small lamp would sparkle; this is still white.
 const FIREFLY_LIMIT: f32 = 50.0;
@@ -55,7 +59,29 @@ pub fn background(
     seed: u64,
     progress: &Progress,
 ) -> Result<Background> {
-    render(scene, settings, seed, true, progress)
+    render(None, scene, settings, (seed, true), (&mut Keeper::default(), progress))
+}
+
+/// As [`background`], from what an earlier run has kept of the same. `keep` is given the samples so far whenever the time
+/// `every` is over, but no more often than costs a twentieth.
+///
+/// # Errors
+/// Those of `keep`; cancelled.
+pub fn background_from(
+    kept: Option<BackgroundSamples>,
+    scene: &Scene,
+    settings: &RenderSettings,
+    seed: u64,
+    (keep, every): (KeepSamples, Duration),
+    progress: &Progress,
+) -> Result<Background> {
+    render(
+        kept,
+        scene,
+        settings,
+        (seed, true),
+        (&mut Keeper { keep: Some((keep, every)), due: None }, progress),
+    )
 }
 
 /// As [`background`] without adaptive sampling: noisy, in a predictable time.
@@ -65,60 +91,91 @@ pub fn rough_background(
     seed: u64,
     progress: &Progress,
 ) -> Result<Background> {
-    render(scene, settings, seed, false, progress)
+    render(None, scene, settings, (seed, false), (&mut Keeper::default(), progress))
 }
 
 fn render(
+    kept: Option<BackgroundSamples>,
     scene: &Scene,
     settings: &RenderSettings,
-    seed: u64,
-    adaptive: bool,
-    progress: &Progress,
+    (seed, adaptive): (u64, bool),
+    (keeper, progress): (&mut Keeper, &Progress),
 ) -> Result<Background> {
     let (width, height) = (settings.width as usize, settings.height as usize);
     let media = scene.media_at(scene.camera().position);
     let mut tracer = PathTracer { scene, media, width, height, firefly_limit: 0.0 };
     let brightness = tracer.brightness(seed);
     tracer.firefly_limit = FIREFLY_LIMIT * brightness;
-    let first = settings.background_samples;
-    progress.begin("background", height as u64 * u64::from(if adaptive { 2 + ROUNDS } else { 2 }));
-    let mut pixels: Vec<Pixel> = (0..width * height)
-        .map(|i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64)))
-        .collect();
-    // Until each pixel has as many samples as wanted.
-    let trace = |pixels: &mut Vec<Pixel>, wanted: &(dyn Fn(usize) -> u32 + Sync)| {
-        pixels.par_chunks_mut(width).enumerate().try_for_each(|(y, row)| -> Result<()> {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                progress.check()?;
-                let samples = wanted(y * width + x).saturating_sub(pixel.count);
-                if samples > 0 {
-                    pixel.half = pixel.sum;
-                    (0..samples).for_each(|_| tracer.sample(x, y, pixel));
-                }
-            }
-            progress.advance(1);
-            Ok(())
-        })
-    };
-    // Halves, so that there are two to compare.
-    trace(&mut pixels, &|_| first.div_ceil(2))?;
-    trace(&mut pixels, &|_| first)?;
-    let floor = 0.5 * brightness;
-    let mut need = vec![if adaptive { Need::Samples } else { Need::Nothing }; pixels.len()];
-    for _ in 0..if adaptive { ROUNDS } else { 0 } {
-        let estimates: Vec<Estimate> = pixels.iter().map(Pixel::estimate).collect();
-        let now = needs(&estimates, width, floor, first);
-        // What is settled stays so: its samples no longer change.
-        need.iter_mut()
-            .zip(now)
-            .filter(|(need, _)| **need == Need::Samples)
-            .for_each(|(need, now)| *need = now);
-        trace(&mut pixels, &|i| if need[i] == Need::Samples { 2 * estimates[i].count } else { 0 })?;
+    let (first, floor) = (settings.background_samples, 0.5 * brightness);
+    // Halves, so that there are two to compare; then rounds.
+    let steps = if adaptive { 2 + ROUNDS } else { 2 };
+    progress.begin("background", height as u64 * u64::from(steps));
+    let fits = |kept: &BackgroundSamples| kept.pixels.len() == width * height;
+    let mut samples = kept.filter(fits).unwrap_or_else(|| BackgroundSamples::new(width * height, seed));
+    progress.advance(u64::from(samples.step) * height as u64 + samples.rows as u64);
+    while samples.step < steps {
+        let step = samples.step;
+        if step >= 2 && samples.rows == 0 {
+            let estimates: Vec<Estimate> = samples.pixels.iter().map(Pixel::estimate).collect();
+            // What is settled stays so: its samples no longer change.
+            let open = samples.need.iter_mut().zip(needs(&estimates, width, floor, first));
+            open.filter(|(need, _)| **need == Need::Samples).for_each(|(need, now)| *need = now);
+        }
+        while samples.rows < height {
+            tracer.trace(&mut samples, first, progress)?;
+            keeper.offer(&samples)?;
+        }
+        (samples.step, samples.rows) = (step + 1, 0);
     }
-    Ok(tracer.finish(&pixels, &need, floor))
+    Ok(tracer.finish(&samples, floor))
+}
+
+/// Keeps samples for a run that takes them up.
+pub type KeepSamples<'a> = &'a dyn Fn(&BackgroundSamples) -> Result<()>;
+
+/// The samples of a picture on the way.
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
+pub struct BackgroundSamples {
+    /// The step: the first half of the samples of all pixels, the second, then rounds for noisy ones.
+    step: u32,
+    /// Rows from the top that are done in this step.
+    rows: usize,
+    /// What each pixel needs; those that need samples get them in the rounds.
+    need: Vec<Need>,
+    pixels: Vec<Pixel>,
+}
+
+impl BackgroundSamples {
+    fn new(count: usize, seed: u64) -> Self {
+        let pixel = |i| Pixel::new(Stream::new(seed, Purpose::Background, 0, i as u64));
+        Self { step: 0, rows: 0, need: vec![Need::Samples; count], pixels: (0..count).map(pixel).collect() }
+    }
+}
+
+/// Keeps the samples from time to time, or never.
+#[derive(Default)]
+struct Keeper<'a> {
+    /// What keeps them, and how often.
+    keep: Option<(KeepSamples<'a>, Duration)>,
+    /// None before the first offer.
+    due: Option<Instant>,
+}
+
+impl Keeper<'_> {
+    /// Keeps them where it is time.
+    fn offer(&mut self, samples: &BackgroundSamples) -> Result<()> {
+        let Some((keep, every)) = self.keep else { return Ok(()) };
+        let start = Instant::now();
+        if start >= *self.due.get_or_insert(start + every) {
+            keep(samples)?;
+            self.due = Some(Instant::now() + every.max(20 * start.elapsed()));
+        }
+        Ok(())
+    }
 }
 
 /// The accumulated samples of a pixel.
+#[derive(Clone, Debug, serde::Deserialize, serde::Serialize)]
 struct Pixel {
     rng: Stream,
     sampler: Sampler,
@@ -185,6 +242,36 @@ struct PathTracer<'a> {
 }
 
 impl PathTracer<'_> {
+    /// Traces the next rows in their step; `first` are the samples that all pixels get.
+    fn trace(&self, samples: &mut BackgroundSamples, first: u32, progress: &Progress) -> Result<()> {
+        let (start, width, step) = (samples.rows, self.width, samples.step);
+        let end = self.height.min(start + ROWS.max(8 * rayon::current_num_threads()));
+        let need = &samples.need;
+        // Samples that a pixel is to have.
+        let wanted = |i: usize, pixel: &Pixel| match step {
+            0 => first.div_ceil(2),
+            1 => first,
+            _ if need[i] == Need::Samples => 2 * pixel.count,
+            _ => 0,
+        };
+        let rows = samples.pixels[start * width..end * width].par_chunks_mut(width).enumerate();
+        rows.try_for_each(|(row, pixels)| -> Result<()> {
+            let y = start + row;
+            for (x, pixel) in pixels.iter_mut().enumerate() {
+                progress.check()?;
+                let more = wanted(y * width + x, pixel).saturating_sub(pixel.count);
+                if more > 0 {
+                    pixel.half = pixel.sum;
+                    (0..more).for_each(|_| self.sample(x, y, pixel));
+                }
+            }
+            progress.advance(1);
+            Ok(())
+        })?;
+        samples.rows = end;
+        Ok(())
+    }
+
     /// Mean luminance of the picture, without lights in glass and mirrors, estimated by a few thousand paths.
     fn brightness(&self, seed: u64) -> f32 {
         const PATHS: usize = 4096;
@@ -200,7 +287,7 @@ impl PathTracer<'_> {
 
     /// The means of the pixels, or of those together that need it, without the outliers among those that are brighter than
     /// `floor`.
-    fn finish(&self, pixels: &[Pixel], need: &[Need], floor: f32) -> Background {
+    fn finish(&self, BackgroundSamples { need, pixels, .. }: &BackgroundSamples, floor: f32) -> Background {
         let (width, height) = (self.width, self.height);
         let alone: Vec<Vec3> = pixels.iter().map(Pixel::mean).collect();
         let value = |i: usize| match neighbourhood(i, [width, height]) {

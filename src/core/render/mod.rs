@@ -31,7 +31,9 @@ mod in_view;
 mod sampler;
 mod smooth;
 
-pub use background::{Background, background, rough_background};
+pub use background::{
+    Background, BackgroundSamples, KeepSamples, background, background_from, rough_background,
+};
 pub use fireflies::ClampedLight;
 pub use first_hits::FirstHits;
 pub use gather_matrix::{GatherMatrix, layout_for};

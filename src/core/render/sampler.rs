@@ -5,7 +5,7 @@
 use glam::Vec2;
 
 /// Sample points of one pixel.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, serde::Deserialize, serde::Serialize)]
 pub(super) struct Sampler {
     seed: u32,
 }

@@ -60,10 +60,12 @@ impl SceneDesc {
         check::count(&format!("{place}.meshes"), self.meshes.len())?;
         check::count(&format!("{place}.lights"), self.lights.len())?;
         for (index, mesh) in self.meshes.iter().enumerate() {
-            mesh.check(&format!("{place}.meshes[{index}]"))?;
+            let checked = mesh.check(&format!("{place}.meshes[{index}]"));
+            checked.map_err(|error| error.of(&format!("mesh \"{}\"", mesh.name)))?;
         }
         for (index, light) in self.lights.iter().enumerate() {
-            light.check(&format!("{place}.lights[{index}]"))?;
+            let checked = light.check(&format!("{place}.lights[{index}]"));
+            checked.map_err(|error| error.of(&format!("light \"{}\"", light.name())))?;
         }
         self.camera.check(&format!("{place}.camera"))?;
         self.receiver.check(&format!("{place}.receiver"))?;

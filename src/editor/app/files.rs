@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::Duration;
 
 use eframe::egui;
 use lightloom_core::project::{Project, ProjectFile, moved};
@@ -60,16 +60,17 @@ impl App {
         }
     }
 
-    /// Looks once more for what an earlier run left. What is found already is held, and not found again.
+    /// Looks again for what an earlier run left. What is found already is held, and not found again.
     fn look_again(&mut self, ctx: &egui::Context) {
-        let Some((at, exports)) = self.looks_again.take() else { return };
-        let left = at.saturating_duration_since(Instant::now());
+        let Some(&seconds) = self.looks_again.as_slice().first() else { return };
+        let left = Duration::from_secs(seconds).saturating_sub(self.begun.elapsed());
         if !left.is_zero() {
-            self.looks_again = Some((at, exports));
             return ctx.request_repaint_after(left);
         }
+        self.looks_again.next();
         self.files.request(StoreRequest::LookForLost);
-        self.interrupted.extend(exports.iter().flat_map(|exports| interrupted(exports)));
+        self.interrupted.extend(self.records.iter().flat_map(|records| interrupted(records)));
+        ctx.request_repaint();
     }
 
     fn answered(&mut self, ctx: &egui::Context, answer: StoreReply) {

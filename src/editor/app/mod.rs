@@ -44,9 +44,9 @@ use open_windows::Windows;
 use recents::Recents;
 use task::Task;
 
-/// When it is looked once more for what an earlier run left: one that was killed just before still holds it while the system
-/// clears it away.
-const LOOKS_AGAIN: Duration = Duration::from_secs(4);
+/// Seconds after the start when it is looked again for what an earlier run left: one that was killed just before still holds it
+/// while the system clears it away, which takes long on a busy machine.
+const LOOKS_AGAIN: [u64; 5] = [2, 4, 8, 16, 32];
 
 /// The window: the editor's state with its views, windows and files.
 pub struct App {
@@ -58,8 +58,11 @@ pub struct App {
     exports: Exports,
     /// Exports that an earlier run left, not yet offered.
     interrupted: Vec<InterruptedExport>,
-    /// When it is looked once more for what an earlier run left, and where its exports are.
-    looks_again: Option<(Instant, Option<PathBuf>)>,
+    /// The start, and the times after it when it is looked again for what an earlier run left.
+    begun: Instant,
+    looks_again: std::slice::Iter<'static, u64>,
+    /// Where the exports of earlier runs are.
+    records: Option<PathBuf>,
     picker: Picker,
     windows: Windows,
     recents: Recents,
@@ -138,7 +141,9 @@ impl App {
             views: Views::default(),
             exports: Exports::new(engine.clone(), wake()).with_records(records.clone()),
             interrupted: records.as_deref().map(interrupted).unwrap_or_default(),
-            looks_again: Some((Instant::now() + LOOKS_AGAIN, records)),
+            begun: Instant::now(),
+            looks_again: LOOKS_AGAIN.iter(),
+            records,
             picker: Picker::new(setup.dialogs),
             windows: Windows::default(),
             recents: Recents::new(wake()),

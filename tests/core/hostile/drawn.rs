@@ -19,7 +19,7 @@ pub(super) fn rows() -> Vec<Row> {
     let thick = json!({ "type": "wall", "points": [[0.2, 0.2], [0.3, 0.7]], "thickness": 0.5 });
     let thin = json!({ "type": "wall", "points": [[0.5, 0.2], [0.5, 0.8]], "thickness": 0.01 });
     let read: Vec<(&str, Vec<Value>, &str)> = vec![
-        ("a line of no point", vec![line(json!([]))], "constraints[0]: is no longer than a dot"),
+        ("a line of no point", vec![line(json!([]))], "directed line 1 is no longer than a dot"),
         ("a line of one point", vec![line(json!([[0.5, 0.5]]))], "no longer than a dot"),
         ("a line of equal points", vec![line(json!([[0.5, 0.5], [0.5, 0.5]]))], "no longer than a dot"),
         ("a wall of one point", vec![wall(json!([[0.5, 0.5]]))], "no longer than a dot"),

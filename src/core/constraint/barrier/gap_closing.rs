@@ -14,8 +14,17 @@ const OVERLAP: f32 = 1e-5;
 /// A wall's own ends meet its other parts only from this many clearances along it; nearer parts are just its bend.
 const OWN_BEND: f32 = 8.0;
 
-/// The closing edges, and messages about them, each with the number of a wall.
-pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<(usize, String)>) {
+/// What is closed, by the numbers of walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
+pub enum Closed {
+    /// Two walls touch, or leave a gap narrower than they are thick.
+    Between(usize, usize),
+    /// A wall reaches the border at both ends: no way leads around it.
+    Across(usize),
+}
+
+/// The closing edges, and why those between walls and at the border are there.
+pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 2]>, Vec<Closed>) {
     let mut closing_edges = Vec::new();
     let mut notes = Vec::new();
     let coarse: Vec<Vec<Vec2>> =
@@ -31,20 +40,14 @@ pub(super) fn closing_edges(walls: &[&ActiveWall], extent: Vec2) -> (Vec<[Vec2; 
                 })
                 .collect();
             if !close.is_empty() {
-                let (i, j) = (i.min(j), i.max(j));
-                let text = format!(
-                    "walls {i} and {j} (in their order) touch, or leave a gap narrower than they are thick: it is closed"
-                );
-                notes.push((i, text));
+                notes.push(Closed::Between(i.min(j), i.max(j)));
             }
             closing_edges.extend(close);
         }
         closing_edges.extend(own_gaps(wall));
         let outward = border_pieces(wall, extent);
         if outward.len() == 2 {
-            let text =
-                format!("wall {i} (in their order) reaches the border at both ends: no way leads around it");
-            notes.push((i, text));
+            notes.push(Closed::Across(i));
         }
         closing_edges.extend(outward);
     }

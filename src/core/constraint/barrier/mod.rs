@@ -13,6 +13,7 @@ use glam::Vec2;
 use super::stroke;
 use super::wall::ActiveWall;
 pub use edge::Edge;
+pub use gap_closing::Closed;
 use lookup::Lookup;
 
 /// The wall edges at one moment, with a grid to find those near a move.
@@ -20,7 +21,7 @@ use lookup::Lookup;
 pub struct Barriers {
     edges: Vec<Edge>,
     lookup: Lookup,
-    notes: Vec<(usize, String)>,
+    closed: Vec<Closed>,
 }
 
 /// The first contact of a move with a wall.
@@ -35,7 +36,7 @@ pub struct Contact {
 impl Barriers {
     /// The walls on the rectangle `extent`, with the gaps closed that are narrower than their thickness.
     pub fn new(walls: &[&ActiveWall], extent: Vec2) -> Self {
-        let (closing_edges, notes) = gap_closing::closing_edges(walls, extent);
+        let (closing_edges, closed) = gap_closing::closing_edges(walls, extent);
         let drawn = walls.iter().flat_map(|wall| wall.points.windows(2)).map(|pair| [pair[0], pair[1]]);
         let edges: Vec<Edge> = drawn
             .chain(closing_edges)
@@ -43,7 +44,7 @@ impl Barriers {
             .map(|[from, to]| Edge { from, to })
             .collect();
         let lookup = Lookup::new(&edges, extent);
-        Self { edges, lookup, notes }
+        Self { edges, lookup, closed }
     }
 
     /// The gaps that are open as drawn, but count as closed, because they are narrower than the walls are thick; from one side to
@@ -52,9 +53,9 @@ impl Barriers {
         gap_closing::closed_gaps(walls)
     }
 
-    /// Messages to the artist about gaps that were closed, each with the number of a wall.
-    pub fn notes(&self) -> &[(usize, String)] {
-        &self.notes
+    /// What is closed that the artist should know of.
+    pub fn closed(&self) -> &[Closed] {
+        &self.closed
     }
 
     /// Whether the straight move from `a` to `b` crosses a wall; false where a point is not finite.

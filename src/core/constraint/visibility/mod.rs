@@ -338,7 +338,7 @@ mod tests {
         }
         let across = graph(&[wall(&[[0.0, 0.5], [1.0, 0.5]], 0.03)]);
         assert_eq!(distance(&across, [0.5, 0.2], [0.5, 0.8]), f64::INFINITY);
-        assert_eq!(across.barriers().notes().len(), 1);
+        assert_eq!(across.barriers().closed().len(), 1);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub(super) struct KeptPart {
 impl KeptPart {
     /// Compresses the channels of a part.
     pub(super) fn new(size: (usize, usize), channels: Channels) -> Result<Self> {
-        let samples = samples(size, LayerAttributes::default(), channels);
+        let samples = samples(size, LayerAttributes::default(), channels, true);
         let header = header(&samples, &ImageAttributes::new(IntegerBounds::from_dimensions(size)));
         let headers = std::slice::from_ref(&header);
         let blocks = enumerate_ordered_header_block_indices(headers)
@@ -48,9 +48,9 @@ impl KeptPart {
     }
 }
 
-/// The bytes of a file of parts of one size with their attributes.
+/// The bytes of a file of parts of one size with their attributes; whether fresh ones are compressed.
 pub(super) fn bytes(
-    parts: Vec<(LayerAttributes, Part)>,
+    (parts, compresses): (Vec<(LayerAttributes, Part)>, bool),
     size: (usize, usize),
     shared: &ImageAttributes,
 ) -> Result<Vec<u8>> {
@@ -62,7 +62,7 @@ pub(super) fn bytes(
         .into_iter()
         .map(|(attributes, part)| match part {
             Part::Fresh(channels) => {
-                let samples = samples(size, attributes, channels);
+                let samples = samples(size, attributes, channels, compresses);
                 (header(&samples, shared), Source::Samples(Box::new(samples)))
             }
             Part::Kept(kept) => {
@@ -88,8 +88,14 @@ pub(super) fn bytes(
     Ok(bytes)
 }
 
-fn samples(size: (usize, usize), attributes: LayerAttributes, channels: Channels) -> Samples {
-    Layer::new(size, attributes, ENCODING, AnyChannels::sort(channels.into()))
+fn samples(
+    size: (usize, usize),
+    attributes: LayerAttributes,
+    channels: Channels,
+    compresses: bool,
+) -> Samples {
+    let compression = if compresses { ENCODING.compression } else { Compression::Uncompressed };
+    Layer::new(size, attributes, Encoding { compression, ..ENCODING }, AnyChannels::sort(channels.into()))
 }
 
 fn header(samples: &Samples, shared: &ImageAttributes) -> Header {
