@@ -67,7 +67,7 @@ impl<'a> Exposures<'a> {
             self.positions = all_positions(walk.at()).collect();
             self.flux = all_flux(walk.at()).collect();
             let rows = self.rows(walk.at());
-            self.expose((0, &rows), (pass, kernel), walk.requested(), |_, _| Ok(()))?;
+            self.expose((0, &rows), (pass, kernel), walk.requested(), |_, _| Ok(0.0))?;
             progress.advance(1);
         }
         let lacking = |i: &usize| times.of_segment(*i).any(|(slot, _)| self.lacks(slot, pass));
@@ -135,23 +135,26 @@ impl<'a> Exposures<'a> {
         ends.collect()
     }
 
-    /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`, a texture for each of `rows`;
-    /// that lacks the pass; `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
+    /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`, a texture for each of `rows` that
+    /// lacks the pass; it returns by which standard deviation the light is diffused. `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
     fn expose(
         &mut self,
         (slot, rows): (usize, &[Range<usize>]),
         (pass, kernel): (usize, usize),
         requested: f64,
-        place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<()> + Send,
+        place: impl FnOnce(&mut [Vec2], &mut [Vec3]) -> Result<f32> + Send,
     ) -> Result<()> {
         let mut place = Some(place);
-        let (mut outside, mut lit) = (OutsidePhotons::default(), 0.0);
+        let (mut outside, mut lit, mut diffused) = (OutsidePhotons::default(), 0.0, 0.0);
         for (texture, rows) in rows.iter().enumerate() {
             let Self { render, works: [work, before], pending, positions, flux, .. } = self;
             let keep = || pending.take().map_or(Ok(()), |texture| render.accumulate(texture, before));
             let expose = || -> Result<_> {
-                place.take().map_or(Ok(()), |place| place(positions, flux))?;
-                let outside = render.expose(kernel, &positions[rows.clone()], &flux[rows.clone()], work);
+                if let Some(place) = place.take() {
+                    diffused = place(positions, flux)?;
+                }
+                let outside =
+                    render.expose((kernel, diffused), &positions[rows.clone()], &flux[rows.clone()], work);
                 Ok((outside, work.texture().total().element_sum()))
             };
             let (exposed, kept) = rayon::join(expose, keep);

@@ -54,22 +54,30 @@ impl<'a> SegmentTrajectories<'a> {
         self.groups.last().map_or(0, |group| group.rows.end)
     }
 
-    /// Where all photons carry their light at time `t`, 0..=1; otherwise as [`Self::positions_at`].
+    /// Where all photons carry their light at time `t`, 0..=1; returns the standard deviation by which it is diffused, that of the
+    /// group that is least. Otherwise as [`Self::positions_at`].
     ///
     /// # Errors
     /// As [`Self::positions_at`].
     ///
     /// # Panics
     /// As [`Self::positions_at`].
-    pub(super) fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
-        for Group { from, to, rows, trajectories } in &mut self.groups {
+    pub(super) fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<f32> {
+        let mut least = f32::INFINITY;
+        for Group { from, to, rows, trajectories } in
+            self.groups.iter_mut().filter(|group| !group.rows.is_empty())
+        {
             let out = &mut out[rows.clone()];
-            match trajectories {
+            let deviation = match trajectories {
                 Some(trajectories) => trajectories.light_at(t, out, progress)?,
-                None => straight(&from.positions, &to.positions, t as f32, out),
-            }
+                None => {
+                    straight(&from.positions, &to.positions, t as f32, out);
+                    0.0
+                }
+            };
+            least = least.min(deviation);
         }
-        Ok(())
+        Ok(if least.is_finite() { least } else { 0.0 })
     }
 
     /// Positions of all photons at time `t`, 0..=1; ascending times cost one way through the fields in all.

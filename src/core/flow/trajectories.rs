@@ -17,16 +17,17 @@ pub trait Trajectories: Send {
     /// When `out` has not one position for each photon.
     fn positions_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()>;
 
-    /// Where the photons carry their light at time `t`: at their positions, diffused where the method does so. Otherwise as
-    /// [`Self::positions_at`].
+    /// Where the photons carry their light at time `t`: at their positions, diffused where the method does so, by the returned
+    /// standard deviation in the mean. Otherwise as [`Self::positions_at`].
     ///
     /// # Errors
     /// As [`Self::positions_at`].
     ///
     /// # Panics
     /// As [`Self::positions_at`].
-    fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
-        self.positions_at(t, out, progress)
+    fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<f32> {
+        self.positions_at(t, out, progress)?;
+        Ok(0.0)
     }
 
     /// Unreachable targets and wall crossings so far.

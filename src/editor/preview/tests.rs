@@ -97,6 +97,7 @@ fn what_is_ready_shows_no_glass_of_an_older_scene() {
         while !preview.is_shown() {
             assert!(begun.elapsed() < Duration::from_secs(120), "waited in vain");
             preview.follow(&subject, &session, &wanted);
+            std::thread::sleep(Duration::from_millis(2));
         }
         let shot = preview.shot().unwrap();
         let other = |old: &Arc<Shot>| old.background().pixels != shot.background().pixels;

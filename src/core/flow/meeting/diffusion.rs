@@ -30,6 +30,8 @@ pub(super) struct Diffusion {
     /// Standard deviations half way, by row: everywhere, and beside the tears of the body of either key frame.
     even: Vec<f32>,
     torn: [Vec<f32>; 2],
+    /// The mean of the standard deviations everywhere.
+    mean: f32,
 }
 
 impl Diffusion {
@@ -44,19 +46,24 @@ impl Diffusion {
             directions[row as usize] = radius * Vec2::from_angle(std::f32::consts::TAU * y as f32);
         }
         let moved = keys[0].par_iter().zip(keys[1]).map(|(a, b)| a.distance(*b).min(hold));
-        let even = moved.map(|moved| SHARE * moved).collect();
+        let even: Vec<f32> = moved.map(|moved| SHARE * moved).collect();
+        let mean = even.iter().copied().map(f64::from).sum::<f64>() / even.len().max(1) as f64;
         let torn = [0, 1].map(|side| {
             let mut torn = tears(hold, keys[side], meeting[side]);
             torn.iter_mut().for_each(|torn| *torn = (TORN * *torn).min(WIDEST * hold));
             torn
         });
-        Self { directions, even, torn }
+        Self { directions, even, torn, mean: mean as f32 }
+    }
+
+    /// The mean standard deviation along each axis at time `t`, without what tears add, plane units.
+    pub(super) fn deviation(&self, t: f64) -> f32 {
+        share(t) * self.mean
     }
 
     /// Displaces photons at time `t`; walls mirror them.
     pub(super) fn displace(&self, fields: &MeetingFields, t: f64, positions: &mut [Vec2]) {
-        let bell = (4.0 * t * (1.0 - t)).max(0.0) as f32;
-        let share = bell.powi(BELL);
+        let share = share(t);
         // Tears of the body of a key frame close towards it, and fade beyond the meeting, where that of the other is seen.
         let closes = |since: f64| {
             if since < 0.5 { ((2.0 * since) as f32).powi(CLOSES) } else { share }
@@ -79,6 +86,11 @@ impl Diffusion {
     }
 }
 
+/// The share at time `t` of what there is half way.
+fn share(t: f64) -> f32 {
+    ((4.0 * t * (1.0 - t)).max(0.0) as f32).powi(BELL)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +106,7 @@ mod tests {
             let mut at = source.clone();
             diffusion.displace(&fields, t, &mut at);
             assert_eq!(at, source, "at t = {t}");
+            assert_eq!(diffusion.deviation(t), 0.0);
         }
         let mut at = source.clone();
         diffusion.displace(&fields, 0.5, &mut at);
@@ -104,5 +117,11 @@ mod tests {
         let mean: f32 = (1000..2000).map(|row| moved(&row).powi(2)).sum::<f32>() / 1000.0;
         let expected = 2.0 * (SHARE * 0.05_f32).powi(2);
         assert!((mean / expected - 1.0).abs() < 0.11, "mean square {mean}, expected {expected}");
+        // Half of the light rests.
+        assert!(
+            (diffusion.deviation(0.5) / (SHARE * 0.05) - 0.5).abs() < 1e-4,
+            "{}",
+            diffusion.deviation(0.5)
+        );
     }
 }

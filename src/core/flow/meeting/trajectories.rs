@@ -159,15 +159,15 @@ impl Trajectories for MeetingTrajectories<'_> {
         Ok(())
     }
 
-    fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<()> {
+    fn light_at(&mut self, t: f64, out: &mut [Vec2], progress: &Progress) -> Result<f32> {
         self.positions_at(t, out, progress)?;
         let Self { fields, source, targets, .. } = *self;
-        if let Some([forward, backward]) = &self.halves {
-            let meeting = [forward.end(), backward.end()];
-            let new = || Diffusion::new(fields.hold(), [source, targets], meeting);
-            self.diffusion.get_or_insert_with(new).displace(fields, t, out);
-        }
-        Ok(())
+        let Some([forward, backward]) = &self.halves else { return Ok(0.0) };
+        let meeting = [forward.end(), backward.end()];
+        let new = || Diffusion::new(fields.hold(), [source, targets], meeting);
+        let diffusion = self.diffusion.get_or_insert_with(new);
+        diffusion.displace(fields, t, out);
+        Ok(diffusion.deviation(t))
     }
 
     fn wall_violations(&self) -> WallViolations {
