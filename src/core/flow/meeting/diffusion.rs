@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::fields::MeetingFields;
 use super::tears::tears;
+use crate::flow::fade::smoothstep;
 use crate::flow::spatial_order::spatial_order;
 use crate::flow::walls::{SUBSTEPS, bounce};
 use crate::math::sobol;
@@ -17,11 +18,14 @@ const SHARE: f32 = 0.1;
 const FARTHEST: f64 = 3.0;
 /// Exponent of 4 t (1 - t): lines of the target are sharp again from t = .75 on. With 5 they are soft until .8.
 const BELL: i32 = 8;
-/// Standard deviation beside a tear over half its width, its limit over the size of the pieces that hold together, and the
-/// exponent of the time by which it closes. A limit of .2 blurs half of a finely drawn target until t = .8.
+/// Standard deviation beside a tear over half its width, and the exponent of the time by which it closes.
 const TORN: f32 = 0.6;
-const WIDEST: f32 = 0.08;
-const CLOSES: i32 = 2;
+const CLOSES: f32 = 1.5;
+/// Its limits over the size of the pieces that hold together, in a body with few and with many tears, and the shares of the light
+/// beside tears that are few and many. A few wide tears of a plain shape need much; a limit of .2 everywhere blurs half of a finely
+/// drawn target until t = .8.
+const WIDEST: [f32; 2] = [0.5, 0.08];
+const BESIDE: [f32; 2] = [0.12, 0.2];
 
 /// The displacement of each photon about its trajectory, plane units: 0 at both key frames, largest half way.
 pub(super) struct Diffusion {
@@ -50,7 +54,10 @@ impl Diffusion {
         let mean = even.iter().copied().map(f64::from).sum::<f64>() / even.len().max(1) as f64;
         let torn = [0, 1].map(|side| {
             let mut torn = tears(hold, keys[side], meeting[side]);
-            torn.iter_mut().for_each(|torn| *torn = (TORN * *torn).min(WIDEST * hold));
+            let beside = torn.iter().filter(|torn| **torn > 0.0).count() as f32 / torn.len().max(1) as f32;
+            let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
+            let widest = hold * (WIDEST[0] + many * (WIDEST[1] - WIDEST[0]));
+            torn.iter_mut().for_each(|torn| *torn = (TORN * *torn).min(widest));
             torn
         });
         Self { directions, even, torn, mean: mean as f32 }
@@ -66,7 +73,7 @@ impl Diffusion {
         let share = share(t);
         // Tears of the body of a key frame close towards it, and fade beyond the meeting, where that of the other is seen.
         let closes = |since: f64| {
-            if since < 0.5 { ((2.0 * since) as f32).powi(CLOSES) } else { share }
+            if since < 0.5 { ((2.0 * since) as f32).powf(CLOSES) } else { share }
         };
         let closes = [closes(t), closes(1.0 - t)];
         let step = ((t * (fields.steps() * SUBSTEPS) as f64) as usize).min(fields.steps() * SUBSTEPS - 1);
