@@ -104,7 +104,7 @@ mod tests {
                 (3..8).contains(&x) && (3..7).contains(&y)
             );
         }
-        let around = neighbourhood(5 * 11 + 5, [11, 10]).unwrap();
+        let around = neighbourhood(5 * 11 + 5, [11, 10]).expect("inside");
         assert_eq!((around[0], around[24], around[48]), (2 * 11 + 2, 5 * 11 + 5, 8 * 11 + 8));
     }
 }
