@@ -66,9 +66,10 @@ fn the_preview_shows_the_same_photons_where_the_final_flow_has_them() {
         println!("frame {number}: light elsewhere {:.2} %, photons apart {apart:.5}", 100.0 * difference);
         // The preview's field has half the cells and three quarters of the steps. Before the meeting a photon is off by less
         // than half a cell of 1/64, its kernel; from there on it has another partner, not far away, and moves about its course
-        // at random by up to a tenth of `hold` of its own. A few in a hundred watts lie elsewhere; at the keys none do.
+        // at random by up to a tenth of `hold` of its own, by half of it beside a tear. A few in a hundred watts lie elsewhere; at
+        // the keys none do.
         assert!(i >= 20 || apart < 0.5 / 64.0, "frame {number}: {apart}");
-        assert!(difference < if i % 40 == 0 { 1e-3 } else { 0.06 }, "frame {number}: {difference}");
+        assert!(difference < if i % 40 == 0 { 1e-3 } else { 0.08 }, "frame {number}: {difference}");
     }
 }
 

@@ -63,9 +63,12 @@ impl Screen {
         while begun.elapsed() < Duration::from_secs(60) {
             if !self.tool(&["search", "--onlyvisible", "--name", "Lightloom"]).is_empty() {
                 std::thread::sleep(Duration::from_secs(3));
+                // What was found first may be the window of a program that was killed, on its way.
                 let id = self.tool(&["search", "--onlyvisible", "--name", "Lightloom"]);
-                self.tool(&["windowfocus", id.lines().next()?]);
-                return Some(());
+                if let Some(id) = id.lines().next() {
+                    self.tool(&["windowfocus", id]);
+                    return Some(());
+                }
             }
             if self.program.as_mut()?.try_wait().unwrap().is_some() {
                 return None;
