@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::existing::files_of;
-use super::kept_picture::thumbnail_of;
+use super::kept_picture::kept_thumbnail;
 use super::output_folder::CONTACT_SHEET;
 use crate::Result;
-use crate::export::{FrameLayer, Overlay, OverlayLine, evenly_chosen, sheet};
+use crate::export::{Overlay, OverlayLine, evenly_chosen, sheet};
 use crate::project::Project;
 use crate::render::{Image, PlaneView};
 
@@ -28,15 +27,8 @@ pub(super) type Thumbnails = Vec<(i32, Image)>;
 /// A file that cannot be read.
 pub(super) fn thumbnails(project: &Project, folder: &Path, requested: &[i32]) -> Result<Thumbnails> {
     let view = project.render.view.view();
-    let plane = format!("_{}.", FrameLayer::Plane.name());
     let thumbnail = |&frame: &i32| -> Result<Option<(i32, Image)>> {
-        let mut files = files_of(&project.output, folder, frame)?;
-        files.retain(|file| !file.to_string_lossy().contains(&plane) && file.is_file());
-        // The light comes before what a screen shows of it.
-        files.sort();
-        let pictures = files.iter().map(|file| thumbnail_of(file, &view));
-        let first = pictures.filter_map(Result::transpose).next().transpose()?;
-        Ok(first.map(|picture| (frame, picture)))
+        Ok(kept_thumbnail(&project.output, folder, frame, &view)?.map(|picture| (frame, picture)))
     };
     let mut thumbnails = Vec::new();
     for frames in evenly_chosen(requested, PICTURES).chunks(TOGETHER) {

@@ -114,16 +114,24 @@ impl Found {
     }
 }
 
+/// The files of one frame that show what the camera sees.
+///
+/// # Errors
+/// A pattern without a number.
+pub(super) fn pictures_of(output: &OutputSettings, folder: &Path, frame: i32) -> Result<Vec<PathBuf>> {
+    let pattern = FramePattern::parse(&output.name, "output.name")?;
+    let shown = |format: &&FrameFormat| **format != FrameFormat::Exr || output.shows_frames();
+    Ok(output.formats.iter().filter(shown).map(|&format| pattern.path(folder, frame, format)).collect())
+}
+
 /// The files of one frame.
 ///
 /// # Errors
 /// A pattern without a number.
 pub(super) fn files_of(output: &OutputSettings, folder: &Path, frame: i32) -> Result<Vec<PathBuf>> {
-    let pattern = FramePattern::parse(&output.name, "output.name")?;
-    let shown = |format: &&FrameFormat| **format != FrameFormat::Exr || output.shows_frames();
-    let mut files: Vec<PathBuf> =
-        output.formats.iter().filter(shown).map(|&format| pattern.path(folder, frame, format)).collect();
+    let mut files = pictures_of(output, folder, frame)?;
     if output.shows_plane() {
+        let pattern = FramePattern::parse(&output.name, "output.name")?;
         files.push(pattern.beside(FrameLayer::Plane.name()).path(folder, frame, FrameFormat::Exr));
     }
     Ok(files)

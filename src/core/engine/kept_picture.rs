@@ -1,11 +1,11 @@
 //! The picture of a frame that is there already, for contact sheets and films.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
-use super::existing::files_of;
-use crate::export::{FrameLayer, exr};
+use super::existing::pictures_of;
+use crate::export::exr;
 use crate::files::read_regular_file;
 use crate::project::OutputSettings;
 use crate::render::Image;
@@ -27,20 +27,32 @@ pub(super) fn kept_picture(
     frame: i32,
     view: &View,
 ) -> Result<Option<Image>> {
-    let plane = format!("_{}.", FrameLayer::Plane.name());
-    let mut files = files_of(output, folder, frame)?;
+    let mut files = pictures_of(output, folder, frame)?;
     // The screen values themselves come before the light that they are made from.
     files.sort_by(|a, b| b.cmp(a));
-    for path in files {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if !path.is_file() || name.contains(&plane) {
-            continue;
-        }
-        if let Some(picture) = picture_of(&path, view)? {
-            return Ok(Some(picture));
-        }
-    }
-    Ok(None)
+    first(&files, |path| picture_of(path, view))
+}
+
+/// As [`kept_picture`], as small as on a contact sheet.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn kept_thumbnail(
+    output: &OutputSettings,
+    folder: &Path,
+    frame: i32,
+    view: &View,
+) -> Result<Option<Image>> {
+    let mut files = pictures_of(output, folder, frame)?;
+    // The light comes before what a screen shows of it.
+    files.sort();
+    first(&files, |path| thumbnail_of(path, view))
+}
+
+/// The first picture that there is.
+fn first(files: &[PathBuf], read: impl Fn(&Path) -> Result<Option<Image>>) -> Result<Option<Image>> {
+    let there = files.iter().filter(|path| path.is_file());
+    there.map(|path| read(path)).filter_map(Result::transpose).next().transpose()
 }
 
 /// The picture of a file in screen values; none where it shows none.

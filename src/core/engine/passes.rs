@@ -136,7 +136,8 @@ impl<'a> Exposures<'a> {
     }
 
     /// Adds the photons, whose positions and flux `place` fills in, to the frame of `slot`, a texture for each of `rows` that
-    /// lacks the pass; it returns by which standard deviation the light is diffused. `requested` is the flux they should have, watts. Meanwhile the texture before goes to the store.
+    /// lacks the pass; `place` returns by which standard deviation the light is diffused. `requested` is the flux they should
+    /// have, watts. Meanwhile the texture before goes to the store.
     fn expose(
         &mut self,
         (slot, rows): (usize, &[Range<usize>]),
