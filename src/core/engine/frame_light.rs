@@ -1,12 +1,14 @@
 //! The light of frames as the camera sees it, from the sums of their passes.
 
-use glam::{Vec2, Vec4};
+use glam::{DVec3, Vec2, Vec4};
 use rayon::prelude::*;
 
 use super::camera::CameraPictures;
 use crate::Result;
+use crate::math::colour::luminance;
 use crate::project::{Project, SegmentTime};
-use crate::render::{Image, PlaneMaterial, ProgressiveRender, ReceiverTexture, plane_image};
+use crate::render::density::radius_of_pass;
+use crate::render::{Image, PlaneMaterial, ProgressiveRender, ReceiverTexture, plane_image, smooth_sparse};
 use crate::scene::Receiver;
 
 /// The light of a frame as the camera sees it.
@@ -48,12 +50,25 @@ impl FrameLights<'_> {
     pub(super) fn of(&self, moments: &[(usize, SegmentTime)]) -> Result<Vec<FrameLight>> {
         let count = self.textures();
         let read = |i: usize| self.render.mean(moments[i / count].0 * count + i % count);
-        let means = (0..moments.len() * count).into_par_iter().map(read).collect::<Result<Vec<_>>>()?;
+        let mut means = (0..moments.len() * count).into_par_iter().map(read).collect::<Result<Vec<_>>>()?;
+        means.par_chunks_mut(count).for_each(|means| self.smooth(means));
         let textures: Vec<&ReceiverTexture> = means.iter().map(|(texture, _)| texture).collect();
         let mut seen = self.pictures.visible.gather_all(&textures).into_iter();
         let seen: Vec<Vec<Image>> = moments.iter().map(|_| seen.by_ref().take(count).collect()).collect();
         let frames = moments.par_iter().zip(means.par_chunks(count)).zip(seen);
         Ok(frames.map(|((&(_, moment), means), seen)| self.frame(moment, means, seen)).collect())
+    }
+
+    /// Smooths what few photons carry in the textures of a frame.
+    fn smooth(&self, means: &mut [(ReceiverTexture, usize)]) {
+        let passes = means.last().map_or(0, |(_, passes)| *passes);
+        let total: DVec3 = means.iter().map(|(texture, _)| texture.total()).sum();
+        let total = luminance(total.as_vec3());
+        if passes > 0 && total > 0.0 {
+            let per_watt = passes as f32 * self.project.render.photons as f32 / total;
+            let radius = radius_of_pass(self.render.first_radius(), passes - 1);
+            means.iter_mut().for_each(|(texture, _)| smooth_sparse(texture, per_watt, radius));
+        }
     }
 
     /// The light of a frame from the means of its textures and what the camera sees of them.

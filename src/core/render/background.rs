@@ -7,7 +7,7 @@
 //!
 //! Sampling is adaptive (`adaptive`): pixels get more samples where their neighbours are noisy. A few samples can miss what is
 //! rare and bright, but hardly in a whole neighbourhood. On the ground in smooth light, neighbours are taken together (`smooth`).
-//! What still stands out alone in glass is clamped, and counted.
+//! What still stands out alone in glass or on the ground is clamped, and counted.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::adaptive::{Estimate, Need, needs};
 use super::camera_sampler::FAINT as FAINT_WAY;
-use super::fireflies::{ClampedLight, clamp_outliers};
+use super::fireflies::{ClampedLight, Shows, clamp_outliers};
 use super::image::Image;
 use super::sampler::{Sampler, tent};
 use super::settings::RenderSettings;
@@ -211,6 +211,14 @@ impl Pixel {
         luminance(self.mean())
     }
 
+    fn shows(&self) -> Shows {
+        match self {
+            Self { specular: true, .. } => Shows::Specular,
+            Self { even: true, .. } => Shows::Even,
+            _ => Shows::Detail,
+        }
+    }
+
     /// Of a pixel whose samples were doubled last.
     fn estimate(&self) -> Estimate {
         let luminance_of_half = luminance(self.half / self.count.div_ceil(2).max(1) as f32);
@@ -285,8 +293,7 @@ impl PathTracer<'_> {
         (lights.sum::<f64>() / PATHS as f64) as f32
     }
 
-    /// The means of the pixels, or of those together that need it, without the outliers among those that are brighter than
-    /// `floor`.
+    /// The means of the pixels, or of those together that need it, without outliers (those in glass that are brighter than `floor`).
     fn finish(&self, BackgroundSamples { need, pixels, .. }: &BackgroundSamples, floor: f32) -> Background {
         let (width, height) = (self.width, self.height);
         let alone: Vec<Vec3> = pixels.iter().map(Pixel::mean).collect();
@@ -299,8 +306,8 @@ impl PathTracer<'_> {
         };
         let mut image =
             Image { width, height, pixels: (0..pixels.len()).into_par_iter().map(value).collect() };
-        let specular: Vec<bool> = pixels.iter().map(|pixel| pixel.specular).collect();
-        let mut lost = clamp_outliers(&mut image, &specular, floor);
+        let shows: Vec<Shows> = pixels.iter().map(Pixel::shows).collect();
+        let mut lost = clamp_outliers(&mut image, &shows, floor);
         for (lost, pixel) in lost.iter_mut().zip(pixels) {
             *lost += pixel.clamped / pixel.count.max(1) as f32;
         }

@@ -82,6 +82,11 @@ impl ProgressiveRender {
         self.store.least_passes()
     }
 
+    /// The kernel radius of the first pass, plane units.
+    pub fn first_radius(&self) -> f32 {
+        self.first_radius
+    }
+
     /// The layout of the textures.
     pub fn layout(&self) -> &TextureLayout {
         &self.layout

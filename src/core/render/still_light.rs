@@ -5,6 +5,7 @@ use glam::{Vec3, Vec4Swizzles};
 use rayon::prelude::*;
 
 use super::camera_sampler::CameraSampler;
+use super::fireflies::clamp_speckles;
 use super::image::Image;
 use super::settings::RenderSettings;
 use super::texture::{ReceiverTexture, TextureLayout};
@@ -75,9 +76,12 @@ pub fn still_pictures(
         let pixels = rows.iter().flat_map(|row| row.chunks_exact(lights.len()).map(|pixel| pixel[light][of]));
         Image { width, height, pixels: pixels.collect() }
     };
-    Ok((0..lights.len())
-        .map(|light| StillPictures { stays: picture(light, 0), in_glass: picture(light, 1) })
-        .collect())
+    let pictures = |light| {
+        let mut in_glass = picture(light, 1);
+        clamp_speckles(&mut in_glass);
+        StillPictures { stays: picture(light, 0), in_glass }
+    };
+    Ok((0..lights.len()).map(pictures).collect())
 }
 
 /// The layout of textures that hold the light on a receiver and on the floor beside it.

@@ -18,22 +18,25 @@ const SHARE: f32 = 0.1;
 const FARTHEST: f64 = 3.0;
 /// Exponent of 4 t (1 - t): lines of the target are sharp again from t = .75 on. With 5 they are soft until .8.
 const BELL: i32 = 8;
-/// Standard deviation beside a tear over half its width, and the exponent of the time by which it closes.
-const TORN: f32 = 0.6;
-const CLOSES: f32 = 1.5;
-/// Its limits over the size of the pieces that hold together, in a body with few and with many tears, and the shares of the light
-/// beside tears that are few and many. A few wide tears of a plain shape need much; a limit of .2 everywhere blurs half of a finely
-/// drawn target until t = .8.
-const WIDEST: [f32; 2] = [0.5, 0.08];
+/// Standard deviation beside a tear over half its width, and where light parts that was together at the meeting.
+const TORN: f32 = 1.0;
+const PARTED: f32 = 0.6;
+/// The share of the light beside tears from which on a body counts as one of few tears, and as one of many.
 const BESIDE: [f32; 2] = [0.12, 0.2];
+/// The largest standard deviation beside tears over the size of the pieces that hold together, and the exponent of the time by which
+/// it closes, with few and with many tears. A few wide tears of a plain shape need much; a limit of .2 everywhere blurs half of a
+/// finely drawn target until t = .8.
+const WIDEST: [f32; 2] = [0.5, 0.08];
+const CLOSES: [f32; 2] = [1.0, 1.5];
 
 /// The displacement of each photon about its trajectory, plane units: 0 at both key frames, largest half way.
 pub(super) struct Diffusion {
     /// By row, of standard deviation 1 along each axis.
     directions: Vec<Vec2>,
-    /// Standard deviations half way, by row: everywhere, and beside the tears of the body of either key frame.
+    /// Standard deviations half way everywhere, by row.
     even: Vec<f32>,
-    torn: [Vec<f32>; 2],
+    /// What tears of the body of either key frame add.
+    torn: [Torn; 2],
     /// The mean of the standard deviations everywhere.
     mean: f32,
 }
@@ -52,14 +55,7 @@ impl Diffusion {
         let moved = keys[0].par_iter().zip(keys[1]).map(|(a, b)| a.distance(*b).min(hold));
         let even: Vec<f32> = moved.map(|moved| SHARE * moved).collect();
         let mean = even.iter().copied().map(f64::from).sum::<f64>() / even.len().max(1) as f64;
-        let torn = [0, 1].map(|side| {
-            let mut torn = tears(hold, keys[side], meeting[side]);
-            let beside = torn.iter().filter(|torn| **torn > 0.0).count() as f32 / torn.len().max(1) as f32;
-            let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
-            let widest = hold * (WIDEST[0] + many * (WIDEST[1] - WIDEST[0]));
-            torn.iter_mut().for_each(|torn| *torn = (TORN * *torn).min(widest));
-            torn
-        });
+        let torn = [0, 1].map(|side| Torn::new(hold, keys[side], meeting[side]));
         Self { directions, even, torn, mean: mean as f32 }
     }
 
@@ -71,17 +67,14 @@ impl Diffusion {
     /// Displaces photons at time `t`; walls mirror them.
     pub(super) fn displace(&self, fields: &MeetingFields, t: f64, positions: &mut [Vec2]) {
         let share = share(t);
-        // Tears of the body of a key frame close towards it, and fade beyond the meeting, where that of the other is seen.
-        let closes = |since: f64| {
-            if since < 0.5 { ((2.0 * since) as f32).powf(CLOSES) } else { share }
-        };
-        let closes = [closes(t), closes(1.0 - t)];
+        let closes = [self.torn[0].closes(t), self.torn[1].closes(1.0 - t)];
         let step = ((t * (fields.steps() * SUBSTEPS) as f64) as usize).min(fields.steps() * SUBSTEPS - 1);
         let obstacles = fields.obstacles();
         let walls = obstacles.and_then(|walls| Some((walls.clearance(step)?, walls.graph(step)?.barriers())));
         positions.par_iter_mut().enumerate().with_min_len(4096).for_each(|(row, position)| {
-            let deviation =
-                share * self.even[row] + closes[0] * self.torn[0][row] + closes[1] * self.torn[1][row];
+            let deviation = share * self.even[row]
+                + closes[0] * self.torn[0].deviation[row]
+                + closes[1] * self.torn[1].deviation[row];
             let by = deviation * self.directions[row];
             *position = match walls {
                 Some((clearance, barriers)) if clearance.at_least(*position) < by.length() => {
@@ -90,6 +83,37 @@ impl Diffusion {
                 _ => *position + by,
             };
         });
+    }
+}
+
+/// The diffusion beside the tears of the body of a key frame.
+struct Torn {
+    /// Standard deviations half way, by row.
+    deviation: Vec<f32>,
+    /// The exponent of the time by which tears close towards the key frame.
+    closing: f32,
+}
+
+impl Torn {
+    /// For photons at a `key` frame that are at `meeting` half way. A tear is where light of the key frame parts until the meeting,
+    /// or light of the meeting until the key frame: there an edge of the key frame meets another.
+    fn new(hold: f32, key: &[Vec2], meeting: &[Vec2]) -> Self {
+        let mut deviation = tears(hold, key, meeting);
+        let beside =
+            deviation.iter().filter(|torn| **torn > 0.0).count() as f32 / deviation.len().max(1) as f32;
+        let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
+        let of = |[few, all]: [f32; 2]| few + many * (all - few);
+        let widest = hold * of(WIDEST);
+        for (torn, parted) in deviation.iter_mut().zip(tears(hold, meeting, key)) {
+            *torn = (TORN * *torn).max(PARTED * parted).min(widest);
+        }
+        Self { deviation, closing: of(CLOSES) }
+    }
+
+    /// The share of the deviation half way at time `since` the key frame. It closes towards the key frame, and fades beyond the
+    /// meeting, where the body of the other is seen.
+    fn closes(&self, since: f64) -> f32 {
+        if since < 0.5 { ((2.0 * since) as f32).powf(self.closing) } else { share(since) }
     }
 }
 
