@@ -1,11 +1,10 @@
 //! The light of frames as the camera sees it, from the sums of their passes.
 
-use glam::{DVec3, Vec2, Vec4};
+use glam::{Vec2, Vec4};
 use rayon::prelude::*;
 
 use super::camera::CameraPictures;
 use crate::Result;
-use crate::math::colour::luminance;
 use crate::project::{Project, SegmentTime};
 use crate::render::density::radius_of_pass;
 use crate::render::{Image, PlaneMaterial, ProgressiveRender, ReceiverTexture, plane_image, smooth_sparse};
@@ -61,14 +60,12 @@ impl FrameLights<'_> {
 
     /// Smooths what few photons carry in the textures of a frame.
     fn smooth(&self, means: &mut [(ReceiverTexture, usize)]) {
-        let passes = means.last().map_or(0, |(_, passes)| *passes);
-        let total: DVec3 = means.iter().map(|(texture, _)| texture.total()).sum();
-        let total = luminance(total.as_vec3());
-        if passes > 0 && total > 0.0 {
-            let per_watt = passes as f32 * self.project.render.photons as f32 / total;
-            let radius = radius_of_pass(self.render.first_radius(), passes - 1);
-            means.iter_mut().for_each(|(texture, _)| smooth_sparse(texture, per_watt, radius));
-        }
+        let Some(passes) = means.last().map(|(_, passes)| *passes).filter(|passes| *passes > 0) else {
+            return;
+        };
+        let photons = passes as f32 * self.project.render.photons as f32;
+        let radius = radius_of_pass(self.render.first_radius(), passes - 1);
+        smooth_sparse(means.iter_mut().map(|(texture, _)| texture), photons, radius);
     }
 
     /// The light of a frame from the means of its textures and what the camera sees of them.

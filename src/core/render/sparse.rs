@@ -17,86 +17,119 @@ const FEW: f32 = 40.0;
 /// The binomial kernel of variance 1.
 const BINOMIAL: [f32; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
 
-/// Spreads what is sparse in the mean of some passes, which has `per_watt` photons for each watt of luminance; `radius` is that of
-/// the kernel of the last pass, plane units.
-pub fn smooth_sparse(texture: &mut ReceiverTexture, per_watt: f32, radius: f32) {
+/// Spreads what is sparse in the textures of a frame, the mean of some passes; all together have the light of `photons`. `radius` is
+/// that of the kernel of the last pass, plane units.
+pub fn smooth_sparse<'a>(textures: impl Iterator<Item = &'a mut ReceiverTexture>, photons: f32, radius: f32) {
+    let mut textures: Vec<_> = textures.map(|texture| (Blocks::of(texture), texture)).collect();
+    let sums = textures.iter().map(|(light, _)| light.cells.iter().map(brightness).sum::<f32>());
+    let total = sums.sum::<f32>() * (BLOCK * BLOCK) as f32;
+    if total > 0.0 {
+        textures.iter_mut().for_each(|(light, texture)| smooth(texture, light, photons / total, radius));
+    }
+}
+
+/// Spreads what is sparse in a texture with these blocks, of `per_watt` photons for each watt of luminance.
+fn smooth(texture: &mut ReceiverTexture, light: &mut Blocks<Vec4>, per_watt: f32, radius: f32) {
+    light.spread();
     let radius = radius / texture.layout().texel;
     // See `default_radius`.
     let texels = (4.0 * std::f32::consts::PI / 9.0 * radius * radius).max(1.0);
-    let mut light = Blocks::of(texture);
-    light.spread();
     let share = |light: &Vec4| {
-        let count = per_watt * texels * luminance(light.xyz());
-        Vec4::splat(FEW * FEW / (FEW * FEW + count * count))
+        let count = per_watt * texels * brightness(light);
+        FEW * FEW / (FEW * FEW + count * count)
     };
-    let shares = Blocks { texels: light.texels.iter().map(share).collect(), ..light };
-    let mut sparse = Blocks { texels: vec![Vec4::ZERO; shares.texels.len()], ..light };
-    let columns = texture.layout().columns;
-    let rows =
-        texture.texels_mut().par_chunks_mut(BLOCK * columns).zip(sparse.texels.par_chunks_mut(light.columns));
-    rows.enumerate().for_each(|(block, (texels, sparse))| {
-        for (y, row) in texels.chunks_exact_mut(columns).enumerate() {
-            for (x, texel) in row.iter_mut().enumerate() {
-                let part = *texel * shares.at(x, block * BLOCK + y);
+    let Blocks { columns, rows, .. } = *light;
+    let shares = Blocks { columns, rows, cells: light.cells.iter().map(share).collect() };
+    let mut sparse = Blocks { columns, rows, cells: vec![Vec4::ZERO; columns * rows] };
+    let wide = texture.layout().columns;
+    let blocks = texture.texels_mut().par_chunks_mut(BLOCK * wide).zip(sparse.cells.par_chunks_mut(columns));
+    blocks.enumerate().for_each_init(Vec::new, |line, (block, (texels, sparse))| {
+        for (y, row) in texels.chunks_exact_mut(wide).enumerate() {
+            shares.line(block * BLOCK + y, line);
+            for ((x, texel), share) in row.iter_mut().enumerate().zip(between(line)) {
+                let part = *texel * share;
                 *texel -= part;
                 sparse[x / BLOCK] += part / (BLOCK * BLOCK) as f32;
             }
         }
     });
     sparse.spread();
-    let rows = texture.texels_mut().par_chunks_mut(columns).enumerate();
-    rows.for_each(|(y, row)| row.iter_mut().enumerate().for_each(|(x, texel)| *texel += sparse.at(x, y)));
+    let rows = texture.texels_mut().par_chunks_mut(wide).enumerate();
+    rows.for_each_init(Vec::new, |line, (y, row)| {
+        sparse.line(y, line);
+        row.iter_mut().zip(between(line)).for_each(|(texel, sparse)| *texel += sparse);
+    });
 }
 
-/// The means of blocks of texels.
-struct Blocks {
+fn brightness(light: &Vec4) -> f32 {
+    luminance(light.xyz())
+}
+
+/// Values of blocks of texels; the light of a block is that of its mean texel.
+struct Blocks<T> {
     columns: usize,
     rows: usize,
-    texels: Vec<Vec4>,
+    cells: Vec<T>,
 }
 
-impl Blocks {
+/// What can be weighed.
+trait Value: Copy + Send + Sync + std::ops::Add<Output = Self> + std::ops::Mul<f32, Output = Self> {}
+impl<T: Copy + Send + Sync + std::ops::Add<Output = T> + std::ops::Mul<f32, Output = T>> Value for T {}
+
+impl<T: Value> Blocks<T> {
+    /// Writes the values at a row of texels, a cell for each column of blocks and one more on either side.
+    fn line(&self, row: usize, line: &mut Vec<T>) {
+        let place = ((row as f32 + 0.5) / BLOCK as f32 - 0.5).clamp(0.0, (self.rows - 1) as f32);
+        let below = place as usize;
+        let above = (below + 1).min(self.rows - 1);
+        let share = place - below as f32;
+        let [below, above] = [below, above].map(|y| &self.cells[y * self.columns..(y + 1) * self.columns]);
+        let of = |x: usize| below[x] * (1.0 - share) + above[x] * share;
+        line.clear();
+        line.extend(std::iter::once(of(0)).chain((0..self.columns).map(of)).chain([of(self.columns - 1)]));
+    }
+}
+
+/// The values at the texels of a line; their weights sum to 1 over the texels of a block as over the blocks of a texel.
+fn between<T: Value>(line: &[T]) -> impl Iterator<Item = T> {
+    const HALF: usize = BLOCK / 2;
+    let pairs = line.iter().zip(&line[1..]).enumerate();
+    pairs.flat_map(|(i, (&a, &b))| {
+        let texels = if i == 0 { HALF..BLOCK } else { 0..BLOCK };
+        texels.map(move |texel| {
+            let share = (texel as f32 + 0.5) / BLOCK as f32;
+            a * (1.0 - share) + b * share
+        })
+    })
+}
+
+impl Blocks<Vec4> {
     fn of(texture: &ReceiverTexture) -> Self {
         let wide = texture.layout().columns;
         let (columns, rows) = (wide.div_ceil(BLOCK), texture.layout().rows.div_ceil(BLOCK));
-        let mut texels = vec![Vec4::ZERO; columns * rows];
-        let blocks = texels.par_chunks_mut(columns).zip(texture.texels().par_chunks(BLOCK * wide));
+        let mut cells = vec![Vec4::ZERO; columns * rows];
+        let blocks = cells.par_chunks_mut(columns).zip(texture.texels().par_chunks(BLOCK * wide));
         blocks.for_each(|(means, texels)| {
             for (x, texel) in texels.chunks_exact(wide).flat_map(|row| row.iter().enumerate()) {
                 means[x / BLOCK] += *texel / (BLOCK * BLOCK) as f32;
             }
         });
-        Self { columns, rows, texels }
-    }
-
-    /// Between the four blocks around a texel; their weights sum to 1 over the texels of a block as over the blocks of a texel.
-    fn at(&self, column: usize, row: usize) -> Vec4 {
-        let along = |i: usize, count: usize| {
-            let place = ((i as f32 + 0.5) / BLOCK as f32 - 0.5).clamp(0.0, (count - 1) as f32);
-            let first = (place as usize).min(count.saturating_sub(2));
-            (first, (first + 1).min(count - 1), place - first as f32)
-        };
-        let ((left, right, x), (below, above, y)) = (along(column, self.columns), along(row, self.rows));
-        let of = |row: usize| {
-            let row = row * self.columns;
-            self.texels[row + left].lerp(self.texels[row + right], x)
-        };
-        of(below).lerp(of(above), y)
+        Self { columns, rows, cells }
     }
 
     /// Spreads with the binomial kernel along columns and rows; the border reflects.
     fn spread(&mut self) {
-        let mut other = vec![Vec4::ZERO; self.texels.len()];
+        let mut other = vec![Vec4::ZERO; self.cells.len()];
         let (columns, rows) = (self.columns, self.rows);
         let row = |(to, from): (&mut [Vec4], &[Vec4])| {
             to.iter_mut().enumerate().for_each(|(x, to)| *to = weighted(x, columns, |x| from[x]));
         };
-        other.par_chunks_mut(columns).zip(self.texels.par_chunks(columns)).for_each(row);
+        other.par_chunks_mut(columns).zip(self.cells.par_chunks(columns)).for_each(row);
         let column = |(y, to): (usize, &mut [Vec4])| {
-            let at = |x: usize| move |y: usize| y * columns + x;
-            to.iter_mut().enumerate().for_each(|(x, to)| *to = weighted(y, rows, |y| other[at(x)(y)]));
+            let value = |x: usize, y: usize| other[y * columns + x];
+            to.iter_mut().enumerate().for_each(|(x, to)| *to = weighted(y, rows, |y| value(x, y)));
         };
-        self.texels.par_chunks_mut(columns).enumerate().for_each(column);
+        self.cells.par_chunks_mut(columns).enumerate().for_each(column);
     }
 }
 
@@ -130,17 +163,18 @@ mod tests {
         texture
     }
 
-    fn smooth(texture: &mut ReceiverTexture) {
+    fn smoothed(before: &ReceiverTexture) -> ReceiverTexture {
+        let mut after = before.clone();
         // A kernel of one texel: the photons under it are those of the texel.
-        let radius = 0.5 * texture.layout().texel;
-        smooth_sparse(texture, 1.0, radius);
+        let radius = 0.5 * after.layout().texel;
+        smooth_sparse([&mut after].into_iter(), before.total().x as f32, radius);
+        after
     }
 
     #[test]
     fn dim_light_is_smoothed_and_bright_light_stays() {
         let before = lit(3000.0, 6.0, 0.5);
-        let mut after = before.clone();
-        smooth(&mut after);
+        let after = smoothed(&before);
         let columns = before.layout().columns;
         let place = |x: usize| 40 * columns + x;
         let [bright, dim] = [10, 70].map(|x| {
@@ -158,13 +192,11 @@ mod tests {
     fn no_flux_is_lost_nor_made() {
         let before = lit(70.0, 5.0, 0.9);
         assert!(before.layout().columns.is_multiple_of(BLOCK));
-        let mut after = before.clone();
-        smooth(&mut after);
+        let after = smoothed(&before);
         let [before, after]: [DVec3; 2] = [before.total(), after.total()];
         // Rounding in 32 bits.
         assert!((after / before - 1.0).abs().max_element() < 1e-5, "{before} {after}");
-        let mut dark = ReceiverTexture::new(TextureLayout::new(Vec2::ONE, 10, 0.0));
-        smooth_sparse(&mut dark, 1.0, 0.1);
-        assert_eq!(dark.total(), DVec3::ZERO);
+        let dark = ReceiverTexture::new(TextureLayout::new(Vec2::ONE, 10, 0.0));
+        assert_eq!(smoothed(&dark), dark);
     }
 }

@@ -55,7 +55,8 @@ impl Diffusion {
         let moved = keys[0].par_iter().zip(keys[1]).map(|(a, b)| a.distance(*b).min(hold));
         let even: Vec<f32> = moved.map(|moved| SHARE * moved).collect();
         let mean = even.iter().copied().map(f64::from).sum::<f64>() / even.len().max(1) as f64;
-        let torn = [0, 1].map(|side| Torn::new(hold, keys[side], meeting[side]));
+        let torn = |side: usize| Torn::new(hold, keys[side], meeting[side]);
+        let torn = rayon::join(|| torn(0), || torn(1)).into();
         Self { directions, even, torn, mean: mean as f32 }
     }
 
@@ -98,13 +99,13 @@ impl Torn {
     /// For photons at a `key` frame that are at `meeting` half way. A tear is where light of the key frame parts until the meeting,
     /// or light of the meeting until the key frame: there an edge of the key frame meets another.
     fn new(hold: f32, key: &[Vec2], meeting: &[Vec2]) -> Self {
-        let mut deviation = tears(hold, key, meeting);
+        let (mut deviation, parted) = rayon::join(|| tears(hold, key, meeting), || tears(hold, meeting, key));
         let beside =
             deviation.iter().filter(|torn| **torn > 0.0).count() as f32 / deviation.len().max(1) as f32;
         let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
         let of = |[few, all]: [f32; 2]| few + many * (all - few);
         let widest = hold * of(WIDEST);
-        for (torn, parted) in deviation.iter_mut().zip(tears(hold, meeting, key)) {
+        for (torn, parted) in deviation.iter_mut().zip(parted) {
             *torn = (TORN * *torn).max(PARTED * parted).min(widest);
         }
         Self { deviation, closing: of(CLOSES) }
