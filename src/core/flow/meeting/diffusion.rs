@@ -21,8 +21,10 @@ const BELL: i32 = 8;
 /// Standard deviation beside a tear over half its width, and where light parts that was together at the meeting.
 const TORN: f32 = 1.0;
 const PARTED: f32 = 0.6;
-/// The share of the light beside tears from which on a body counts as one of few tears, and as one of many.
-const BESIDE: [f32; 2] = [0.12, 0.2];
+/// The least width of a tear that counts, over the size of the pieces that hold together, and the shares of the light beside such
+/// tears up to which they are few, and from which on they are many.
+const SEEN: f32 = 0.05;
+const BESIDE: [f32; 2] = [0.18, 0.3];
 /// The largest standard deviation beside tears over the size of the pieces that hold together, and the exponent of the time by which
 /// it closes, with few and with many tears. A few wide tears of a plain shape need much; a limit of .2 everywhere blurs half of a
 /// finely drawn target until t = .8.
@@ -100,8 +102,8 @@ impl Torn {
     /// or light of the meeting until the key frame: there an edge of the key frame meets another.
     fn new(hold: f32, key: &[Vec2], meeting: &[Vec2]) -> Self {
         let (mut deviation, parted) = rayon::join(|| tears(hold, key, meeting), || tears(hold, meeting, key));
-        let beside =
-            deviation.iter().filter(|torn| **torn > 0.0).count() as f32 / deviation.len().max(1) as f32;
+        let beside = deviation.iter().filter(|torn| **torn > SEEN * hold).count() as f32
+            / deviation.len().max(1) as f32;
         let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
         let of = |[few, all]: [f32; 2]| few + many * (all - few);
         let widest = hold * of(WIDEST);
