@@ -75,9 +75,9 @@ impl Diffusion {
         let obstacles = fields.obstacles();
         let walls = obstacles.and_then(|walls| Some((walls.clearance(step)?, walls.graph(step)?.barriers())));
         positions.par_iter_mut().enumerate().with_min_len(4096).for_each(|(row, position)| {
-            let deviation = share * self.even[row]
-                + closes[0] * self.torn[0].deviation[row]
-                + closes[1] * self.torn[1].deviation[row];
+            let torn = [0, 1].map(|side| closes[side] * self.torn[side].deviation[row]);
+            // The widest: as a sum, all of a body with many tears would be out of focus half way.
+            let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]);
             let by = deviation * self.directions[row];
             *position = match walls {
                 Some((clearance, barriers)) if clearance.at_least(*position) < by.length() => {
