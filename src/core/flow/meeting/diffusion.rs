@@ -18,6 +18,9 @@ const SHARE: f32 = 0.1;
 const FARTHEST: f64 = 3.0;
 /// Exponent of 4 t (1 - t): lines of the target are sharp again from t = .75 on. With 5 they are soft until .8.
 const BELL: i32 = 8;
+/// Largest standard deviation over the distance to the nearest wall: light fades towards a wall as planned, and is not heaped up
+/// before it.
+const NEAR_WALLS: f32 = 0.4;
 /// Standard deviation beside a tear over half its width, and where light parts that was together at the meeting.
 const TORN: f32 = 1.0;
 const PARTED: f32 = 0.6;
@@ -78,12 +81,14 @@ impl Diffusion {
             let torn = [0, 1].map(|side| closes[side] * self.torn[side].deviation[row]);
             // The widest: as a sum, all of a body with many tears would be out of focus half way.
             let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]);
-            let by = deviation * self.directions[row];
             *position = match walls {
-                Some((clearance, barriers)) if clearance.at_least(*position) < by.length() => {
-                    bounce(barriers, *position, by)
+                Some((clearance, barriers)) => {
+                    let near = NEAR_WALLS * clearance.at(*position).max(0.0);
+                    let by = deviation.min(near) * self.directions[row];
+                    let clear = clearance.at_least(*position) >= by.length();
+                    if clear { *position + by } else { bounce(barriers, *position, by) }
                 }
-                _ => *position + by,
+                None => *position + deviation * self.directions[row],
             };
         });
     }
