@@ -2,6 +2,8 @@
 
 use glam::Vec2;
 
+use crate::math::mirror::mirrored;
+
 /// Standard deviation of the blur, cells.
 const BLUR: f32 = 1.6;
 /// Reach of the blur: four standard deviations.
@@ -72,10 +74,4 @@ fn weights() -> Weights {
 
 fn weighted(weights: &Weights, value: impl Fn(usize) -> f32) -> f32 {
     weights.iter().enumerate().map(|(i, weight)| weight * value(i)).sum()
-}
-
-/// The cell that stands for cell `i` of `count`, of which those outside mirror those inside.
-fn mirrored(i: isize, count: usize) -> usize {
-    let i = i.rem_euclid(2 * count as isize) as usize;
-    if i < count { i } else { 2 * count - 1 - i }
 }

@@ -11,6 +11,7 @@ pub mod distribution;
 pub mod hilbert;
 pub mod kronecker;
 pub mod lanczos;
+pub mod mirror;
 pub mod mixed_gram;
 pub mod multigrid;
 pub mod normal_blocks;

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::texture::ReceiverTexture;
 use crate::math::colour::luminance;
+use crate::math::mirror::mirrored;
 
 /// Texels along a block: the light is spread from block to block.
 const BLOCK: usize = 4;
@@ -135,12 +136,8 @@ impl Blocks<Vec4> {
 
 /// The binomial mean around place `i` of `count`.
 fn weighted(i: usize, count: usize, value: impl Fn(usize) -> Vec4) -> Vec4 {
-    let mirror = |at: isize| {
-        let at = at.rem_euclid(2 * count as isize) as usize;
-        if at < count { at } else { 2 * count - 1 - at }
-    };
     let reach = BINOMIAL.len() as isize / 2;
-    BINOMIAL.iter().zip(-reach..).map(|(weight, by)| *weight * value(mirror(i as isize + by))).sum()
+    BINOMIAL.iter().zip(-reach..).map(|(weight, by)| *weight * value(mirrored(i as isize + by, count))).sum()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::fields::MeetingFields;
 use super::tears::tears;
 use crate::flow::fade::smoothstep;
 use crate::flow::spatial_order::spatial_order;
-use crate::flow::walls::{SUBSTEPS, bounce};
+use crate::flow::walls::{Clearance, SUBSTEPS, bounce};
 use crate::math::sobol;
 
 /// Standard deviation half way, over the size of the pieces that hold together. The plan is that of a random motion; its
@@ -40,7 +40,7 @@ pub(super) struct Diffusion {
     directions: Vec<Vec2>,
     /// Standard deviations half way everywhere, by row.
     even: Vec<f32>,
-    /// What tears of the body of either key frame add.
+    /// Those beside the tears of the body of either key frame; of all, the widest counts.
     torn: [Torn; 2],
     /// The mean of the standard deviations everywhere.
     mean: f32,
@@ -65,7 +65,7 @@ impl Diffusion {
         Self { directions, even, torn, mean: mean as f32 }
     }
 
-    /// The mean standard deviation along each axis at time `t`, without what tears add, plane units.
+    /// The mean standard deviation along each axis at time `t`, without those beside tears, plane units.
     pub(super) fn deviation(&self, t: f64) -> f32 {
         share(t) * self.mean
     }
@@ -81,14 +81,13 @@ impl Diffusion {
             let torn = [0, 1].map(|side| closes[side] * self.torn[side].deviation[row]);
             // The widest: as a sum, all of a body with many tears would be out of focus half way.
             let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]);
+            let most = |(clearance, _): (&Clearance, _)| NEAR_WALLS * clearance.at(*position).max(0.0);
+            let by = deviation.min(walls.map_or(f32::INFINITY, most)) * self.directions[row];
             *position = match walls {
-                Some((clearance, barriers)) => {
-                    let near = NEAR_WALLS * clearance.at(*position).max(0.0);
-                    let by = deviation.min(near) * self.directions[row];
-                    let clear = clearance.at_least(*position) >= by.length();
-                    if clear { *position + by } else { bounce(barriers, *position, by) }
+                Some((clearance, barriers)) if clearance.at_least(*position) < by.length() => {
+                    bounce(barriers, *position, by)
                 }
-                None => *position + deviation * self.directions[row],
+                _ => *position + by,
             };
         });
     }
@@ -110,7 +109,7 @@ impl Torn {
         let beside = deviation.iter().filter(|torn| **torn > SEEN * hold).count() as f32
             / deviation.len().max(1) as f32;
         let many = smoothstep(f64::from((beside - BESIDE[0]) / (BESIDE[1] - BESIDE[0]))) as f32;
-        let of = |[few, all]: [f32; 2]| few + many * (all - few);
+        let of = |[few, most]: [f32; 2]| few + many * (most - few);
         let widest = hold * of(WIDEST);
         for (torn, parted) in deviation.iter_mut().zip(parted) {
             *torn = (TORN * *torn).max(PARTED * parted).min(widest);

@@ -19,7 +19,8 @@ const AROUND: usize = 3;
 /// Fall of the width with the distance to a tear. At 1 light fills a tear evenly, but lies in folds beside it.
 const SLOPE: f32 = 0.4;
 
-/// Half the width that the nearest tear has at the meeting, less a part of the distance to it at the key frame, for each photon. `key` and `meeting` are where the photons are at the key frame and at the meeting.
+/// Half the width that the nearest tear has at the meeting, less a part of the distance to it at the key frame, for each photon.
+/// `key` and `meeting` are where the photons are at the key frame and at the meeting.
 pub(super) fn tears(hold: f32, key: &[Vec2], meeting: &[Vec2]) -> Vec<f32> {
     let cells = Cells::new(Vec2::ONE, (CELLS / hold.max(f32::MIN_POSITIVE)).clamp(COARSEST, FINEST) as usize);
     let mut means = vec![Mean::default(); cells.count()];
@@ -95,7 +96,8 @@ fn widths(cells: &Cells, means: &[Option<[Vec2; 2]>]) -> Vec<f32> {
     widths
 }
 
-/// The largest width around each cell, less a part of the distance to it: two sweeps of a distance transform (Rosenfeld and Pfaltz 1968).
+/// The largest width around each cell, less a part of the distance to it: two sweeps of a distance transform (Rosenfeld and
+/// Pfaltz 1968).
 fn spread(mut widths: Vec<f32>, cells: &Cells) -> Vec<f32> {
     let [width, height] = cells.size;
     let straight = SLOPE * cells.side;

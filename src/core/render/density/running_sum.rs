@@ -6,6 +6,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::kernel::{BOXES, ExtendedBox, LANES};
+use crate::math::mirror::mirrored;
 use crate::render::texture::ReceiverTexture;
 
 /// Columns, or rows, filtered side by side: two cache lines, and enough running sums for the vector registers.
@@ -117,10 +118,7 @@ impl Line {
     /// Fills the padding by reflection, repeated where it is longer than the line.
     fn reflect(&mut self, reach: usize) {
         let count = self.inside.len();
-        let mirror = |i: isize| {
-            let i = i.rem_euclid(2 * count as isize) as usize;
-            reach + if i < count { i } else { 2 * count - 1 - i }
-        };
+        let mirror = |i: isize| reach + mirrored(i, count);
         for i in 0..reach {
             self.padded[i] = self.padded[mirror(i as isize - reach as isize)];
             self.padded[reach + count + i] = self.padded[mirror((count + i) as isize)];

@@ -6,6 +6,7 @@ use glam::Vec4;
 use rayon::prelude::*;
 
 use super::kernel::LANES;
+use crate::math::mirror::mirrored;
 use crate::render::texture::ReceiverTexture;
 
 /// Texels per block, the unit that is dark or lit. The kernel reaches no farther than the next block.
@@ -63,7 +64,7 @@ impl Band {
     fn filter(&mut self, source: &Source, weights: &[f32], first: usize, out: &mut [f32]) {
         let (reach, width) = (weights.len() - 1, LANES * source.columns);
         let (low, high) = (first as isize - reach as isize, first + out.len() / width + reach);
-        let window: Vec<usize> = (low..high as isize).map(|row| reflected(row, source.rows)).collect();
+        let window: Vec<usize> = (low..high as isize).map(|row| mirrored(row, source.rows)).collect();
         let blocks = source.columns.div_ceil(BLOCK);
         self.lit.clear();
         for &row in &window {
@@ -84,12 +85,6 @@ impl Band {
     }
 }
 
-/// The index in 0..`count` of one beyond, by reflection.
-fn reflected(index: isize, count: usize) -> usize {
-    let index = index.rem_euclid(2 * count as isize) as usize;
-    index.min(2 * count - 1 - index)
-}
-
 /// One row filtered across rows, from those `near` it.
 fn upright_row(source: &Source, near: &[usize], lit: &[bool], weights: &[f32], out: &mut [f32]) {
     let mut lines: Vec<&[f32]> = Vec::with_capacity(near.len());
@@ -107,7 +102,7 @@ fn upright_row(source: &Source, near: &[usize], lit: &[bool], weights: &[f32], o
 /// Fills the `reach` texels on either side of a padded row.
 fn reflect(padded: &mut [f32], reach: usize, columns: usize) {
     for at in (0..reach).chain(reach + columns..columns + 2 * reach) {
-        let from = LANES * (reach + reflected(at as isize - reach as isize, columns));
+        let from = LANES * (reach + mirrored(at as isize - reach as isize, columns));
         padded.copy_within(from..from + LANES, LANES * at);
     }
 }
