@@ -2,5 +2,6 @@
 
 pub mod cli;
 pub mod editor;
+mod file_lock;
 pub mod log;
 pub mod processor;

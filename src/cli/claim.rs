@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use super::farm::list;
 use super::job::Outcome;
-use crate::editor::store::{FileLock, Locked};
+use crate::file_lock::{FileLock, Locked};
 
 /// How often it is looked whether the owner of a claim must show that it lives.
 const LOOKS: Duration = Duration::from_secs(20);

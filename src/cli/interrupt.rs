@@ -12,7 +12,7 @@ use signal_hook::flag;
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// How long a run that the system ends still writes frames: farms kill what is there after ten seconds or more.
-const GRACE: Duration = Duration::from_secs(7);
+const GRACE: Duration = Duration::from_millis(8500);
 
 /// A signal that ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

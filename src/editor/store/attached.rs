@@ -6,8 +6,8 @@ use std::time::SystemTime;
 use lightloom_core::files;
 
 use super::Fingerprint;
-use super::lock::{FileLock, Locked};
 use super::save::MOST_BYTES;
+use crate::file_lock::{FileLock, Locked};
 
 /// Whether the document may be saved to its file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! The lock of an open project: a hidden file beside it that tells other editors who has it open.
+//! The lock of a file: a hidden file beside it that tells other processes who has it, such as a project that is open in an editor.
 //!
 //! The system's lock on that file tells whether its owner lives, on this machine; across machines, where not every disk shares
 //! such locks, the owner touches the file every minute. What a dead owner left is taken over.
