@@ -12,6 +12,7 @@ mod files;
 mod flow_view;
 mod import;
 mod notes;
+mod orbit_view;
 mod palette;
 mod panels;
 mod photon_drawing;

@@ -52,6 +52,15 @@ impl Seen {
     pub fn loaded(&self) -> Option<Loaded<'_>> {
         self.scene.as_ref().map(|(scene, project)| Loaded { scene, project })
     }
+
+    /// Whether the picture has the meshes of a project, wherever they stood a moment ago.
+    pub fn has_meshes_of(&self, project: &Project) -> bool {
+        let meshes = |project: &Project| -> Vec<_> {
+            let meshes = project.scene.iter().flat_map(|scene| &scene.meshes);
+            meshes.map(|mesh| (mesh.file.clone(), mesh.node.clone(), mesh.enabled)).collect()
+        };
+        self.scene.as_ref().is_some_and(|(_, of)| meshes(of) == meshes(project))
+    }
 }
 
 /// Looks from the newest place.

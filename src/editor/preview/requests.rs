@@ -16,7 +16,9 @@ impl LivePreview {
     /// Sends the requests that were not sent yet.
     pub(super) fn request(&mut self, subject: &Subject, session: &Session, wanted: &Wanted) {
         self.request_shot(subject, wanted);
-        let preview = self.preview().cloned();
+        // Where the scene is put right, the light of what it was would mislead.
+        let is_lit = wanted.look.is_none() || !self.veil();
+        let preview = self.preview().filter(|_| is_lit).cloned();
         let moment = |preview: Arc<Preview>| {
             let shown = (0..preview.groups().len()).map(|group| session.shows_group(group)).collect();
             Moment { preview, frame: session.playhead, shown }

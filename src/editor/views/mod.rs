@@ -115,7 +115,8 @@ impl Views {
             editor.ask(Action::Abort);
         }
         let all = ui.available_rect_before_wrap();
-        let veil = editor.preview.veil();
+        // The orbit view has one of its own, beneath the handles by which the scene is put right.
+        let veil = editor.preview.veil() && editor.session.layout != ViewLayout::Orbit;
         match editor.session.layout {
             ViewLayout::Plane => self.plane(ui, all, editor, toolbox),
             ViewLayout::Shot => self.shot(ui, all, editor, toolbox),
@@ -131,7 +132,7 @@ impl Views {
             ui.ctx().request_repaint();
         }
         if veil {
-            ui.painter().rect_filled(all, 0.0, super::theme::SURROUND.gamma_multiply(VEIL));
+            draw_veil(ui, all);
         }
     }
 
@@ -181,6 +182,11 @@ impl Views {
         self.orbit_view(&mut ui, editor);
         title(&ui, place, "Orbit view");
     }
+}
+
+/// A veil over pictures that are not those of the project.
+fn draw_veil(ui: &Ui, place: Rect) {
+    ui.painter_at(place).rect_filled(place, 0.0, super::theme::SURROUND.gamma_multiply(VEIL));
 }
 
 /// The name of a view in its corner.

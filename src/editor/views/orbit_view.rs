@@ -7,6 +7,7 @@ use glam::Vec2;
 use lightloom_core::scene::{CameraDesc, SceneDesc};
 
 use super::Views;
+use super::draw_veil;
 use super::fit::WHOLE;
 use super::transform;
 use crate::editor::action::Action;
@@ -63,6 +64,9 @@ impl Views {
         let camera = if through { shot } else { editor.session.free_camera.clone().unwrap_or(camera) };
         self.wanted.look = Some((camera, pixels(ui, frame)));
         self.paint(ui, view, &seen, shown.map_or(frame, |shown| shown.place), through);
+        if editor.preview.veil() && !seen.has_meshes_of(&project) {
+            draw_veil(ui, view);
+        }
         if let Some((scene, shown)) = scene {
             let aspect = aspect[0] / aspect[1].max(1.0);
             self.draw((&ui.painter_at(view), shown), editor, scene, &seen, (over, aspect, through));

@@ -135,7 +135,11 @@ fn changed(old: &LightDesc, new: LightDesc) -> LightDesc {
 pub(in crate::editor) fn lamp_words(editor: &EditorContext) -> Option<(String, String)> {
     let index = editor.session.focus.object?.light()?;
     let scene = editor.document.project().scene.as_ref()?;
-    let name = scene.lights.get(index)?.name().to_owned();
+    let light = scene.lights.get(index)?;
+    let name = light.name().to_owned();
+    if light.role() == LightRole::Background {
+        return Some((name, "casts no caustics, by its role".into()));
+    }
     let light = editor.preview.lamp(index)?;
     let short = |watts: f64| {
         let watts = format!("{watts:.1e}").parse().unwrap_or(watts);
