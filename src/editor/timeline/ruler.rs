@@ -1,8 +1,10 @@
 //! The ruler: frame numbers and seconds, scrubbing, playback marks, playhead.
 
+use std::sync::Arc;
+
 use egui::{
-    Align2, CursorIcon, FontId, Id, PointerButton, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, CursorIcon, FontId, Galley, Id, PointerButton, Rect, Response, Sense, Shape, Stroke, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::commands::go;
@@ -44,6 +46,7 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
     let visuals = ui.visuals();
     let (strong, weak) = (visuals.text_color(), visuals.weak_text_color());
     let played = playback::played(project, editor.session);
+    let (flag, _) = flag(ui, rect, scale, editor.session.playhead);
     let is_played = |frame: i64| (i64::from(*played.start())..=i64::from(*played.end())).contains(&frame);
     if tick as f32 * scale.per_frame() >= 4.0 {
         for frame in scale.multiples(tick) {
@@ -60,7 +63,12 @@ fn ticks(ui: &Ui, rect: Rect, scale: &Scale, editor: &EditorContext) {
         let font = FontId::proportional(11.5);
         let dimmed =
             |colour: egui::Color32| if is_played(frame) { colour } else { colour.gamma_multiply(0.4) };
-        painter.text(pos2(x + 4.0, rect.top() + 3.0), Align2::LEFT_TOP, frame, font, dimmed(strong));
+        let number = painter.layout_no_wrap(frame.to_string(), font, dimmed(strong));
+        let place = Rect::from_min_size(pos2(x + 4.0, rect.top() + 3.0), number.size());
+        // Half a number beside the flag of the playhead would be read as another.
+        if !flag.intersects(place) {
+            painter.galley(place.min, number, strong);
+        }
         let text = if unit > 10.0 { format!("{seconds:.2} s") } else { format!("{seconds:.1} s") };
         painter.text(
             pos2(x + 4.0, rect.top() + 17.0),
@@ -133,11 +141,17 @@ fn bounded(frame: i32, end: usize, other: Option<i32>) -> i32 {
 /// Paints the playhead over all lanes, with its frame number.
 pub(super) fn playhead(ui: &Ui, area: Rect, scale: &Scale, frame: i32) {
     let painter = ui.painter_at(area);
-    let x = painter.round_to_pixel_center(scale.x(f64::from(frame)));
-    painter.vline(x, area.y_range(), Stroke::new(1.5, theme::ACCENT));
-    let text = painter.layout_no_wrap(frame.to_string(), FontId::proportional(11.5), egui::Color32::WHITE);
-    let half = (text.size().x / 2.0 + 5.0).max(11.0);
-    let flag = Rect::from_min_max(pos2(x - half, area.top()), pos2(x + half, area.top() + 17.0));
+    let (flag, text) = flag(ui, area, scale, frame);
+    painter.vline(flag.center().x, area.y_range(), Stroke::new(1.5, theme::ACCENT));
     painter.rect_filled(flag, 4.0, theme::ACCENT);
     painter.galley(flag.center() - text.size() / 2.0, text, egui::Color32::WHITE);
+}
+
+/// The playhead's flag at the top of an area, and the number in it.
+fn flag(ui: &Ui, area: Rect, scale: &Scale, frame: i32) -> (Rect, Arc<Galley>) {
+    let painter = ui.painter_at(area);
+    let x = painter.round_to_pixel_center(scale.x(f64::from(frame)));
+    let text = painter.layout_no_wrap(frame.to_string(), FontId::proportional(11.5), egui::Color32::WHITE);
+    let half = (text.size().x / 2.0 + 5.0).max(11.0);
+    (Rect::from_min_max(pos2(x - half, area.top()), pos2(x + half, area.top() + 17.0)), text)
 }
