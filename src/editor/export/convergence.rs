@@ -38,7 +38,10 @@ impl Convergence {
         if let Some((of, before, last)) = &self.last {
             if *of != frame {
                 self.points.clear();
-            } else if let Some(noise) = noise((*before, last), (passes, image)) {
+            } else if let Some(square) = square((*before, last), (passes, image)) {
+                let of_before = self.points.last().filter(|point| point.passes == *before);
+                let known = of_before.map(|point| point.noise.powi(2));
+                let noise = noise(known, (*before, passes), square);
                 self.points.push(Point { passes, time, noise });
             }
         }
@@ -105,11 +108,9 @@ fn plot(ui: &Ui, rect: Rect, points: &[Point]) {
     }
 }
 
-/// The noise of the later of two pictures of one frame, of which the earlier is the mean of its first passes; none where they
-/// cannot be compared.
-///
-/// The mean of n passes has the variance s²/n, and that of m passes of them differs from it by s²/m - s²/n.
-fn noise((m, before): (usize, &Image), (n, now): (usize, &Image)) -> Option<f64> {
+/// The mean square of the difference of two pictures of one frame, of which the earlier is the mean of its first passes; none
+/// where they cannot be compared.
+fn square((m, before): (usize, &Image), (n, now): (usize, &Image)) -> Option<f64> {
     if m == 0 || n <= m || before.pixels.len() != now.pixels.len() || now.pixels.is_empty() {
         return None;
     }
@@ -117,9 +118,20 @@ fn noise((m, before): (usize, &Image), (n, now): (usize, &Image)) -> Option<f64>
         let difference: glam::Vec3 = *b - *a;
         f64::from(difference.length_squared()) / 3.0
     };
-    let mean = before.pixels.iter().zip(&now.pixels).map(square).sum::<f64>() / now.pixels.len() as f64;
+    Some(before.pixels.iter().zip(&now.pixels).map(square).sum::<f64>() / now.pixels.len() as f64)
+}
+
+/// The noise of the mean of n passes, which differs from the mean of the first m by `square`, and whose variance was `known`.
+///
+/// A is the mean of the first m passes and B that of the k = n - m new ones, so the means differ by k (B - A) / n:
+/// n² square = k² (V(A) + V(B)), and n² V = m² V(A) + k² V(B). Passes are not all as noisy: the kernel shrinks. At first
+/// nothing is known of A, and all are taken for equal.
+fn noise(known: Option<f64>, (m, n): (usize, usize), square: f64) -> f64 {
     let (m, n) = (m as f64, n as f64);
-    Some((mean / (1.0 / m - 1.0 / n) / n).sqrt())
+    let k = n - m;
+    let of_first = known.unwrap_or(square / (1.0 / m - 1.0 / n) / m);
+    let of_new = (n * n * square - k * k * of_first).max(0.0);
+    (m * m * of_first + of_new).sqrt() / n
 }
 
 fn percent(noise: f64) -> String {
@@ -164,6 +176,25 @@ mod tests {
             // Of 4096 pixels the deviation is known to about one per cent; four of these.
             assert!((point.noise / known - 1.0).abs() < 0.05, "{point:?} against {known}");
         }
+    }
+
+    #[test]
+    fn passes_of_growing_noise_are_told_by_their_mean() {
+        let (count, side) = (9, 64);
+        let mut passes = passes_of(count, side * side);
+        let growth = |pass: usize| 1.0 + pass as f32 / 4.0;
+        for (i, pass) in passes.iter_mut().enumerate() {
+            pass.iter_mut().for_each(|value| *value = 0.5 + (*value - 0.5) * growth(i));
+        }
+        let mut curve = Convergence::default();
+        for n in 1..=count {
+            let mean = |i: usize| passes[..n].iter().map(|pass| pass[i]).sum::<f32>() / n as f32;
+            let pixels = (0..side * side).map(|i| Vec3::splat(mean(i))).collect();
+            curve.add((7, n), Duration::from_secs(n as u64), &Image { width: side, height: side, pixels });
+        }
+        let [.., last] = curve.points() else { panic!("no curve") };
+        let known = (0..count).map(|i| f64::from(0.1 * growth(i)).powi(2)).sum::<f64>().sqrt() / count as f64;
+        assert!((last.noise / known - 1.0).abs() < 0.05, "{last:?} against {known}");
     }
 
     #[test]
