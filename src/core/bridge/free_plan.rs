@@ -6,7 +6,9 @@ use rayon::prelude::*;
 use super::cells::Cells;
 use super::ends::{End, LEAST, over, scale_in_turn};
 use super::gaussian::Gaussian;
-use super::gradient::{BLUR, floor, gather, gradients};
+use super::gradient::{BLUR, gather, gradients};
+use super::relative_density::RelativeDensity;
+use super::self_transport::SelfTransport;
 use super::settings::BridgeSettings;
 use crate::{Progress, Result};
 
@@ -19,10 +21,7 @@ const COARSEST: usize = 48;
 /// Least variance in squared cells: a narrower kernel is none on the grid.
 const LEAST_VARIANCE: f64 = 0.36;
 /// Diffusion down the relative density, over that of the bridge.
-const DIFFUSION: f64 = 0.5;
-/// Iterations of the self-transport in each renewal; the first starts from nothing.
-const SELF_SWEEPS: usize = 4;
-const FIRST_SELF_SWEEPS: usize = 12;
+pub(super) const DIFFUSION: f64 = 0.5;
 
 /// The plan of free motion.
 pub(super) struct FreePlan {
@@ -31,18 +30,11 @@ pub(super) struct FreePlan {
     /// Factors of the end that is scaled last, from the last plan.
     scale: Option<Vec<f64>>,
     own: [SelfTransport; 2],
-    /// Blurred density around each photon at its key frame, in the order of scaling.
-    birth: [Vec<f32>; 2],
+    /// In the order of scaling.
+    relative: [RelativeDensity; 2],
     error: f64,
     /// Whether the later light is scaled first. The order is that of the photons, so that exchanged keys have the same plan.
     exchanged: bool,
-}
-
-/// The transport of a density onto itself.
-#[derive(Default)]
-struct SelfTransport {
-    scale: Vec<f64>,
-    reached: Vec<f64>,
 }
 
 impl FreePlan {
@@ -53,7 +45,7 @@ impl FreePlan {
             blur,
             scale: None,
             own: Default::default(),
-            birth: Default::default(),
+            relative: Default::default(),
             error: 0.0,
             exchanged: false,
         }
@@ -112,9 +104,15 @@ impl FreePlan {
         self.error = ends[0].error();
         let drift = variance * f64::from(cells.side).powi(2) / left;
         let velocities = [0, 1].map(|side| {
-            self.own[side].renew(&ends[side].density, &mut kernel);
-            let relative = self.relative_density(side, cells, &ends[side].density, photons[side]);
-            self.side_velocities(side, cells, drift, (&ends[side].reached, &relative))
+            let density = &ends[side].density;
+            let own = self.own[side].renew(density, |factor, out| kernel.spread(factor, out));
+            let mut reached = vec![0.0; cells.count()];
+            kernel.spread(own, &mut reached);
+            let mut light = vec![0.0; cells.count()];
+            self.blur.spread(density, &mut light);
+            let blur = |density: &[f64], out: &mut [f64]| self.blur.spread(density, out);
+            let relative = self.relative[side].of((cells, None), (&light, photons[side]), blur);
+            self.side_velocities(cells, drift, [&ends[side].reached, &reached, &relative])
         });
         let [_, b] = ends;
         self.scale = Some(b.scale);
@@ -122,74 +120,17 @@ impl FreePlan {
     }
 
     /// `drift` grad ln(reached / own), and -s^2/2 D grad of the relative density, which fills cracks.
-    fn side_velocities(
-        &self,
-        side: usize,
-        cells: &Cells,
-        drift: f64,
-        (reached, relative): (&[f64], &[f64]),
-    ) -> Vec<Vec2> {
+    fn side_velocities(&self, cells: &Cells, drift: f64, [reached, own, relative]: [&[f64]; 3]) -> Vec<Vec2> {
         let known = |reached: f64| if reached > LEAST { reached.ln() } else { f64::NAN };
         let diffusion = 0.5 * DIFFUSION * f64::from(self.settings.hold).powi(2);
         let ahead: Vec<f64> = reached
             .iter()
-            .zip(&self.own[side].reached)
+            .zip(own)
             .zip(relative)
             // Far from its own light a cell has no self-transport; nothing moves there.
             .map(|((reached, own), relative)| drift * (known(*reached) - known(*own)) - diffusion * relative)
             .collect();
         gradients(cells, None, &ahead)
-    }
-
-    /// ln of the blurred density in each cell over the mean over its light of that at the key frame; zero before any photon has
-    /// moved.
-    fn relative_density(
-        &mut self,
-        side: usize,
-        cells: &Cells,
-        density: &[f64],
-        photons: &[Vec2],
-    ) -> Vec<f64> {
-        let mut light = vec![0.0; cells.count()];
-        self.blur.spread(density, &mut light);
-        if self.birth[side].is_empty() {
-            let birth = |&p: &Vec2| cells.value(&light, p) as f32;
-            self.birth[side] = photons.par_iter().with_min_len(4096).map(birth).collect();
-            return vec![0.0; cells.count()];
-        }
-        let birth = &self.birth[side];
-        let per_photon = 1.0 / photons.len().max(1) as f32;
-        let weigh = |i: usize, p: Vec2| cells.around(p).map(|(cell, w)| (cell, w * birth[i] * per_photon));
-        let sums = cells.sum(photons, weigh);
-        let mut born = vec![0.0; cells.count()];
-        self.blur.spread(&sums, &mut born);
-        let floor = floor(photons.len());
-        let relative =
-            |(light, born): (&f64, &f64)| ((light + floor) / (born / light.max(1e-12) + floor)).ln();
-        light.iter().zip(&born).map(relative).collect()
-    }
-}
-
-impl SelfTransport {
-    /// Renews the factor for another density, from the last one.
-    fn renew(&mut self, density: &[f64], kernel: &mut Gaussian) {
-        let fresh = self.scale.is_empty();
-        if fresh {
-            self.scale = density.iter().map(|density| density.sqrt()).collect();
-            self.reached = vec![0.0; density.len()];
-        }
-        let least = 1e-6 * self.scale.iter().copied().fold(0.0, f64::max);
-        for (scale, density) in self.scale.iter_mut().zip(density) {
-            *scale = if *density > 0.0 { scale.max(least) } else { 0.0 };
-        }
-        for _ in 0..if fresh { FIRST_SELF_SWEEPS } else { SELF_SWEEPS } {
-            kernel.spread(&self.scale, &mut self.reached);
-            let columns = self.scale.iter_mut().zip(density).zip(&self.reached);
-            // The square root damps the swing of the symmetric iteration.
-            columns
-                .for_each(|((scale, density), reached)| *scale = (*scale * over(*density, *reached)).sqrt());
-        }
-        kernel.spread(&self.scale, &mut self.reached);
     }
 }
 

@@ -1,5 +1,7 @@
 //! The kernel of motion around walls: many short steps, none through a wall, and no cell fuller than its cap.
 
+use std::ops::Range;
+
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -152,6 +154,8 @@ pub(super) struct WallKernel {
     known: [bool; 2],
     /// The factors of both ends.
     ends: [Vec<f64>; 2],
+    /// The steps between the ends.
+    range: Range<usize>,
 }
 
 impl WallKernel {
@@ -174,21 +178,27 @@ impl WallKernel {
             current: vec![0.0; count],
             known: [false; 2],
             ends: [vec![0.0; count], vec![0.0; count]],
+            range: 0..steps,
         }
+    }
+
+    /// Moves both ends by `done` steps towards each other, from where they were at first.
+    pub(super) fn narrow(&mut self, done: usize) {
+        self.range = done..self.of_step.len() - done;
     }
 
     /// `out` = the density of `side` (0: from the begin on, 1: from the end back) at the other end.
     pub(super) fn spread(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
-        let end = self.of_step.len();
+        let Range { start, end } = self.range;
         self.current.copy_from_slice(density);
         self.known[side] = true;
         self.ends[side].copy_from_slice(density);
         let capped = self.known == [true; 2];
-        for k in 0..end {
-            let (step, to) = if side == 0 { (k, k + 1) } else { (end - 1 - k, end - 1 - k) };
+        for k in 0..end - start {
+            let (step, to) = if side == 0 { (start + k, start + k + 1) } else { (end - 1 - k, end - 1 - k) };
             let kernel = &self.kernels[self.of_step[step]];
             kernel.spread(&self.current, &mut self.work, &mut self.from[side][to]);
-            if to == 0 || to == end {
+            if to == start || to == end {
                 break;
             }
             let [a, b] = &self.from;
@@ -201,7 +211,7 @@ impl WallKernel {
                 *current = *factor * self.from[side][to][i];
             }
         }
-        out.copy_from_slice(&self.from[side][if side == 0 { end } else { 0 }]);
+        out.copy_from_slice(&self.from[side][if side == 0 { end } else { start }]);
     }
 
     /// What has come from the earlier end to the later one.
@@ -221,9 +231,7 @@ impl WallKernel {
     ///
     /// Where walls change after the step, light of the side `alone` must be through by then, which its own moves alone know.
     pub(super) fn velocity(&mut self, k: usize, cells: &Cells, alone: Option<usize>) -> Vec<Vec2> {
-        let goes = self.factored(1, k + 1);
-        let comes = self.factored(0, k);
-        let [onward, back] = [goes, comes].map(|light| self.mean_moves(k, &light, cells));
+        let [onward, back] = [0, 1].map(|side| self.onward(side, k, cells));
         match alone {
             None => onward.iter().zip(&back).map(|(onward, back)| 0.5 * (*onward - *back)).collect(),
             Some(0) => onward,
@@ -231,16 +239,35 @@ impl WallKernel {
         }
     }
 
+    /// The mean move in step `k` of the light of `side` towards the other end in each cell, plane units.
+    pub(super) fn onward(&mut self, side: usize, k: usize, cells: &Cells) -> Vec<Vec2> {
+        let light = if side == 0 { self.factored(1, k + 1) } else { self.factored(0, k) };
+        self.moves_towards(k, &light, cells)
+    }
+
+    /// The share of the time that the light between the ends spends where walls are soft.
+    pub(super) fn beside_walls(&self) -> f64 {
+        let share = |k: usize| {
+            let density = self.density(k);
+            let soft = &self.soft[self.of_step[k]];
+            let beside: f64 =
+                density.iter().zip(soft).map(|(light, soft)| if *soft < 1.0 { *light } else { 0.0 }).sum();
+            beside / density.iter().sum::<f64>().max(LEAST)
+        };
+        let steps = 1..self.of_step.len();
+        steps.clone().map(share).sum::<f64>() / steps.len().max(1) as f64
+    }
+
     /// The density from `side` at the begin of step `k`, times the factor there.
     fn factored(&self, side: usize, k: usize) -> Vec<f64> {
-        if k == [0, self.of_step.len()][side] {
+        if k == [self.range.start, self.range.end][side] {
             return self.ends[side].clone();
         }
         self.from[side][k].iter().zip(&self.factors[k]).map(|(density, factor)| density * factor).collect()
     }
 
     /// The mean move from each cell to where `light` is, as far as step `k` reaches.
-    fn mean_moves(&mut self, k: usize, light: &[f64], cells: &Cells) -> Vec<Vec2> {
+    pub(super) fn moves_towards(&mut self, k: usize, light: &[f64], cells: &Cells) -> Vec<Vec2> {
         let kernel = &self.kernels[self.of_step[k]];
         let mut spread = |values: &[f64]| {
             let mut out = vec![0.0; values.len()];

@@ -1,4 +1,4 @@
-//! The plan of motion around walls, made once and followed.
+//! The plan of motion around walls, made once, and followed or renewed.
 
 use glam::Vec2;
 
@@ -7,6 +7,7 @@ use super::ends::{End, scale_in_turn};
 use super::free_plan::finer_scale;
 use super::gradient::{BLUR, floor, gather, gradients};
 use super::regions::Regions;
+use super::renewal::{Grid, Renewal};
 use super::settings::BridgeSettings;
 use super::wall_cells::{StandingWalls, WallCells};
 use super::wall_kernel::{StepKernel, WallKernel};
@@ -16,7 +17,7 @@ use crate::{Progress, Result};
 /// quarter of the sweeps of 1.
 const SWEEPS: usize = 150;
 const TOLERANCE: f64 = 1e-3;
-const RELAXATION: f64 = 1.6;
+pub(super) const RELAXATION: f64 = 1.6;
 /// Cells of the plan from which a finer one starts, at most.
 const COARSEST: usize = 48;
 /// Least variance of a step in squared cells: a narrower kernel is none on the grid.
@@ -28,6 +29,9 @@ const SOFTNESS: f64 = 20.0;
 /// Diffusion down the density over the planned one, over that of the bridge. With 1 the gap at the meeting is .0037 and .0159 in
 /// place of .0026 and .0139 (*letters*, *bottles*); with 4 it is no smaller.
 const FEEDBACK: f64 = 2.0;
+/// Share of the time that light spends within the reach of walls below which the plan is renewed on the way: .01 and .04 in *letters* and
+/// *bottles*. Where light squeezes through a slit (.06) or around a bar (.08) and a C (.3), renewed plans crack it.
+const FEW_BESIDE: f64 = 0.05;
 /// Share of the light whose cells set the cap; brighter ones keep their own density.
 const CAP_SHARE: f64 = 0.9;
 
@@ -48,6 +52,8 @@ struct Made {
     /// Steps of the kernel that make the blur of densities.
     blur: usize,
     error: f64,
+    /// Where the same walls stand all the time, in the way of little light.
+    renewal: Option<Renewal>,
 }
 
 impl WallPlan {
@@ -77,6 +83,10 @@ impl WallPlan {
             self.made = Some(Made::new(&self.settings, (cells, walls), photons, None, progress)?);
         }
         let Some(made) = &mut self.made else { return Err(crate::Error::Cancelled) };
+        if let Made { renewal: Some(renewal), kernel, regions, variance, blur, .. } = made {
+            let grid = Grid { cells, walls: walls.of(0, 0), regions, variance: *variance, blur: *blur };
+            return renewal.velocities(kernel, (&self.settings, &grid), (done, photons), progress);
+        }
         let mut velocity =
             |side: usize| made.side_velocities(&self.settings, (cells, walls), (side, done), photons[side]);
         Ok([velocity(0), velocity(1)])
@@ -123,7 +133,9 @@ impl Made {
         let error = ends[0].error();
         let blur = (BLUR * BLUR / step).round().max(1.0) as usize;
         let variance = step * f64::from(cells.side).powi(2);
-        Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error })
+        let is_renewed = walls.runs().count() == 1 && kernel.beside_walls() < FEW_BESIDE;
+        let renewal = is_renewed.then(|| Renewal::new(ends[1].scale.clone()));
+        Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error, renewal })
     }
 
     /// The planned velocity of a side, and diffusion down the density over the planned one.

@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Result;
+use crate::math::smoothstep::smoothstep;
 use crate::setting::schema::Describe;
 use crate::setting::{Choice, Setting, settings};
 
@@ -154,10 +155,4 @@ impl Fade {
 pub(super) fn ease(speed_over_limit: f32) -> f32 {
     let x = ((speed_over_limit - SPEED_RAMP_START) / (1.0 - SPEED_RAMP_START)).clamp(0.0, 1.0);
     1.0 - x * x * (3.0 - 2.0 * x)
-}
-
-/// From 0 to 1 without a kink at either end; clipped beyond.
-pub(super) fn smoothstep(x: f64) -> f64 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
 }

@@ -19,6 +19,7 @@ pub mod null_space;
 pub mod operator;
 pub mod real;
 pub mod rng;
+pub mod smoothstep;
 pub mod sobol;
 mod sparse_cholesky;
 pub mod stencil;

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::material::{Diffuse, Material};
 use super::{Hit, Primitive, Ray, SurfaceId};
 use crate::Result;
+use crate::math::smoothstep::smoothstep;
 use crate::setting::schema::Describe;
 use crate::setting::{Setting, settings};
 
@@ -107,12 +108,6 @@ impl ReceiverDesc {
 /// Widest floor beside the rectangle on which light is shown, plane units: beyond it the light of a glass is thin.
 const MARGIN: f32 = 0.4;
 
-/// From 0 at 0 to 1 at 1 and above, smooth at both ends.
-fn smoothstep(x: f32) -> f32 {
-    let x = x.clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
 /// The resolved receiver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Receiver {
@@ -177,7 +172,7 @@ impl Receiver {
         if border <= 0.0 {
             return 1.0;
         }
-        let [x, y] = (inward / border).to_array().map(smoothstep);
+        let [x, y] = (inward / border).to_array().map(|share| smoothstep(f64::from(share)) as f32);
         x * y
     }
 
@@ -186,7 +181,11 @@ impl Receiver {
     pub fn shown_share(&self, point: Vec2) -> f32 {
         let outside = point - point.clamp(Vec2::ZERO, self.extent);
         let margin = self.margin();
-        if outside == Vec2::ZERO { 1.0 } else { smoothstep(1.0 - outside.length() / margin) }
+        if outside == Vec2::ZERO {
+            1.0
+        } else {
+            smoothstep(f64::from(1.0 - outside.length() / margin)) as f32
+        }
     }
 
     /// Width of the floor beside the rectangle on which light is shown, plane units; none with a hard edge.

@@ -11,8 +11,8 @@ use crate::Progress;
 use crate::Result;
 use crate::constraint::visibility::SearchBuffers;
 use crate::constraint::{VisibilityGraph, WallPath};
-use crate::flow::fade::smoothstep;
 use crate::flow::walls::{SUBSTEPS, WallViolations};
+use crate::math::smoothstep::smoothstep;
 
 /// Part of a half after which photons beside walls make up for their gap.
 const LATE: f64 = 0.8;

@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::fields::MeetingFields;
 use super::tears::tears;
-use crate::flow::fade::smoothstep;
 use crate::flow::spatial_order::spatial_order;
 use crate::flow::walls::{Clearance, SUBSTEPS, bounce};
+use crate::math::smoothstep::smoothstep;
 use crate::math::sobol;
 
 /// Standard deviation half way, over the size of the pieces that hold together. The plan is that of a random motion; its

@@ -8,9 +8,9 @@
 
 use glam::Vec2;
 
-use crate::flow::fade::smoothstep;
 use crate::flow::field::Field;
 use crate::flow::fit::{Blend, FitReport, FitSettings, Fitter, LineTerm, Rows};
+use crate::math::smoothstep::smoothstep;
 use crate::{Progress, Result};
 
 /// Least length of smoothing, cells.

@@ -31,8 +31,8 @@ use glam::Vec2;
 pub use settings::TurbulenceSettings;
 
 use self::noise::{NoiseMaker, fields};
-use super::fade::smoothstep;
 use super::field::Field;
+use crate::math::smoothstep::smoothstep;
 
 /// Times at which the turbulence has grown to full strength, begins to fade, and is gone: the target's outline forms
 /// undisturbed.
