@@ -256,6 +256,22 @@ fn an_output_name_without_frame_number_is_refused() {
 }
 
 #[test]
+fn a_pattern_of_numbered_files_is_told_to_be_no_file_unless_it_is_one() {
+    let root = tempfile::tempdir().unwrap();
+    let assets = AssetFolder::new(&root.path().join("shot.json"), false).unwrap();
+    for path in ["plate.####.exr", "plate.%04d.exr", "plate.%d.exr", "plate.##.exr"] {
+        let message = assets.resolve(path, "render.plate.file").unwrap_err().to_string();
+        assert!(message.contains("sequence") && message.starts_with("render.plate.file: "), "{message}");
+        std::fs::write(root.path().join(path), b"x").unwrap();
+        assert!(assets.resolve(path, "render.plate.file").is_ok(), "{path}");
+    }
+    for path in ["plate.0001.exr", "100%.exr", "take#2.exr"] {
+        let message = assets.resolve(path, "render.plate.file").unwrap_err().to_string();
+        assert!(message.contains("is it there"), "{message}");
+    }
+}
+
+#[test]
 fn asset_paths_stay_in_the_projects_folder() {
     let root = tempfile::tempdir().unwrap();
     let folder = root.path().join("deep/project");

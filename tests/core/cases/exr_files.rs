@@ -156,6 +156,11 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
             &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("c.R", A), ("c.G", A), ("c.B", A)])],
             "",
         ),
+        (
+            "a layer without name",
+            &[("", &[("R", A), ("G", A), ("B", A), ("x.R", B), ("x.G", B), ("x.B", B)])],
+            "the one without name is shown, not 'x'",
+        ),
         ("depth beside colours", &[("", &[("R", A), ("G", A), ("B", A), ("Z", Z)])], ""),
         ("small letters", &[("", &[("r", A), ("g", A), ("b", A)])], ""),
         (
