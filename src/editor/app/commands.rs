@@ -9,7 +9,7 @@ use crate::editor::clipboard;
 use crate::editor::command::Command;
 use crate::editor::preferences;
 use crate::editor::state::EditorState;
-use crate::editor::store::PhotonRenderer;
+use crate::editor::store::{PhotonRenderer, Theme};
 
 impl App {
     /// Carries out an action: the editor's state handles most of them, the window the rest.
@@ -66,6 +66,9 @@ impl App {
             Command::Smaller => *scale = preferences::stepped(*scale, -1),
             Command::NormalSize => *scale = 1.0,
             _ => {}
+            Command::DarkTheme => self.preferences.theme = Theme::Dark,
+            Command::LightTheme => self.preferences.theme = Theme::Light,
+            Command::SystemTheme => self.preferences.theme = Theme::System,
         }
         preferences::apply(ctx, &self.preferences);
     }
