@@ -25,6 +25,7 @@ impl App {
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
         }
+        self.notice_changes();
         if let Some((purpose, path)) = self.picker.show(ctx) {
             self.picked(ctx, purpose, path);
         }
