@@ -243,8 +243,11 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
     });
 }
 
-/// The most important of it for the status bar, from right to left.
+/// The most important of it for the status bar, from right to left; nothing of a project that cannot be computed.
 pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
+    if editor.preview.problem().is_some() {
+        return;
+    }
     let Some(preview) = editor.preview.preview() else { return };
     for readout in in_short(preview, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
@@ -253,9 +256,6 @@ pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
     }
 }
 
-/// The linear light of a pixel, as rendered and as exposed.
-pub(in crate::editor) fn pixel(ui: &mut Ui, light: glam::Vec3, exposure: f32) {
-    ui.label(RichText::new(pixel_in_words(light, exposure)).weak()).on_hover_text(
 /// How many notes there are, for the status bar; whether they are asked for.
 pub(in crate::editor) fn note_count(ui: &mut Ui, notes: &[Note]) -> bool {
     let words = match notes.len() {
@@ -276,6 +276,9 @@ pub(in crate::editor) fn note_count(ui: &mut Ui, notes: &[Note]) -> bool {
     response.clicked()
 }
 
+/// The linear light of a pixel, as rendered and as exposed.
+pub(in crate::editor) fn pixel(ui: &mut Ui, light: glam::Vec3, exposure: f32) {
+    ui.label(RichText::new(pixel_in_words(light, exposure)).weak()).on_hover_text(
         "Linear light under the pointer: red, green, blue as in the EXR files, whatever the exposure; in brackets as exposed, \
          1 is the white of a screen without view transform.",
     );
