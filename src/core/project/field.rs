@@ -8,6 +8,9 @@ use serde_path_to_error::{Path, Segment};
 
 use super::Project;
 
+/// The member that names the kind of an object.
+const KIND: &str = "type";
+
 /// The field that an error is about, such as `scene.lights[2].watts`; "." for the whole project.
 pub(super) fn at_fault(text: &str, error: &serde_path_to_error::Error<serde_json::Error>) -> String {
     let Place { mut field, pointer } = Place::of(error.path());
@@ -58,5 +61,7 @@ fn member(text: &str, pointer: &str) -> Option<String> {
         let object = without.pointer_mut(pointer).and_then(Value::as_object_mut);
         object.and_then(|object| object.remove(*name)).is_some() && complaint(without) != whole
     };
-    members.keys().find(differs).cloned()
+    // Without the kind the error is another whatever is wrong.
+    let (kind, others): (Vec<_>, Vec<_>) = members.keys().partition(|name| *name == KIND);
+    others.into_iter().chain(kind).find(differs).cloned()
 }
