@@ -102,7 +102,7 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
     const B: &[f32] = &[0.1, 0.5];
     const Z: &[f32] = &[7.0, 9.0];
     // All have 1 and 0.5 in the layer that counts; words of the note.
-    let rows: [(&str, Layers<'_>, &str); 12] = [
+    let rows: [(&str, Layers<'_>, &str); 13] = [
         ("grey", &[("", &[("Y", A)])], ""),
         ("grey with alpha", &[("", &[("A", &[1.0, 1.0]), ("Y", A)])], ""),
         ("grey in a layer", &[("", &[("mask.Y", A)])], ""),
