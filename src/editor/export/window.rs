@@ -173,3 +173,37 @@ fn command_line(ui: &mut Ui, editor: &EditorContext, project: &Project, options:
         }
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn an_export_that_goes_on_is_shown_with_the_options_that_it_has() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
+        let project = Project::load(&file).expect("an example");
+        let options = ExportOptions {
+            frames: "1-20".into(),
+            size: [320, 200],
+            passes: 3,
+            film: Some(FilmFormat::Apng),
+            folder: "frames".into(),
+            ..ExportOptions::of(&project, Some(&file))
+        };
+        let mut window = ExportWindow::default();
+        window.show_options_of(&ExportSettings {
+            project: Arc::new(options.apply(&project).expect("good options")),
+            file,
+            access: Access::default(),
+            folder: options.folder.clone(),
+            film: options.film_file(),
+            limit: Some(Duration::from_secs(90)),
+            shown: 1,
+            existing: Existing::Refuse,
+        });
+        assert_eq!(window.resumed, Some(options));
+        assert_eq!(window.limit, (1.5, true));
+    }
+}
