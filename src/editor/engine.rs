@@ -37,6 +37,11 @@ struct OfDocument {
 }
 
 impl SharedEngine {
+    /// Forgets all that was made from files: it is read again. Exports go on with what they have.
+    pub fn forget(&self) {
+        self.engines.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+
     /// Limits the memory of previews to so many MB. Whether that changed.
     pub fn limit_previews(&self, megabytes: u32) -> bool {
         self.preview_megabytes.swap(megabytes, Relaxed) != megabytes

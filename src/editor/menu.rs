@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, Ui, pos2, vec2};
+use egui::{Atom, Button, IdSalt, MenuBar, Rect, Stroke, ThemePreference, Ui, pos2, vec2};
 
 use super::action::Action;
 use super::command::{COMMANDS, Command, CommandInfo, Menu};
@@ -19,7 +19,7 @@ use crate::editor::context::EditorContext;
 const MENUS: [Menu; 6] = [Menu::File, Menu::Edit, Menu::Scene, Menu::Play, Menu::View, Menu::Help];
 
 /// Commands that follow a separator.
-const PARTED: [Command; 18] = [
+const PARTED: [Command; 19] = [
     Command::Save,
     Command::Export,
     Command::Preferences,
@@ -38,6 +38,7 @@ const PARTED: [Command; 18] = [
     Command::ShowDrawn,
     Command::Compare,
     Command::Larger,
+    Command::DarkTheme,
 ];
 
 /// A recently opened file.
@@ -75,7 +76,8 @@ pub fn show(ui: &mut Ui, editor: &mut EditorContext, recent: &[Recent], kept: &[
 }
 
 fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &CommandInfo) {
-    let on = is_on(entry.command, editor.session);
+    let theme = ui.ctx().options(|options| options.theme_preference);
+    let on = is_on(entry.command, editor.session).or_else(|| Some(theme_of(entry.command)? == theme));
     let enabled = is_enabled(entry.command, editor.document, editor.session);
     let place = IdSalt::new("check");
     let mut button =
@@ -97,6 +99,16 @@ fn item(ui: &mut Ui, editor: &mut EditorContext, entry: &CommandInfo) {
     if shown.response.clicked() {
         editor.ask(entry.command);
         ui.close();
+    }
+}
+
+/// The theme that a command chooses.
+fn theme_of(command: Command) -> Option<ThemePreference> {
+    match command {
+        Command::DarkTheme => Some(ThemePreference::Dark),
+        Command::LightTheme => Some(ThemePreference::Light),
+        Command::SystemTheme => Some(ThemePreference::System),
+        _ => None,
     }
 }
 

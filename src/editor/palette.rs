@@ -1,4 +1,4 @@
-//! The command palette: fuzzy search over commands, tools, panels, parameters, presets and examples.
+//! The command palette: fuzzy search over commands, tools, panels, parameters, preferences, presets and examples.
 
 use egui::text::LayoutJob;
 use egui::{
@@ -7,10 +7,10 @@ use egui::{
 };
 
 use super::action::Action;
-use super::command::COMMANDS;
+use super::command::{COMMANDS, Command};
 use super::panels::{self, PANELS};
 use super::templates::TEMPLATES;
-use super::{menu, shortcuts};
+use super::{menu, preferences, shortcuts};
 use crate::editor::context::EditorContext;
 
 /// Height of a row, points.
@@ -40,7 +40,7 @@ pub struct Palette {
     at: usize,
 }
 
-/// All entries: commands, tools, panels, parameters by label with their panel, examples, and `presets` by name.
+/// All entries: commands, tools, panels, parameters by label with their panel, preferences, examples, and `presets` by name.
 pub fn items(
     editor: &EditorContext,
     tools: &[(&'static str, Key)],
@@ -61,10 +61,21 @@ pub fn items(
     let parameters = panels::controls_by_panel().map(|(entry, control)| {
         item(format!("{}: {}", entry.name, control.label), "Parameter", None, Action::Panel(entry.panel))
     });
+    // By the names of the window that they stand in.
+    let preferences = preferences::NAMES
+        .iter()
+        .map(|name| item(format!("Preferences: {name}"), "Preference", None, Command::Preferences.into()));
     let presets = presets.iter().map(|(name, action)| item(name.clone(), "Preset", None, action.clone()));
     let examples = TEMPLATES.iter().enumerate();
     let examples = examples.map(|(index, t)| item(t.name.into(), "Example", None, Action::New(index)));
-    commands.chain(tools).chain(panels).chain(presets).chain(examples).chain(parameters).collect()
+    commands
+        .chain(tools)
+        .chain(panels)
+        .chain(presets)
+        .chain(examples)
+        .chain(parameters)
+        .chain(preferences)
+        .collect()
 }
 
 impl Palette {

@@ -16,6 +16,14 @@ const RENDERERS: [(PhotonRenderer, &str, &str); 3] = [
     (PhotonRenderer::Cpu, "Processor", "The same picture without a graphics card."),
 ];
 
+/// The names of the preferences.
+pub const NAMES: [&str; 5] = [THEME, SCALE, RENDERER, MEMORY, DRAWING];
+const THEME: &str = "Theme";
+const SCALE: &str = "Interface scale";
+const RENDERER: &str = "Photon renderer";
+const MEMORY: &str = "Preview memory";
+const DRAWING: &str = "Drawing";
+
 /// Step of the interface scale.
 const STEP: f32 = 0.1;
 
@@ -33,7 +41,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             let default = Preferences::default();
             reset_label(
                 ui,
-                "Theme",
+                THEME,
                 "Caustics are judged best in dark surroundings; the pictures always have them.",
                 &mut preferences.theme,
                 &default.theme,
@@ -46,7 +54,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             ui.end_row();
             reset_label(
                 ui,
-                "Interface scale",
+                SCALE,
                 "Texts and controls, 50 to 300 %. The pictures keep their pixels.",
                 &mut preferences.ui_scale,
                 &default.ui_scale,
@@ -55,7 +63,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             ui.end_row();
             reset_label(
                 ui,
-                "Photon renderer",
+                RENDERER,
                 "Renderer of the preview. Exports do not depend on it.",
                 &mut preferences.photon_renderer,
                 &default.photon_renderer,
@@ -68,7 +76,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             ui.end_row();
             reset_label(
                 ui,
-                "Preview memory",
+                MEMORY,
                 "What the photons of all frames of a preview may take. Where it is short the preview has fewer photons; what is rendered keeps its own.",
                 &mut preferences.preview_megabytes,
                 &default.preview_megabytes,
@@ -77,7 +85,7 @@ pub fn show(ctx: &Context, open: &mut bool, preferences: &mut Preferences, trust
             ui.end_row();
             reset_label(
                 ui,
-                "Drawing",
+                DRAWING,
                 "Hold Ctrl while drawing to disable it.",
                 &mut preferences.snapping,
                 &default.snapping,

@@ -61,7 +61,7 @@ const GESTURES: [(&str, &str); 11] = [
     ("Close a window", "Escape"),
     ("Remove the last point", "Backspace"),
     ("Nudge the selection", "Arrow keys"),
-    ("Reset a setting to its default", "Double click"),
+    ("Reset a setting to its default", "Double click its name"),
 ];
 
 /// All shortcuts: of the tools, of the commands, and the gestures.

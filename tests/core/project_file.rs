@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lightloom_core::Error;
-use lightloom_core::project::{AssetFolder, Project};
+use lightloom_core::project::{AssetFolder, Project, ProjectFile};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -191,6 +191,51 @@ fn frame_ranges_and_rates_that_mean_nothing_are_refused() {
     assert!(complaint("/keys", json!([])).contains("keys"));
 }
 
+/// A scene of two lamps, a wall and a glass, a value on each line.
+const LINES: &str = r#"{ "lightloom": 1, "keys": [ { "frame": 1, "shows": "physical_caustic" } ],
+  "scene": {
+    "lights": [
+      { "type": "spot" },
+      { "type": "point",
+        "watts": 5,
+        "position": [0, 1, 0] }
+    ],
+    "meshes": [ { "name": "a", "file": "a.obj", "material": { "type": "glass",
+        "ior": 1.5 } } ]
+  },
+  "constraints": [
+    { "type": "wall",
+      "thickness": 0.1,
+      "points": [[0, 0], [1, 1]] }
+  ] }"#;
+
+#[test]
+fn a_value_of_the_wrong_type_is_named_with_its_line_as_the_command_line_does() {
+    let opened = |text: &str| ProjectFile::parse(text.as_bytes(), Path::new("shot.json")).map(|_| ());
+    opened(LINES).unwrap();
+    for (good, bad, place) in [
+        ("\"watts\": 5", "\"watts\": \"much\"", "scene.lights[1].watts: invalid type: string \"much\""),
+        ("[0, 1, 0]", "[0, \"up\", 0]", "scene.lights[1].position: invalid type"),
+        ("\"ior\": 1.5", "\"ior\": true", "scene.meshes[0].material.ior: invalid type"),
+        ("\"thickness\": 0.1", "\"thickness\": []", "constraints[0].thickness: invalid type"),
+        ("[[0, 0]", "[[0, 0, 0]", "constraints[0].points: invalid length"),
+        ("\"spot\" }", "\"spot\" ", "line 5, column"),
+        ("\"watts\": 5", "\"watts\": 5, 6", "line 6, column"),
+    ] {
+        let text = LINES.replacen(good, bad, 1);
+        assert_ne!(text, LINES);
+        let message = opened(&text).unwrap_err().to_string();
+        let strict = Project::parse(text.as_bytes(), Path::new("shot.json")).unwrap_err().to_string();
+        assert_eq!(message, strict);
+        assert!(message.contains(place) && message.contains("line ") && !message.contains('?'), "{message}");
+        // Beside an unknown member lines are those of another text; the field is told all the same.
+        let strange = text.replacen("\"lightloom\": 1,", "\"lightloom\": 1, \"strange\": 1,", 1);
+        let message = opened(&strange).unwrap_err().to_string();
+        let is_json = serde_json::from_str::<Value>(&text).is_ok();
+        assert!(message.contains(place) || !is_json, "{message}");
+    }
+}
+
 #[test]
 fn unknown_and_repeated_keys_are_named() {
     let message = complaint("/flow", json!({ "gama": 0.5 }));
@@ -209,6 +254,22 @@ fn a_file_of_a_later_version_is_named_as_such_whatever_it_holds() {
 fn an_output_name_without_frame_number_is_refused() {
     assert!(complaint("/output/name", json!("shot")).contains("output.name"));
     assert!(complaint("/output/name", json!("../shot.####")).contains("output.name"));
+}
+
+#[test]
+fn a_pattern_of_numbered_files_is_told_to_be_no_file_unless_it_is_one() {
+    let root = tempfile::tempdir().unwrap();
+    let assets = AssetFolder::new(&root.path().join("shot.json"), false).unwrap();
+    for path in ["plate.####.exr", "plate.%04d.exr", "plate.%d.exr", "plate.##.exr"] {
+        let message = assets.resolve(path, "render.plate.file").unwrap_err().to_string();
+        assert!(message.contains("sequence") && message.starts_with("render.plate.file: "), "{message}");
+        std::fs::write(root.path().join(path), b"x").unwrap();
+        assert!(assets.resolve(path, "render.plate.file").is_ok(), "{path}");
+    }
+    for path in ["plate.0001.exr", "100%.exr", "take#2.exr"] {
+        let message = assets.resolve(path, "render.plate.file").unwrap_err().to_string();
+        assert!(message.contains("is it there"), "{message}");
+    }
 }
 
 #[test]

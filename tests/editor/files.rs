@@ -234,6 +234,44 @@ fn what_another_program_changes_is_reloaded_or_kept() {
 }
 
 #[test]
+fn a_picture_that_is_gone_and_comes_back_is_noticed_without_an_edit() {
+    let folder = examples();
+    let mut harness = window(&folder, "letters_free", Vec::new());
+    until(&mut harness, "the light", |app| app.preview().is_current());
+    harness.run_steps(3);
+    let file = folder.path().join("assets/targets/letter_s.png");
+    let bytes = fs::read(&file).unwrap();
+    fs::remove_file(&file).unwrap();
+    until(&mut harness, "the problem", |app| app.preview().problem().is_some());
+    fs::write(&file, bytes).unwrap();
+    until(&mut harness, "its end", |app| app.preview().problem().is_none() && app.preview().is_current());
+    assert!(!harness.state().document().is_unsaved());
+    // On demand all is read at once, and nothing else changes.
+    harness.state_mut().ask(Command::ReloadAssets.into());
+    harness.run_steps(1);
+    assert!(!harness.state().preview().is_current());
+    until(&mut harness, "the light", |app| app.preview().is_current());
+    assert!(!harness.state().document().is_unsaved());
+}
+
+#[test]
+fn a_new_project_without_name_is_called_as_its_file() {
+    let folder = examples();
+    let path = folder.path().join("my shot.json");
+    let mut harness = window(&folder, "letters_free", vec![PickResult::Picked(path.clone())]);
+    harness.run_steps(3);
+    harness.state_mut().ask(Command::NewEmpty.into());
+    until(&mut harness, "the empty project", |app| app.document().path().is_none());
+    harness.run_steps(2);
+    assert_eq!(harness.state().document().project().name, "");
+    save_as(&mut harness);
+    until(&mut harness, "the save", |app| app.document().path() == Some(&path));
+    assert_eq!(Project::load(&path).unwrap().name, "my shot");
+    let document = harness.state().document();
+    assert!(!document.is_unsaved() && document.project().name == "my shot");
+}
+
+#[test]
 fn a_backup_is_opened_and_saved_as_the_file_again() {
     let folder = examples();
     let path = project(&folder, "letters_free");

@@ -38,6 +38,29 @@ fn a_note_that_is_clicked_selects_the_wall_it_is_about() {
 }
 
 #[test]
+fn a_lamp_that_misses_all_glass_is_told_in_the_status_bar_which_leads_to_the_notes() {
+    let folder = examples();
+    let path = project(&folder, "dark_glass");
+    let mut text: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    let idle = serde_json::json!({ "type": "spot", "name": "idle", "position": [0, 1, 0], "target": [9, 1, 0], "angle_deg": 5 });
+    text["scene"]["lights"].as_array_mut().unwrap().push(idle);
+    fs::write(&path, text.to_string()).unwrap();
+    let mut harness = window(&folder, "dark_glass", Vec::new());
+    let told = |app: &lightloom::editor::App| {
+        let notes = app.preview().notes();
+        notes.iter().any(|note| note.text.contains("no caustic of its own: light 'idle'"))
+    };
+    until(&mut harness, "the note", told);
+    harness.run_steps(3);
+    let count = harness.state().preview().notes().len();
+    let label = if count == 1 { "1 note".to_owned() } else { format!("{count} notes") };
+    harness.get_by_label(&label).click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().session().panel, Panel::Numbers);
+    assert!(harness.query_by_label_contains("no caustic of its own").is_some());
+}
+
+#[test]
 fn what_a_note_is_about_is_selected_and_its_panel_shown() {
     let folder = examples();
     let mut editor = Editor::new(document(&project(&folder, "bottles")));

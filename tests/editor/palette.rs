@@ -44,6 +44,22 @@ fn busy_editor() -> Editor {
     editor
 }
 
+#[test]
+fn the_palette_finds_the_theme() {
+    let mut editor = busy_editor();
+    let mut actions = Vec::new();
+    let all = items(&editor.context(&mut actions), &tool_keys(), &[]);
+    for (words, command) in [
+        ("Dark theme", Command::DarkTheme),
+        ("Light theme", Command::LightTheme),
+        ("Preferences: Theme", Command::Preferences),
+        ("Preferences: Preview memory", Command::Preferences),
+    ] {
+        let found = all.iter().find(|item| item.name == words).map(|item| &item.action);
+        assert_eq!(found, Some(&Action::Command(command)), "{words}");
+    }
+}
+
 fn harness<S: 'static>(state: S, show: impl FnMut(&mut egui::Ui, &mut S) + 'static) -> Harness<'static, S> {
     let builder = Harness::builder().with_size([1000.0, 900.0]).with_step_dt(0.02).with_max_steps(32);
     let mut harness = builder.build_ui_state(show, state);

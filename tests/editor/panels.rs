@@ -115,13 +115,68 @@ fn a_double_click_on_the_name_resets() {
 }
 
 #[test]
-fn a_double_click_on_the_slider_or_the_field_resets() {
-    for (role, name) in [(Role::Slider, "Gamma"), (Role::SpinButton, "Gamma value")] {
+fn a_double_click_on_a_number_keeps_it_and_what_is_typed_replaces_it() {
+    // Both clicks within one frame, and one after the other: the first makes a text field of the number.
+    for apart in [false, true] {
         let mut project = support::example("letters_free");
-        project.flow.gamma = 0.1;
+        project.flow.gamma = 0.125;
         let mut harness = panel_harness(project, Panel::Flow);
-        support::double_click(&mut harness, role, name);
-        assert_eq!(harness.state().document.project().flow.gamma, 0.5, "{name}");
+        let gamma = |harness: &PanelHarness| harness.state().document.project().flow.gamma;
+        support::double_click_in(&mut harness, Role::SpinButton, "Gamma value", apart);
+        assert_eq!(gamma(&harness), 0.125, "{apart}");
+        harness.event(egui::Event::Text("0.75".to_owned()));
+        harness.key_press(egui::Key::Enter);
+        harness.run();
+        assert_eq!(gamma(&harness), 0.75, "{apart}");
+    }
+}
+
+#[test]
+fn a_double_click_on_one_number_of_several_changes_none() {
+    let project = support::example("bottles");
+    let objects = [SceneObject::Mesh(0), SceneObject::Light(0), SceneObject::Camera, SceneObject::Receiver];
+    for object in objects {
+        let mut harness = panel_harness(project.clone(), Panel::Scene);
+        harness.state_mut().session.focus.object = Some(object);
+        harness.run();
+        let numbers: Vec<String> = harness
+            .root()
+            .children_recursive()
+            .map(|node| node.accesskit_node())
+            .filter(|node| node.role() == Role::SpinButton)
+            .filter_map(|node| node.label())
+            .collect();
+        assert!(numbers.len() > 3, "{object:?}: {numbers:?}");
+        for number in numbers {
+            harness.get_by_role_and_label(Role::SpinButton, &number).scroll_to_me();
+            harness.run();
+            support::double_click(&mut harness, Role::SpinButton, &number);
+            harness.key_press(egui::Key::Escape);
+            harness.run();
+            assert_eq!(**harness.state().document.project(), project, "{number}");
+        }
+    }
+}
+
+#[test]
+fn what_is_selected_comes_into_view() {
+    let mut harness = panel_harness(support::example("bottles"), Panel::Scene);
+    let height = 320.0;
+    harness.set_size(egui::vec2(support::WIDTH, height));
+    harness.run();
+    let objects = [
+        (SceneObject::Receiver, "Receiver: Turn z"),
+        (SceneObject::Mesh(0), "Mesh round bottle"),
+        (SceneObject::Camera, "Camera: Position x"),
+        (SceneObject::Light(0), "Light green lamp"),
+        (SceneObject::Receiver, "Receiver: Turn z"),
+    ];
+    for (object, value) in objects {
+        harness.state_mut().session.focus.object = Some(object);
+        // It opens and scrolls slowly.
+        harness.run_steps(20);
+        let seen = harness.get_all_by_label_contains(value).next().unwrap().rect();
+        assert!(seen.top() >= 0.0 && seen.bottom() <= height, "{object:?}: {seen:?}");
     }
 }
 

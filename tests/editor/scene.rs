@@ -406,8 +406,23 @@ fn a_click_selects_and_typed_keys_move_in_the_window() {
     press(&mut harness, at + egui::vec2(5.0, 5.0), PointerButton::Secondary);
     assert_eq!(desc(harness.state()), before);
     assert!(harness.state().document().history().undoes().is_none());
+    // F frames what is selected also where the pointer comes in with it.
+    let outside = pos2(view.center().x, window::SIZE[1] - 60.0);
+    harness.event(Event::PointerMoved(outside));
+    harness.run_steps(3);
+    let arrows = harness.state().session().overlays.arrows;
+    let pressed = |pressed| Event::Key {
+        key: Key::F,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    harness.input_mut().events.extend([Event::PointerMoved(at), pressed(true), pressed(false)]);
+    harness.run_steps(3);
+    assert_eq!(harness.state().session().overlays.arrows, arrows);
     // Away from the view G is what it always was.
-    harness.event(Event::PointerMoved(pos2(view.center().x, window::SIZE[1] - 60.0)));
+    harness.event(Event::PointerMoved(outside));
     harness.run_steps(3);
     harness.key_press(Key::G);
     harness.run_steps(3);

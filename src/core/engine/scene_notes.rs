@@ -5,6 +5,7 @@ use crate::note::About;
 use crate::render::{ReceiverView, RenderSettings, receiver_view};
 use crate::scene::light::LightRole;
 use crate::scene::{LightDesc, Mesh, Scene};
+use crate::setting::format::number;
 
 /// Notes on a camera that sees no light, and on lamps around what they shall light.
 pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<Note> {
@@ -28,7 +29,8 @@ fn camera_note(scene: &Scene, render: &RenderSettings) -> Option<Note> {
         }
         ReceiverView::Outside => {
             let receiver = scene.receiver();
-            let [x, y, z] = receiver.world_from_plane(receiver.extent() / 2.0).to_array();
+            let middle = receiver.world_from_plane(receiver.extent() / 2.0).to_array();
+            let [x, y, z] = middle.map(|value| number(f64::from(value), false));
             format!("it looks elsewhere; set scene.camera.look_at to the receiver's middle ({x}, {y}, {z})")
         }
         ReceiverView::Hidden(mesh) => {

@@ -136,6 +136,11 @@ impl AssetFolder {
                 .ok_or_else(|| outside(&shown, place, &self.root));
         }
         let real = found.map_err(|e| {
+            if is_pattern(written) {
+                return wrong(
+                    "stands for a sequence, and none is read: a plate, a target and a mesh are one file each and stand still; name one of its files",
+                );
+            }
             wrong(&format!(
                 "cannot be read at '{}': {e}; is it there, and spelled like this?",
                 path.display()
@@ -143,6 +148,12 @@ impl AssetFolder {
         })?;
         if self.allows(&real) { Ok(real) } else { Err(outside(&shown, place, &self.root)) }
     }
+}
+
+/// Whether a path has a place for the number of a frame, as `plate.####.exr` and `plate.%04d.exr` have.
+fn is_pattern(written: &str) -> bool {
+    let counts = |rest: &str| rest.trim_start_matches(|c: char| c.is_ascii_digit()).starts_with('d');
+    written.contains("##") || written.split('%').skip(1).any(counts)
 }
 
 fn outside(written: &str, place: &str, root: &Path) -> Error {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::file::unknown;
-use super::{Project, VERSION, schema_docs};
+use super::{Project, VERSION, field, schema_docs};
 use crate::{Error, Result};
 
 /// Largest project file; photons and pictures are in separate files.
@@ -31,10 +31,15 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Project> {
         newer.check_sufficient(path)?;
         return newer.known_part(text, path).map(|(project, _)| project);
     }
+    strictly(text, path)
+}
+
+/// The project of a text without unknown fields.
+fn strictly(text: &str, path: &Path) -> Result<Project> {
     let mut json = serde_json::Deserializer::from_str(text);
     let read: Result<Project, _> = serde_path_to_error::deserialize(&mut json);
     let project = read.map_err(|error| {
-        let field = error.path().to_string();
+        let field = field::at_fault(text, &error);
         let inner = error.into_inner();
         let place = place(&inner, &field);
         Error::format(path, place, what(&inner, &field))
@@ -53,24 +58,21 @@ pub(super) fn parse_tolerantly(bytes: &[u8], path: &Path) -> Result<(Project, Ve
         newer.check_readable(path)?;
         return newer.known_part(text(bytes, path)?, path);
     }
-    let strict = match parse(bytes, path) {
-        Ok(project) => return Ok((project, Vec::new())),
-        Err(error) => error,
-    };
-    match known_part(text(bytes, path)?, path) {
-        Ok((_, unknown)) if unknown.is_empty() => Err(strict),
-        known => known,
+    match parse(bytes, path) {
+        Ok(project) => Ok((project, Vec::new())),
+        Err(_) => known_part(text(bytes, path)?, path),
     }
 }
 
 /// The project without unknown fields, and the paths of those.
 fn known_part(text: &str, path: &Path) -> Result<(Project, Vec<String>)> {
-    let (known, unknown) =
-        unknown::strip(text, &Project::json_schema()).unwrap_or_else(|| (text.to_owned(), Vec::new()));
+    let stripped = unknown::strip(text, &Project::json_schema()).filter(|(_, unknown)| !unknown.is_empty());
+    // Where nothing is left out, an error has its line and column.
+    let Some((known, unknown)) = stripped else { return Ok((strictly(text, path)?, Vec::new())) };
     let read: Result<Project, _> =
         serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(&known));
     let project = read.map_err(|error| {
-        let field = error.path().to_string();
+        let field = field::at_fault(&known, &error);
         // Line and column are those of the shortened text.
         Error::format(path, &field, what(error.inner(), &field))
     })?;

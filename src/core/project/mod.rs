@@ -12,6 +12,7 @@ mod asset_path;
 mod caustic;
 mod check;
 mod collect;
+mod field;
 mod file;
 pub mod frames;
 mod keyframe;

@@ -32,8 +32,8 @@ pub struct PlateSettings {
 }
 
 settings! { PlateSettings {
-    /// PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR file, relative to the project. It fills the frame; where its shape is
-    /// another, it is cut evenly on both sides.
+    /// PNG, JPEG, WebP, TIFF, OpenEXR or Radiance HDR file, relative to the project: one still picture, no sequence. It fills
+    /// the frame; where its shape is another, it is cut evenly on both sides.
     FILE = Setting::part("render.plate.file");
     /// Exposure of the plate alone: each stop doubles its light, in all files. Match its table to that of the scene by it.
     EXPOSURE = Setting::real("render.plate.exposure", [-32.0, 32.0], &[0.0]).unit("EV");

@@ -1,8 +1,10 @@
 //! Autosave: every change goes to the journal, the preferences to their file.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui;
+use lightloom_core::project::Project;
 
 use super::App;
 use crate::editor::preferences;
@@ -37,12 +39,24 @@ impl App {
         }
     }
 
+    /// Has the files of the project watched.
+    fn watch(&mut self, project: &Project) {
+        let base = templates::file_of(&self.editor.document);
+        let folder = base.parent().map(Path::to_owned).unwrap_or_default();
+        let files: Vec<PathBuf> = project.files().into_iter().map(|file| folder.join(file)).collect();
+        if let Some(watch) = self.files.watch.as_ref().filter(|_| files != self.files.last_sent.watched) {
+            watch.look_at(files.clone());
+            self.files.last_sent.watched = files;
+        }
+    }
+
     fn note_project(&mut self) {
         let project = self.editor.document.project().clone();
         if self.files.last_sent.project.as_ref().is_some_and(|last_sent| Arc::ptr_eq(last_sent, &project)) {
             return;
         }
         let first = self.files.last_sent.project.replace(project.clone()).is_none();
+        self.watch(&project);
         let Ok(file) = self.editor.document.file() else { return };
         let Some(journal) = &self.files.journal else { return };
         if !self.editor.document.is_unsaved() {

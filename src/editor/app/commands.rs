@@ -9,7 +9,7 @@ use crate::editor::clipboard;
 use crate::editor::command::Command;
 use crate::editor::preferences;
 use crate::editor::state::EditorState;
-use crate::editor::store::PhotonRenderer;
+use crate::editor::store::{PhotonRenderer, Theme};
 
 impl App {
     /// Carries out an action: the editor's state handles most of them, the window the rest.
@@ -54,6 +54,7 @@ impl App {
             Command::Save => self.save(ctx),
             Command::SaveAs => self.save_as(ctx),
             Command::Collect => self.ask_where_to_collect(ctx),
+            Command::ReloadAssets => self.reload_assets(),
             Command::Quit => self.leave(ctx, Leave::Quit),
             Command::Export => self.windows.export.open = true,
             Command::Player => self.windows.player.open = !self.windows.player.open,
@@ -65,6 +66,9 @@ impl App {
             Command::Larger => *scale = preferences::stepped(*scale, 1),
             Command::Smaller => *scale = preferences::stepped(*scale, -1),
             Command::NormalSize => *scale = 1.0,
+            Command::DarkTheme => self.preferences.theme = Theme::Dark,
+            Command::LightTheme => self.preferences.theme = Theme::Light,
+            Command::SystemTheme => self.preferences.theme = Theme::System,
             _ => {}
         }
         preferences::apply(ctx, &self.preferences);

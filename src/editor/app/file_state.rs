@@ -12,7 +12,8 @@ use crate::editor::asset::{AssetUse, TargetSlot};
 use crate::editor::dialogs::Question;
 use crate::editor::export::InterruptedExport;
 use crate::editor::store::{
-    Backup, Fingerprint, Folders, Journal, Preferences, Recovery, SaveRequest, Saver, StoreRequest, trusted,
+    Backup, Fingerprint, Folders, Journal, Preferences, Recovery, SaveRequest, Saver, StoreRequest, Watch,
+    trusted,
 };
 
 /// The file threads, and the requests they have not answered yet.
@@ -41,6 +42,10 @@ pub(super) struct Files {
     pub(super) backups: Vec<Backup>,
     /// Unsaved work of earlier runs that was not offered yet.
     pub(super) lost: Vec<Recovery>,
+    /// Looks whether the project's files change.
+    pub(super) watch: Option<Watch>,
+    /// Counts those changes.
+    pub(super) edition: u64,
     /// The last state sent to the threads, and the window's title.
     pub(super) last_sent: LastSent,
     pub(super) title: String,
@@ -108,7 +113,8 @@ pub(super) enum Leave {
 
 impl Files {
     /// Starts the threads and looks for work that a crash left. Without folders nothing can be saved.
-    pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Send + 'static) -> Self {
+    pub(super) fn start(folders: Option<Folders>, wake: impl Fn() + Clone + Send + 'static) -> Self {
+        let watch = Watch::start(wake.clone());
         let saver = folders.clone().and_then(|folders| Saver::start(folders, wake).ok());
         if let Some(saver) = &saver {
             saver.ask(StoreRequest::LookForLost);
@@ -129,6 +135,8 @@ impl Files {
             asks_outside: false,
             backups: Vec::new(),
             lost: Vec::new(),
+            watch,
+            edition: 0,
             last_sent: LastSent::default(),
             title: String::new(),
             closing: false,
@@ -137,7 +145,7 @@ impl Files {
 
     /// Which files outside of its folder the project may read now.
     pub(super) fn access(&self) -> Access {
-        Access::of(&self.admitted)
+        Access::of(&self.admitted).at(self.edition)
     }
 
     /// Only what is trusted may be read by another document.
@@ -167,9 +175,11 @@ impl Files {
     }
 }
 
-/// The project and preferences that were sent to the threads last.
+/// The project, its files and the preferences that were sent to the threads last.
 #[derive(Default)]
 pub(super) struct LastSent {
     pub(super) project: Option<Arc<Project>>,
     pub(super) preferences: Option<Preferences>,
+    /// The files that are watched.
+    pub(super) watched: Vec<PathBuf>,
 }

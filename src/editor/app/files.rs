@@ -25,6 +25,7 @@ impl App {
         while let Some(answer) = self.files.saver.as_ref().and_then(Saver::answer) {
             self.answered(ctx, answer);
         }
+        self.notice_changes();
         if let Some((purpose, path)) = self.picker.show(ctx) {
             self.picked(ctx, purpose, path);
         }
@@ -156,6 +157,9 @@ impl App {
             }
             (PendingQuestion::Export(export), dialogs::Answer::Yes) => {
                 self.exports.add(export.settings.clone());
+                if export.settings.file == templates::file_of(&self.editor.document) {
+                    self.windows.export.show_options_of(&export.settings);
+                }
                 export.forget();
                 self.windows.export.open = true;
             }
@@ -235,8 +239,9 @@ impl App {
         let (from, to) = (templates::file_of(&self.editor.document), save.path.clone());
         let [old_name, new_name] = [&self.editor.document.project().output.name, &saved.project.output.name];
         let (old_name, new_name) = (old_name.clone(), new_name.clone());
+        let title = Some(saved.project.name.clone()).filter(|_| self.editor.document.path().is_none());
         let moves = from.parent() != to.parent() || saved.renamed.iter().any(|(old, new)| old != new);
-        if moves || old_name != new_name {
+        if moves || old_name != new_name || title.is_some() {
             let admitted = self.files.admitted.clone();
             let folder = from.parent().map(Path::to_owned).unwrap_or_default();
             self.editor.document.relocate(|project| {
@@ -250,6 +255,9 @@ impl App {
                 });
                 if project.output.name == old_name {
                     project.output.name.clone_from(&new_name);
+                }
+                if let Some(title) = title.as_ref().filter(|_| project.name.is_empty()) {
+                    project.name.clone_from(title);
                 }
                 project
             });
@@ -374,7 +382,13 @@ impl App {
             Ok(file) => file,
             Err(error) => return self.show_message("The project cannot be saved".into(), error.to_string()),
         };
-        let project = frames_named_after(document.project(), document.path(), &file, &path);
+        let mut project = frames_named_after(document.project(), document.path(), &file, &path);
+        if document.path().is_none()
+            && project.name.is_empty()
+            && let Some(stem) = path.file_stem()
+        {
+            Arc::make_mut(&mut project).name = stem.to_string_lossy().into_owned();
+        }
         tracing::info!("saves '{}'", path.display());
         let origin = Some(self.origin());
         self.request(StoreRequest::Save(SaveRequest { path, file, project, origin, seen }));

@@ -46,6 +46,9 @@ impl App {
             if clicked.export {
                 editor.ask(Command::Export);
             }
+            if clicked.notes {
+                editor.ask(Action::Panel(panels::NOTES));
+            }
             details_wanted = clicked.details;
         });
         let height = Timeline::height(editor);
@@ -109,11 +112,13 @@ fn problem_banner(ui: &mut Ui, problem: &str) -> bool {
 #[derive(Default)]
 struct Clicked {
     export: bool,
+    /// The notes on the project.
+    notes: bool,
     /// The details of the message.
     details: bool,
 }
 
-/// The status bar: activity, message with its details if there are some, export, renderer.
+/// The status bar: activity, message with its details if there are some, export, notes, renderer.
 fn status(
     ui: &mut Ui,
     editor: &EditorContext,
@@ -141,6 +146,7 @@ fn status(
             ui.weak(name).on_hover_text(help);
             ui.separator();
             panels::readouts::status_line(ui, editor);
+            clicked.notes = panels::readouts::note_count(ui, editor.preview.notes());
             if let Some(light) = pixel {
                 ui.separator();
                 panels::readouts::pixel(ui, light, editor.document.project().render.view.exposure);

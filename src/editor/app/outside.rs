@@ -13,7 +13,7 @@ use super::files::name;
 use super::task::Task;
 use crate::editor::asset::AssetUse;
 use crate::editor::dialogs::{Answer, PickRequest, Purpose, Question};
-use crate::editor::store::{CollectRequest, StoreRequest, collect};
+use crate::editor::store::{CollectRequest, StoreRequest, Watch, collect};
 use crate::editor::templates;
 
 /// Most files that a question lists.
@@ -132,6 +132,21 @@ impl App {
         if answer == Answer::Yes {
             // Saving is what copies them.
             self.editor.document.mark_unsaved();
+        }
+    }
+
+    /// Reads all files of the project again, with those that they name.
+    pub(super) fn reload_assets(&mut self) {
+        self.engine.forget();
+        self.files.edition += 1;
+        self.editor.status = "The files of the project are read again".into();
+    }
+
+    /// Reads the files of the project again that changed.
+    pub(super) fn notice_changes(&mut self) {
+        if self.files.watch.as_ref().is_some_and(Watch::has_changed) {
+            tracing::info!("files of the project changed");
+            self.files.edition += 1;
         }
     }
 

@@ -52,9 +52,7 @@ impl App {
             render.passes
         );
         let preview = &self.editor.preview;
-        let notes = preview.preview().map_or_else(String::new, |preview| {
-            preview.notes().iter().map(|note| format!("{note}\n")).collect()
-        });
+        let notes: String = preview.notes().iter().map(|note| format!("{note}\n")).collect();
         let problem =
             preview.problem().map_or_else(String::new, |problem| format!("not computed: {problem}\n"));
         [

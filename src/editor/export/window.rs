@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use egui::{Button, Context, RichText, TextEdit, Ui, vec2};
 use lightloom_core::engine::Existing;
+use lightloom_core::export::FilmFormat;
 use lightloom_core::project::Project;
 
 use super::form;
@@ -29,6 +30,8 @@ pub struct ExportWindow {
     pub access: Access,
     /// The options as set by the user.
     options: Option<ExportOptions>,
+    /// Those of an export that goes on, to be shown next.
+    resumed: Option<ExportOptions>,
     /// The project's own options and file when last shown.
     own: Option<(ExportOptions, Option<PathBuf>)>,
     /// Time limit in minutes, and whether it is used.
@@ -38,8 +41,8 @@ pub struct ExportWindow {
 
 impl Default for ExportWindow {
     fn default() -> Self {
-        let (options, own, jobs) = (None, None, JobList::default());
-        Self { open: false, access: Access::default(), options, own, limit: (10.0, false), jobs }
+        let (options, resumed, own, jobs) = (None, None, None, JobList::default());
+        Self { open: false, access: Access::default(), options, resumed, own, limit: (10.0, false), jobs }
     }
 }
 
@@ -49,6 +52,17 @@ impl ExportWindow {
         if let Some(options) = &mut self.options {
             options.folder = folder;
         }
+    }
+
+    /// Takes the options of an export that goes on.
+    pub fn show_options_of(&mut self, export: &ExportSettings) {
+        let ExportSettings { project, file, folder, film, limit, .. } = export;
+        let ending = |film: &PathBuf| {
+            FilmFormat::ALL.into_iter().find(|f| film.extension() == Some(f.extension().as_ref()))
+        };
+        let (film, folder) = (film.as_ref().and_then(ending), folder.clone());
+        self.resumed = Some(ExportOptions { film, folder, ..ExportOptions::of(project, Some(file)) });
+        self.limit = (limit.map_or(self.limit.0, |limit| limit.as_secs_f64() / 60.0), limit.is_some());
     }
 
     /// Shows the window if it is open.
@@ -65,6 +79,9 @@ impl ExportWindow {
         let project = editor.document.project().clone();
         let file = editor.document.path().map(ToOwned::to_owned);
         self.follow(ExportOptions::of(&project, file.as_deref()), file);
+        if let Some(options) = self.resumed.take() {
+            self.options = Some(options);
+        }
         let mut open = true;
         let middle = ctx.content_rect().center() - vec2(390.0, 260.0);
         let window = egui::Window::new("Export")
@@ -155,4 +172,38 @@ fn command_line(ui: &mut Ui, editor: &EditorContext, project: &Project, options:
             ui.weak("It renders the file as last saved.");
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn an_export_that_goes_on_is_shown_with_the_options_that_it_has() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("projects/letters_free.json");
+        let project = Project::load(&file).expect("an example");
+        let options = ExportOptions {
+            frames: "1-20".into(),
+            size: [320, 200],
+            passes: 3,
+            film: Some(FilmFormat::Apng),
+            folder: "frames".into(),
+            ..ExportOptions::of(&project, Some(&file))
+        };
+        let mut window = ExportWindow::default();
+        window.show_options_of(&ExportSettings {
+            project: Arc::new(options.apply(&project).expect("good options")),
+            file,
+            access: Access::default(),
+            folder: options.folder.clone(),
+            film: options.film_file(),
+            limit: Some(Duration::from_secs(90)),
+            shown: 1,
+            existing: Existing::Refuse,
+        });
+        assert_eq!(window.resumed, Some(options));
+        assert_eq!(window.limit, (1.5, true));
+    }
 }

@@ -3,7 +3,7 @@
 use lightloom_core::scene::SceneDesc;
 
 /// An object of a scene, or the point that one looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SceneObject {
     /// A mesh, by index.
     Mesh(usize),

@@ -53,6 +53,9 @@ pub const PANELS: &[PanelInfo] = &[
     PanelInfo { panel: Panel::Numbers, name: "Numbers", help: "Energy, walls, solver, time", show: readouts::show, controls: &[] },
 ];
 
+/// The panel that has the notes on the project.
+pub(in crate::editor) const NOTES: Panel = Panel::Numbers;
+
 /// The controls of all panels.
 pub fn controls() -> impl Iterator<Item = &'static Control> {
     PANELS.iter().flat_map(|entry| entry.controls).copied().flatten()

@@ -18,6 +18,10 @@ use crate::editor::theme;
 /// Deviation of the energy above which it is marked.
 const ENERGY: f64 = 0.01;
 
+/// Most notes in a tooltip, and its width, points.
+const TOLD: usize = 4;
+const TOOLTIP: f32 = 420.0;
+
 /// A number with name and help.
 #[derive(Clone, Debug, PartialEq)]
 struct Readout {
@@ -144,9 +148,10 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
         return;
     };
     // Above what comes later: a link stays where it is.
-    if !preview.notes().is_empty() {
+    let notes = editor.preview.notes();
+    if !notes.is_empty() {
         section(ui, "Notes");
-        for note in preview.notes() {
+        for note in notes {
             if show_note(ui, note) {
                 editor.actions.push(Action::Show(note.about.clone()));
             }
@@ -238,14 +243,37 @@ fn line(ui: &mut Ui, name: &str, value: &str, colour: Color32, help: &str) {
     });
 }
 
-/// The most important of it for the status bar, from right to left.
+/// The most important of it for the status bar, from right to left; nothing of a project that cannot be computed.
 pub(in crate::editor) fn status_line(ui: &mut Ui, editor: &EditorContext) {
+    if editor.preview.problem().is_some() {
+        return;
+    }
     let Some(preview) = editor.preview.preview() else { return };
     for readout in in_short(preview, editor.session.playhead).into_iter().rev() {
         let text = RichText::new(readout.value);
         let text = if readout.is_bad { text.color(bad(ui)) } else { text.weak() };
         ui.label(text).on_hover_text(readout.help);
     }
+}
+
+/// How many notes there are, for the status bar; whether they are asked for.
+pub(in crate::editor) fn note_count(ui: &mut Ui, notes: &[Note]) -> bool {
+    let words = match notes.len() {
+        0 => return false,
+        1 => "1 note".to_owned(),
+        count => format!("{count} notes"),
+    };
+    let button = egui::Button::new(RichText::new(words).color(bad(ui))).small();
+    let response = ui.add(button).on_hover_ui(|ui| {
+        ui.set_max_width(TOOLTIP);
+        notes.iter().take(TOLD).for_each(|note| {
+            ui.label(&note.text);
+        });
+        if notes.len() > TOLD {
+            ui.weak(format!("and {} more", notes.len() - TOLD));
+        }
+    });
+    response.clicked()
 }
 
 /// The linear light of a pixel, as rendered and as exposed.

@@ -65,7 +65,7 @@ fn without_scene(ui: &mut Ui, editor: &mut EditorContext, project: &Project) {
     }
 }
 
-/// A collapsible part that opens when its object is selected.
+/// A collapsible part that opens and comes into view when its object is selected.
 fn fold_of(ui: &mut Ui, name: &str, selected: bool, add: impl FnOnce(&mut Ui)) {
     ui.add_space(4.0);
     let id = ui.scope_id().with((name, "was selected"));
@@ -73,7 +73,14 @@ fn fold_of(ui: &mut Ui, name: &str, selected: bool, add: impl FnOnce(&mut Ui)) {
     let heading = egui::RichText::new(name);
     let heading = if selected { heading.color(ui.visuals().hyperlink_color) } else { heading };
     let open = (selected && !was).then_some(true);
-    egui::CollapsingHeader::new(heading).id_salt(name).open(open).show_unindented(ui, add);
+    let shown = egui::CollapsingHeader::new(heading).id_salt(name).open(open).show_unindented(ui, add);
+    let coming = ui.scope_id().with((name, "comes into view"));
+    if open.is_some() || ui.data(|data| data.get_temp(coming)).unwrap_or(false) {
+        // It opens slowly, and grows meanwhile.
+        ui.data_mut(|data| data.insert_temp(coming, selected && shown.openness < 1.0));
+        let body = shown.body_response.map_or(egui::Rect::NOTHING, |body| body.rect);
+        ui.scroll_to_rect(shown.header_response.rect.union(body), None);
+    }
 }
 
 /// A collapsible part that is open at first.

@@ -7,10 +7,11 @@ use lightloom_core::scene::SceneDesc;
 
 use super::subject::Subject;
 use super::worker::{Share, Turn, Worker};
+use crate::editor::access::Access;
 use crate::editor::engine::SharedEngine;
 
-/// What the light of a lamp depends on: the scene, the lamp's index, the seed.
-type Input = (Option<SceneDesc>, usize, u64);
+/// What the light of a lamp depends on: the scene, its files, the lamp's index, the seed.
+type Input = (Option<SceneDesc>, Access, usize, u64);
 
 /// Follows the light of the newest lamp that is selected.
 pub(super) struct LampWorker {
@@ -29,7 +30,7 @@ impl LampWorker {
             let (engine, found, tell) = (engine.clone(), theirs.clone(), tell.clone());
             move |(subject, input): (Subject, Input), turn: &Turn| {
                 let engine = subject.engine(&engine);
-                let light = engine.and_then(|e| e.lamp_light(&subject.project, input.1, &turn.progress));
+                let light = engine.and_then(|e| e.lamp_light(&subject.project, input.2, &turn.progress));
                 // What is wrong with the scene is told by the animation.
                 let Ok(Some(light)) = light else { return };
                 *found.lock().unwrap_or_else(PoisonError::into_inner) = Some((input, light));
@@ -42,7 +43,7 @@ impl LampWorker {
     /// Asks for the light of the lamp of index `lamp`; none asks for nothing.
     pub(super) fn follow(&mut self, subject: &Subject, lamp: Option<usize>) {
         let Some(lamp) = lamp else { return };
-        let input = (subject.project.scene.clone(), lamp, subject.project.seed);
+        let input = (subject.project.scene.clone(), subject.access.clone(), lamp, subject.project.seed);
         if self.asked.as_ref() != Some(&input) {
             self.worker.ask((subject.clone(), input.clone()));
             self.asked = Some(input);
@@ -52,8 +53,9 @@ impl LampWorker {
     /// The light of a lamp as it is now; none while it is not known.
     pub(super) fn found(&self, subject: &Subject, lamp: usize) -> Option<LampLight> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        let ((scene, of, seed), light) = found.as_ref()?;
-        let is_current = *of == lamp && *seed == subject.project.seed && *scene == subject.project.scene;
+        let ((scene, access, of, seed), light) = found.as_ref()?;
+        let is_of_files = *access == subject.access && *scene == subject.project.scene;
+        let is_current = is_of_files && *of == lamp && *seed == subject.project.seed;
         is_current.then_some(*light)
     }
 

@@ -20,6 +20,7 @@ use std::sync::Arc;
 
 pub use coverage::{Coverage, State};
 pub use flow::{FlowPicture, Followed, HeatMap};
+use lightloom_core::Note;
 use lightloom_core::engine::{Client, Preview, SegmentContinuity, Shot};
 use lightloom_core::import::awaits_glass;
 use lightloom_core::photon::LampLight;
@@ -278,6 +279,12 @@ impl LivePreview {
     /// The picture towards which the light flows at the playhead.
     pub fn target(&self) -> Option<TargetPicture> {
         self.targets.found()
+    }
+
+    /// Notes on the project, all that are known by now; those of its last version while there are none of the newest.
+    pub fn notes(&self) -> &[Note] {
+        let newest = self.found.previews.iter().flatten().max_by_key(|preview| preview.notes().len());
+        newest.or(self.last.as_ref()).map_or(&[], |preview| preview.notes())
     }
 
     /// Whether what is shown is of the newest version.

@@ -14,6 +14,7 @@ pub mod preferences;
 pub mod recovery;
 pub mod saver;
 pub mod trust;
+pub mod watch;
 
 mod attached;
 mod backups;
@@ -35,6 +36,7 @@ pub use recovery::{Recovery, recoverable};
 pub use save::{Origin, SaveRequest, Saved};
 pub use saver::{Opened, Saver, StoreReply, StoreRequest};
 pub use trust::trusted;
+pub use watch::Watch;
 
 #[cfg(test)]
 mod tests;

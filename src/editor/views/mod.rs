@@ -37,8 +37,8 @@ pub(super) struct Views {
     wanted: Wanted,
     /// Rectangles of the plane view and the shot view when last shown.
     places: [Rect; 2],
-    /// Whether the pointer was over the orbit view when that was last shown.
-    over_orbit: bool,
+    /// The orbit view when it was last shown, where its keys count.
+    orbit: Option<egui::Id>,
     /// The handle under the pointer.
     handle: Option<Handle>,
     /// Whether a handle was grabbed by the drag that goes on: what is left of it after Escape flies no camera.
@@ -58,7 +58,7 @@ impl Default for Views {
             split: None,
             wanted: Wanted::default(),
             places: [Rect::NOTHING; 2],
-            over_orbit: false,
+            orbit: None,
             handle: None,
             grabbed: false,
             covered: 0,
@@ -81,7 +81,10 @@ impl Views {
 
     /// Whose keys count: those of the orbit view while the pointer is over it.
     pub(super) fn key_place(&self, ctx: &egui::Context) -> KeyPlace {
-        let is_over = self.over_orbit && !ctx.input(|input| input.pointer.any_down());
+        // As the pointer is now: it may have come in the frame of the key.
+        let view = self.orbit.and_then(|id| ctx.read_response(id));
+        let is_over = view.is_some_and(|view| view.contains_pointer() || self.covered > 0)
+            && !ctx.input(|input| input.pointer.any_down());
         if is_over { KeyPlace::OrbitView } else { KeyPlace::Everywhere }
     }
 
@@ -109,7 +112,7 @@ impl Views {
     pub(super) fn show(&mut self, ui: &mut Ui, editor: &mut EditorContext, toolbox: &mut Toolbox) {
         self.pictures.take(ui.ctx(), editor.preview);
         self.wanted = Wanted::default();
-        self.over_orbit = false;
+        self.orbit = None;
         let pixel = self.pixel.take();
         if editor.session.layout != ViewLayout::Orbit && editor.session.transforming.take().is_some() {
             editor.ask(Action::Abort);

@@ -46,7 +46,7 @@ impl Views {
         // What covers the window during a transform does so for a frame after its end.
         let transforms = editor.session.transforming.is_some();
         self.covered = if transforms { 2 } else { self.covered.saturating_sub(1) };
-        self.over_orbit = (response.contains_pointer() || self.covered > 0) && project.scene.is_some();
+        self.orbit = project.scene.as_ref().map(|_| response.id);
         let aspect = [project.render.width as f32, project.render.height as f32];
         let through = editor.session.through_camera && project.scene.is_some();
         let frame = if through { fitted(view.shrink(MARGIN), aspect) } else { view };

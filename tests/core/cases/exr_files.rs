@@ -102,7 +102,7 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
     const B: &[f32] = &[0.1, 0.5];
     const Z: &[f32] = &[7.0, 9.0];
     // All have 1 and 0.5 in the layer that counts; words of the note.
-    let rows: [(&str, Layers<'_>, &str); 12] = [
+    let rows: [(&str, Layers<'_>, &str); 13] = [
         ("grey", &[("", &[("Y", A)])], ""),
         ("grey with alpha", &[("", &[("A", &[1.0, 1.0]), ("Y", A)])], ""),
         ("grey in a layer", &[("", &[("mask.Y", A)])], ""),
@@ -155,6 +155,11 @@ fn the_layer_of_an_exr_file_that_is_the_picture_is_shown() {
             "normals are no grey",
             &[("", &[("N.X", B), ("N.Y", B), ("N.Z", B), ("c.R", A), ("c.G", A), ("c.B", A)])],
             "",
+        ),
+        (
+            "a layer without name",
+            &[("", &[("R", A), ("G", A), ("B", A), ("x.R", B), ("x.G", B), ("x.B", B)])],
+            "the one without name is shown, not 'x'",
         ),
         ("depth beside colours", &[("", &[("R", A), ("G", A), ("B", A), ("Z", Z)])], ""),
         ("small letters", &[("", &[("r", A), ("g", A), ("b", A)])], ""),

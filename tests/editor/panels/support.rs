@@ -82,6 +82,11 @@ fn show(ui: &mut egui::Ui, editor: &mut Editor) {
 
 /// Two clicks in one place, quick enough to be one gesture.
 pub(crate) fn double_click(harness: &mut PanelHarness, role: Role, name: &str) {
+    double_click_in(harness, role, name, false);
+}
+
+/// The same, with a frame between the clicks where they are `apart`.
+pub(crate) fn double_click_in(harness: &mut PanelHarness, role: Role, name: &str, apart: bool) {
     let pos = harness.get_by_role_and_label(role, name).rect().center();
     let button = |pressed| Event::PointerButton {
         pos,
@@ -89,8 +94,11 @@ pub(crate) fn double_click(harness: &mut PanelHarness, role: Role, name: &str) {
         pressed,
         modifiers: Modifiers::NONE,
     };
-    let events = [Event::PointerMoved(pos), button(true), button(false), button(true), button(false)];
-    // All in one step: the harness lets more time pass between steps than a double click may take.
-    harness.input_mut().events.extend(events);
+    harness.input_mut().events.extend([Event::PointerMoved(pos), button(true), button(false)]);
+    if apart {
+        // One step and no more: the harness lets more time pass than a double click may take.
+        harness.step();
+    }
+    harness.input_mut().events.extend([button(true), button(false)]);
     harness.run();
 }

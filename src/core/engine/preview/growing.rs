@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::Vec2;
 
 use super::frames::{Keys, Preview};
+use crate::Note;
 use crate::engine::fitted_segment::FittedSegment;
 use crate::engine::key_photons::{KeyPhotons, all_positions};
 use crate::engine::segment_photons::SegmentPhotons;
@@ -24,8 +25,13 @@ pub(super) struct Growing<'a> {
 }
 
 impl<'a> Growing<'a> {
-    /// A preview of the key frames alone, which is shown. `first` is the frame on screen.
-    pub(super) fn new(keys: Keys, first: i32, ready: &'a mut dyn FnMut(&Arc<Preview>)) -> Self {
+    /// A preview of the key frames alone, which is shown, with the notes that are known by then. `first` is the frame on screen.
+    pub(super) fn new(
+        notes: Vec<Note>,
+        keys: Keys,
+        first: i32,
+        ready: &'a mut dyn FnMut(&Arc<Preview>),
+    ) -> Self {
         let (frames, segments) = (keys.moments.len(), keys.lights.len() - 1);
         let at_key = |moment: &crate::project::SegmentTime| {
             let key = moment.segment + usize::from(moment.time >= 1.0);
@@ -37,7 +43,7 @@ impl<'a> Growing<'a> {
             ends: vec![None; segments],
             numbers: None,
             stages: Vec::new(),
-            notes: Vec::new(),
+            notes,
             keys: Arc::new(keys),
         };
         debug_assert_eq!(preview.frames.len(), frames);

@@ -61,7 +61,10 @@ impl Engine {
         let whole = self.prepare(&all_frames, &meter, progress)?;
         let (sized, note) = self.at_quality(&whole, quality)?;
         let job = self.job(&sized, &meter, progress)?;
-        let run = Run { whole: &whole, job: &job };
+        let idle = job.tracer().map_or(Vec::new(), |tracer| tracer.idle_lights());
+        let idle = idle.into_iter().map(|(light, text)| About::Light(light).note(text));
+        let notes = whole.notes.iter().cloned().chain(note).chain(idle).collect();
+        let run = Run { whole: &whole, job: &job, notes };
         let at_quality = |quality| self.at_quality(&whole, quality);
         let preview = match quality.fitted_at() {
             fitted_at if fitted_at == quality => run.fitted(first, ready)?,
@@ -70,7 +73,7 @@ impl Engine {
                 run.carried(&self.job(&guides, &meter, progress)?, first, ready)?
             }
         };
-        Ok(Arc::new(preview.concluded(&whole.notes, note, &meter)))
+        Ok(Arc::new(preview.concluded(&meter)))
     }
 
     /// A prepared project limited to a quality, and a note where memory allows fewer photons.
@@ -94,13 +97,15 @@ impl Engine {
 struct Run<'a> {
     whole: &'a Prepared,
     job: &'a Job<'a>,
+    /// What is known before anything flows.
+    notes: Vec<Note>,
 }
 
 impl Run<'_> {
     /// Matches and fits; the frames fall out of the fits.
     fn fitted(&self, first: i32, ready: &mut dyn FnMut(&Arc<Preview>)) -> Result<Preview> {
         let (keys, segments) = self.walk(|_| MapsFrom::Own { bounded: false })?;
-        let mut growing = Growing::new(keys, first, ready);
+        let mut growing = Growing::new(self.notes(&keys), keys, first, ready);
         let mut all = Vec::new();
         for number in outward(growing.first_segment(), segments.len()) {
             let (fitted, frames) = growing.fit(self.job, &segments[number])?;
@@ -112,10 +117,10 @@ impl Run<'_> {
 
     /// Pairs photons as those of `guides` are, and carries them along the fields of those.
     fn carried(&self, guides: &Job, first: i32, ready: &mut dyn FnMut(&Arc<Preview>)) -> Result<Preview> {
-        let guides = Run { whole: self.whole, job: guides };
+        let guides = Run { whole: self.whole, job: guides, notes: Vec::new() };
         let (_, led) = guides.walk(|_| MapsFrom::Own { bounded: false })?;
         let (keys, segments) = self.walk(|number| MapsFrom::Others(&led[number].matched.maps))?;
-        let mut growing = Growing::new(keys, first, ready);
+        let mut growing = Growing::new(self.notes(&keys), keys, first, ready);
         let mut all = Vec::new();
         for number in outward(growing.first_segment(), segments.len()) {
             let fitted = super::flow::fit_segment(guides.job, &led[number], None)?;
@@ -138,6 +143,11 @@ impl Run<'_> {
             segments.push(photons);
         }
         Ok((self.keys(lights, &groups, caustics), segments))
+    }
+
+    /// The notes on what is to flow.
+    fn notes(&self, keys: &Keys) -> Vec<Note> {
+        self.notes.iter().cloned().chain(notes_on_dark(&keys.caustics)).collect()
     }
 
     fn keys(&self, lights: Vec<KeyLight>, groups: &[KeyPhotons], caustics: Vec<CausticFlux>) -> Keys {
@@ -177,13 +187,9 @@ fn finished(growing: Growing, fitted: &[Arc<FittedSegment>]) -> Preview {
 }
 
 impl Preview {
-    /// The preview with its stages and notes.
-    fn concluded(mut self, notes: &[Note], note: Option<Note>, meter: &Meter) -> Self {
+    /// The preview with its stages, and the notes on what has flowed.
+    fn concluded(mut self, meter: &Meter) -> Self {
         self.stages = meter.costs();
-        self.notes = notes.to_vec();
-        self.notes.extend(note);
-        let dark = notes_on_dark(self.caustics());
-        self.notes.extend(dark);
         self.notes.extend(self.numbers.iter().filter_map(|numbers| note_on_walls(&numbers.flow)));
         self
     }

@@ -52,13 +52,18 @@ pub(super) fn read(path: &Path, bytes: &[u8], progress: &Progress) -> Result<Pic
     } else {
         read_colour(path, source, shown)
     }?;
-    let mut others: Vec<String> = layers.iter().map(|layer| format!("'{}'", layer.name)).collect();
-    others.retain(|name| *name != format!("'{}'", shown.name));
+    let mut others: Vec<String> = layers.iter().map(|layer| called(&layer.name)).collect();
+    others.retain(|name| *name != called(&shown.name));
     if !others.is_empty() {
-        let what = format!("of its layers '{}' is shown, not {}", shown.name, list(&others));
+        let what = format!("of its layers {} is shown, not {}", called(&shown.name), list(&others));
         picture.notes.push(format!("'{}': {what}", path.display()));
     }
     Ok(picture)
+}
+
+/// A layer by its name; that of channels called R, G, B alone has none.
+fn called(layer: &str) -> String {
+    if layer.is_empty() { "the one without name".to_owned() } else { format!("'{layer}'") }
 }
 
 /// The names of a list, the first few.

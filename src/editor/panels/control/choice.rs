@@ -32,7 +32,7 @@ impl Control {
                 None => self.list(ui, now),
             }
         });
-        if row.reset && now != 0 { Some(0) } else { row.inner.filter(|index| *index != now) }
+        if row.reset { Some(0).filter(|_| now != 0) } else { row.inner.filter(|index| *index != now) }
     }
 
     /// As [`Self::pick`], where no choice is the default; always a list.
@@ -132,7 +132,7 @@ impl Control {
             let response = ui.checkbox(value, "").accessible_name(self.accessible_name());
             self.with_tooltip(response);
         });
-        if row.reset && before == *value {
+        if row.reset {
             *value = default;
         }
         before != *value

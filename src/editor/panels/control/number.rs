@@ -1,7 +1,9 @@
 //! Numbers: a slider and a field, a field alone, several fields, a number that may be absent.
 
 use egui::emath::Numeric;
-use egui::{DragValue, Response, Slider, SliderClamping, Ui};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{DragValue, Id, Response, Slider, SliderClamping, Ui};
 
 use lightloom_core::setting::{Kind, format};
 
@@ -55,8 +57,7 @@ impl Control {
                 (false, value) => *value = Some(T::from_f64(first)),
             }
         });
-        // A double click on the switch is two clicks: nothing is left to reset.
-        if row.reset && changed {
+        if row.reset {
             *value = None;
         }
         before != *value
@@ -156,8 +157,20 @@ impl Control {
         ui.spacing_mut().button_padding.x = 2.0;
         let size = egui::vec2(width, ui.spacing().interact_size.y);
         let response = ui.add_sized(size, field).accessible_name(name);
+        if response.double_clicked() {
+            select_all(ui, response.id);
+        }
         self.with_tooltip(response)
     }
+}
+
+/// Selects all of a number that is typed into: egui would select what stands before or behind the point.
+fn select_all(ui: &Ui, field: Id) {
+    let Some(mut state) = TextEditState::load(ui.ctx(), field) else { return };
+    // The cursor is kept within the text.
+    let end = CCursor::new(usize::from(u16::MAX));
+    state.cursor.set_char_range(Some(CCursorRange::two(CCursor::default(), end)));
+    state.store(ui.ctx(), field);
 }
 
 /// The meaning of the two ends of the slider above.

@@ -1,8 +1,8 @@
 //! A row of a panel: the label on the left, the value on the right, both aligned over the whole panel.
 
 use egui::{
-    Align, Align2, Id, PointerButton, RectAlign, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
-    Tooltip, Ui, WidgetInfo, vec2,
+    Align, Align2, Id, RectAlign, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui,
+    WidgetInfo, vec2,
 };
 
 use super::Control;
@@ -63,7 +63,7 @@ fn mark_sought(ui: &Ui, response: &Response, place: &str) {
 pub(in crate::editor::panels) struct Row<R> {
     /// What its widgets returned.
     pub inner: R,
-    /// Whether the default is asked for.
+    /// Whether the default is asked for, by a double click on the name: one on a value begins to edit it.
     pub reset: bool,
 }
 
@@ -77,11 +77,8 @@ impl Control {
     ) -> Row<R> {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            self.label(ui, changed);
-            let inner = widgets(ui);
-            // On the name or on the value: a slider knows no clicks.
-            let twice = ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary));
-            Row { inner, reset: twice && ui.rect_contains_pointer(ui.min_rect()) }
+            let reset = self.label(ui, changed);
+            Row { inner: widgets(ui), reset }
         })
         .inner
     }
@@ -104,9 +101,11 @@ impl Control {
         .inner
     }
 
-    fn label(&self, ui: &mut Ui, changed: bool) {
+    /// The name; whether it was clicked twice.
+    fn label(&self, ui: &mut Ui, changed: bool) -> bool {
         let size = vec2(LABELS, ui.spacing().interact_size.y);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        // The Tab key passes it by.
+        let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK);
         let painter = ui.painter_at(rect);
         let colour = if changed { ui.visuals().strong_text_color() } else { ui.visuals().text_color() };
         let at = rect.left_center() + vec2(MARK, 0.0);
@@ -116,7 +115,7 @@ impl Control {
         }
         response.widget_info(|| WidgetInfo::labeled(Role::Label, ui.is_enabled(), self.label));
         mark_sought(ui, &response, self.setting.place);
-        self.with_tooltip(response);
+        self.with_tooltip(response).double_clicked()
     }
 
     /// The name for a screen reader: the label, with its owner where several parts of a panel have that label.
@@ -145,7 +144,7 @@ impl Control {
             }
             let words = self.setting.in_words();
             if !words.is_empty() {
-                ui.weak(format!("{words} Double click resets."));
+                ui.weak(format!("{words} A double click on the name resets it."));
             }
         });
         response

@@ -58,8 +58,14 @@ fn row(
         let what = if chosen { RichText::new(what) } else { RichText::new(what).weak() };
         let button = Button::selectable(chosen, text).right_text(what).truncate();
         let size = vec2(ui.available_width(), SIDE);
-        if ui.add_sized(size, button).accessible_name(format!("{kind} {name}")).clicked() {
+        let button = ui.add_sized(size, button).accessible_name(format!("{kind} {name}"));
+        if button.clicked() {
             editor.session.focus.object = (!chosen).then_some(object);
+        }
+        let was = ui.scope_id().with(("was chosen", kind, object));
+        let was = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<bool>(was), chosen));
+        if chosen && !was {
+            button.scroll_to_me(None);
         }
     });
 }
