@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use super::cells::Cells;
-use super::ends::{End, scale_in_turn};
+use super::ends::{End, RELAXATION, scale_in_turn};
 use super::free_plan::DIFFUSION;
 use super::gradient::{floor, gather, gradients};
 use super::regions::Regions;
@@ -12,7 +12,6 @@ use super::self_transport::{SelfTransport, lift};
 use super::settings::BridgeSettings;
 use super::wall_cells::WallCells;
 use super::wall_kernel::WallKernel;
-use super::wall_plan::RELAXATION;
 use crate::math::smoothstep::smoothstep;
 use crate::{Progress, Result};
 

@@ -3,7 +3,7 @@
 use glam::Vec2;
 
 use super::cells::Cells;
-use super::ends::{End, scale_in_turn};
+use super::ends::{End, RELAXATION, scale_in_turn};
 use super::free_plan::finer_scale;
 use super::gradient::{BLUR, floor, gather, gradients};
 use super::regions::Regions;
@@ -13,11 +13,9 @@ use super::wall_cells::{StandingWalls, WallCells};
 use super::wall_kernel::{StepKernel, WallKernel};
 use crate::{Progress, Result};
 
-/// Sweeps of the factors at most, the misplaced share of the light at which they end, and the over-relaxation: 1.6 needs a
-/// quarter of the sweeps of 1.
+/// Sweeps of the factors at most, and the misplaced share of the light at which they end.
 const SWEEPS: usize = 150;
 const TOLERANCE: f64 = 1e-3;
-pub(super) const RELAXATION: f64 = 1.6;
 /// Cells of the plan from which a finer one starts, at most.
 const COARSEST: usize = 48;
 /// Least variance of a step in squared cells: a narrower kernel is none on the grid.
