@@ -1,6 +1,6 @@
 //! Sizes of the pictures of the views: on the screen and in pixels.
 
-use egui::{Pos2, Rect, Ui, pos2, vec2};
+use egui::{Pos2, Rect, Ui, Vec2, pos2, vec2};
 use glam::Vec3;
 use lightloom_core::project::Project;
 use lightloom_core::render::Image;
@@ -12,6 +12,8 @@ pub(super) const WHOLE: Rect = Rect { min: pos2(0.0, 0.0), max: pos2(1.0, 1.0) }
 const MARGIN: f32 = 14.0;
 /// Maximum pixels along the longer side: what the processor composites in real time.
 const MOST: f32 = 640.0;
+/// Pixels by which the longer side grows, so that resizing the window does not restart the work with every pixel.
+const STEP: f32 = 16.0;
 
 /// Rectangle of the picture fitted in a view, with the aspect of the rendered frames.
 pub(super) fn fitted(view: Rect, project: &Project) -> Rect {
@@ -23,10 +25,15 @@ pub(super) fn fitted(view: Rect, project: &Project) -> Rect {
 
 /// Size in pixels of the picture that the workers make for a view.
 pub(super) fn size(ui: &Ui, view: Rect, project: &Project) -> [u32; 2] {
-    let frame = fitted(view, project).size() * ui.pixels_per_point();
-    let shrink = (MOST / frame.max_elem()).min(1.0);
-    // In steps, so that resizing the window does not restart the work with every pixel.
-    [frame.x, frame.y].map(|n| ((n * shrink / 16.0).round() * 16.0).max(16.0) as u32)
+    in_steps(fitted(view, project).size() * ui.pixels_per_point())
+}
+
+/// A size of at most the most pixels and of the same shape, whose longer side is a multiple of [`STEP`].
+fn in_steps(size: Vec2) -> [u32; 2] {
+    let longer = size.max_elem();
+    let pixels = ((longer.min(MOST) / STEP).round() * STEP).max(STEP);
+    // The shape stays: what is drawn over the picture must lie where its light does.
+    [size.x, size.y].map(|side| (side / longer * pixels).round().max(1.0) as u32)
 }
 
 /// The colour of a picture that is shown in `frame`, under a screen position; none beside it.
@@ -42,6 +49,19 @@ pub(super) fn under(at: Pos2, frame: Rect, image: &Image) -> Option<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_has_the_shape_of_its_frame() {
+        for (width, height) in
+            [(503.0, 283.0), (410.0, 230.0), (300.0, 600.0), (1999.0, 1124.0), (90.0, 30.0)]
+        {
+            let [x, y] = in_steps(vec2(width, height)).map(|side| side as f32);
+            // The shorter side is rounded to a pixel.
+            let shorter = x.max(y) * (width.min(height) / width.max(height));
+            assert!((x.min(y) - shorter).abs() <= 0.5, "{width} x {height} is shown as {x} x {y}");
+            assert!(x.max(y) <= MOST && x.max(y) % STEP == 0.0);
+        }
+    }
 
     #[test]
     fn the_pixel_under_the_pointer_is_that_of_the_picture_wherever_it_is_shown() {
