@@ -35,7 +35,7 @@
 //! Others let less light stay the nearer a wall is: it fades towards walls and rounds their ends, where an edge would cut it.
 //! Regions that walls shut off have plans of their own.
 //!
-//! Where walls stand in the way of little light, the plan is renewed as in free motion, and bodies keep their size; close to walls
+//! Where walls leave most straight ways open, the plan is renewed as in free motion, and bodies keep their size; close to walls
 //! light also spreads by half the diffusion, or it would gather there in threads. Else, or where walls come and go, a plan is made once:
 //! with f from the one side and b from the other, s^2/2 grad ln(b / f) is the velocity that carries exactly the planned density,
 //! which is below the cap everywhere (Chen, Georgiou, Pavon 2016). It puffs bodies up on the way, with a rim around them. What the

@@ -245,19 +245,6 @@ impl WallKernel {
         self.moves_towards(k, &light, cells)
     }
 
-    /// The share of the time that the light between the ends spends where walls are soft.
-    pub(super) fn beside_walls(&self) -> f64 {
-        let share = |k: usize| {
-            let density = self.density(k);
-            let soft = &self.soft[self.of_step[k]];
-            let beside: f64 =
-                density.iter().zip(soft).map(|(light, soft)| if *soft < 1.0 { *light } else { 0.0 }).sum();
-            beside / density.iter().sum::<f64>().max(LEAST)
-        };
-        let steps = 1..self.of_step.len();
-        steps.clone().map(share).sum::<f64>() / steps.len().max(1) as f64
-    }
-
     /// The density from `side` at the begin of step `k`, times the factor there.
     fn factored(&self, side: usize, k: usize) -> Vec<f64> {
         if k == [self.range.start, self.range.end][side] {

@@ -27,9 +27,11 @@ const SOFTNESS: f64 = 20.0;
 /// Diffusion down the density over the planned one, over that of the bridge. With 1 the gap at the meeting is .0037 and .0159 in
 /// place of .0026 and .0139 (*letters*, *bottles*); with 4 it is no smaller.
 const FEEDBACK: f64 = 2.0;
-/// Share of the time that light spends within the reach of walls below which the plan is renewed on the way: .01 and .04 in *letters* and
-/// *bottles*. Where light squeezes through a slit (.06) or around a bar (.08) and a C (.3), renewed plans crack it.
-const FEW_BESIDE: f64 = 0.05;
+/// Share of the straight ways between both key frames that walls block, below which the plan is renewed on the way, and the number of
+/// ways that are looked at. Where light squeezes through a slit, or goes around a bar or a C, renewed plans crack it.
+const MOST_BLOCKED: f64 = 0.5;
+const WAYS: usize = 1024;
+const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 /// Share of the light whose cells set the cap; brighter ones keep their own density.
 const CAP_SHARE: f64 = 0.9;
 
@@ -50,7 +52,7 @@ struct Made {
     /// Steps of the kernel that make the blur of densities.
     blur: usize,
     error: f64,
-    /// Where the same walls stand all the time, in the way of little light.
+    /// Where the same walls stand all the time, and leave most ways open.
     renewal: Option<Renewal>,
 }
 
@@ -131,7 +133,7 @@ impl Made {
         let error = ends[0].error();
         let blur = (BLUR * BLUR / step).round().max(1.0) as usize;
         let variance = step * f64::from(cells.side).powi(2);
-        let is_renewed = walls.runs().count() == 1 && kernel.beside_walls() < FEW_BESIDE;
+        let is_renewed = walls.runs().count() == 1 && blocked(walls.of(0, 0), photons) < MOST_BLOCKED;
         let renewal = is_renewed.then(|| Renewal::new(ends[1].scale.clone()));
         Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error, renewal })
     }
@@ -172,6 +174,18 @@ impl Made {
         let planned = self.kernel.velocity(step, cells, alone);
         planned.iter().zip(back).map(|(v, back)| per_step * *v - diffusion as f32 * back).collect()
     }
+}
+
+/// Share of the straight ways from photons of the earlier to photons of the later key frame that walls block.
+fn blocked(walls: Option<&WallCells>, [earlier, later]: [&[Vec2]; 2]) -> f64 {
+    let (Some(walls), false, false) = (walls, earlier.is_empty(), later.is_empty()) else { return 0.0 };
+    let photon = |photons: &[Vec2], share: f64| photons[(share * photons.len() as f64) as usize];
+    let is_blocked = |way: &usize| {
+        let from = photon(earlier, *way as f64 / WAYS as f64);
+        // By the golden ratio, so that rows in some order do not pair neighbours.
+        walls.blocks(from, photon(later, (*way as f64 * GOLDEN_RATIO).fract()))
+    };
+    (0..WAYS).filter(is_blocked).count() as f64 / WAYS as f64
 }
 
 /// Most light of each cell: `density` times that of the cells in which most of the light is, and in each at least its own at
