@@ -140,10 +140,13 @@ impl<'a> Bridge<'a> {
     /// `Cancelled`.
     pub fn renew(&mut self, done: usize, photons: [&[Vec2]; 2], progress: &Progress) -> Result<()> {
         self.done = done;
-        self.velocities = match &mut self.plan {
-            Plan::Free(plan) => plan.velocities(&self.cells, done, photons, progress)?,
+        let renewed = match &mut self.plan {
+            Plan::Free(plan) => Some(plan.velocities(&self.cells, done, photons, progress)?),
             Plan::Walls(plan) => plan.velocities((&self.cells, &self.walls), done, photons, progress)?,
         };
+        if let Some(velocities) = renewed {
+            self.velocities = velocities;
+        }
         if done == 0 {
             self.limit = SPEED_LIMIT * self.mean_speed_of(photons);
         }

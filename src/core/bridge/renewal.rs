@@ -26,13 +26,10 @@ const EVERY: usize = 2;
 const BESIDE: f32 = 1.0;
 
 /// What a renewal takes from the one before.
+#[derive(Default)]
 pub(super) struct Renewal {
-    /// The factor of the later end.
-    scale: Vec<f64>,
     own: [SelfTransport; 2],
     relative: [RelativeDensity; 2],
-    /// The last velocities.
-    velocities: [Vec<Vec2>; 2],
 }
 
 /// What stays the same from renewal to renewal: the cells, the walls and the regions among them, the variance of a step in plane
@@ -46,40 +43,32 @@ pub(super) struct Grid<'a> {
 }
 
 impl Renewal {
-    /// After a first plan with this factor of its later end.
-    pub(super) fn new(scale: Vec<f64>) -> Self {
-        Self { scale, own: Default::default(), relative: Default::default(), velocities: Default::default() }
-    }
-
-    /// The velocities in cells of both sides after `done` steps, each towards the other; `kernel` holds the plan before, and holds the
-    /// renewed one then.
+    /// The velocities in cells of both sides after `done` steps, each towards the other; none where the last ones hold. `kernel` has
+    /// the plan before, and has the renewed one then.
     pub(super) fn velocities(
         &mut self,
         kernel: &mut WallKernel,
         (settings, grid): (&BridgeSettings, &Grid),
         (done, photons): (usize, [&[Vec2]; 2]),
         progress: &Progress,
-    ) -> Result<[Vec<Vec2>; 2]> {
+    ) -> Result<Option<[Vec<Vec2>; 2]>> {
         if !done.is_multiple_of(EVERY) {
-            return Ok(self.velocities.clone());
+            return Ok(None);
         }
         let mut ends = photons.map(|photons| End::new(gather(grid.cells, grid.walls, photons)));
         if done > 0 {
             let [a, b] = &mut ends;
             grid.regions.balance(&a.density, &mut b.density);
-            ends[1].scale = std::mem::take(&mut self.scale);
-            let End { scale, density, .. } = &mut ends[1];
-            lift(scale, density);
+            b.scale = kernel.later_end().to_vec();
+            lift(&mut b.scale, &b.density);
             kernel.narrow(done);
             let spread = |side: usize, factor: &[f64], out: &mut [f64]| kernel.spread(side, factor, out);
             let tolerance = TOLERANCE / f64::from(settings.sweeps);
             scale_in_turn(&mut ends, (settings.sweeps(SWEEPS), tolerance, RELAXATION), spread, progress)?;
-            self.scale = std::mem::take(&mut ends[1].scale);
         }
-        self.velocities = [0, 1].map(|side| {
+        Ok(Some([0, 1].map(|side| {
             self.side_velocities(kernel, (settings, grid), (side, done), (&ends[side].density, photons[side]))
-        });
-        Ok(self.velocities.clone())
+        })))
     }
 
     /// The mean move of the light of a side towards the other end. Of it is taken, as in free motion, that of its transport onto

@@ -214,6 +214,11 @@ impl WallKernel {
         out.copy_from_slice(&self.from[side][if side == 0 { end } else { start }]);
     }
 
+    /// The factor of the later end that was spread last.
+    pub(super) fn later_end(&self) -> &[f64] {
+        &self.ends[1]
+    }
+
     /// What has come from the earlier end to the later one.
     pub(super) fn reached_later(&self) -> &[f64] {
         &self.from[0][self.of_step.len()]

@@ -1,5 +1,7 @@
 //! The plan of motion around walls, made once, and followed or renewed.
 
+use std::f64::consts::GOLDEN_RATIO;
+
 use glam::Vec2;
 
 use super::cells::Cells;
@@ -31,7 +33,6 @@ const FEEDBACK: f64 = 2.0;
 /// ways that are looked at. Where light squeezes through a slit, or goes around a bar or a C, renewed plans crack it.
 const MOST_BLOCKED: f64 = 0.5;
 const WAYS: usize = 1024;
-const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 /// Share of the light whose cells set the cap; brighter ones keep their own density.
 const CAP_SHARE: f64 = 0.9;
 
@@ -39,6 +40,8 @@ const CAP_SHARE: f64 = 0.9;
 pub(super) struct WallPlan {
     settings: BridgeSettings,
     made: Option<Made>,
+    /// Where the same walls stand all the time, and leave most ways open.
+    renewal: Option<Renewal>,
 }
 
 /// A plan that is made.
@@ -52,13 +55,11 @@ struct Made {
     /// Steps of the kernel that make the blur of densities.
     blur: usize,
     error: f64,
-    /// Where the same walls stand all the time, and leave most ways open.
-    renewal: Option<Renewal>,
 }
 
 impl WallPlan {
     pub(super) fn new(settings: BridgeSettings) -> Self {
-        Self { settings, made: None }
+        Self { settings, made: None, renewal: None }
     }
 
     /// The misplaced share of the light.
@@ -71,25 +72,29 @@ impl WallPlan {
         self.made.as_ref().map_or([0.0; 2], |made| made.regions.shut_off())
     }
 
-    /// The velocities in cells of both sides after `done` steps, each towards the other; the first call makes the plan.
+    /// The velocities in cells of both sides after `done` steps, each towards the other; none where the last ones hold. The first call
+    /// makes the plan.
     pub(super) fn velocities(
         &mut self,
         (cells, walls): (&Cells, &StandingWalls),
         done: usize,
         photons: [&[Vec2]; 2],
         progress: &Progress,
-    ) -> Result<[Vec<Vec2>; 2]> {
+    ) -> Result<Option<[Vec<Vec2>; 2]>> {
         if self.made.is_none() {
             self.made = Some(Made::new(&self.settings, (cells, walls), photons, None, progress)?);
+            let is_renewed = walls.runs().count() == 1 && blocked(walls.of(0, 0), photons) < MOST_BLOCKED;
+            self.renewal = is_renewed.then(Renewal::default);
         }
         let Some(made) = &mut self.made else { return Err(crate::Error::Cancelled) };
-        if let Made { renewal: Some(renewal), kernel, regions, variance, blur, .. } = made {
+        if let Some(renewal) = &mut self.renewal {
+            let Made { kernel, regions, variance, blur, .. } = made;
             let grid = Grid { cells, walls: walls.of(0, 0), regions, variance: *variance, blur: *blur };
             return renewal.velocities(kernel, (&self.settings, &grid), (done, photons), progress);
         }
         let mut velocity =
             |side: usize| made.side_velocities(&self.settings, (cells, walls), (side, done), photons[side]);
-        Ok([velocity(0), velocity(1)])
+        Ok(Some([velocity(0), velocity(1)]))
     }
 }
 
@@ -133,9 +138,7 @@ impl Made {
         let error = ends[0].error();
         let blur = (BLUR * BLUR / step).round().max(1.0) as usize;
         let variance = step * f64::from(cells.side).powi(2);
-        let is_renewed = walls.runs().count() == 1 && blocked(walls.of(0, 0), photons) < MOST_BLOCKED;
-        let renewal = is_renewed.then(|| Renewal::new(ends[1].scale.clone()));
-        Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error, renewal })
+        Ok(Self { kernel, regions, ends: ends.map(|end| end.density), variance, blur, error })
     }
 
     /// The planned velocity of a side, and diffusion down the density over the planned one.
