@@ -43,7 +43,8 @@ impl Screen {
         static SCREENS: AtomicU32 = AtomicU32::new(0);
         let display = format!(":{}", 200 + (4 * std::process::id() + SCREENS.fetch_add(1, Relaxed)) % 2800);
         let mut server = Command::new("Xvfb");
-        server.args([&display, "-screen", "0", "1440x900x24", "-nolisten", "tcp"]);
+        // Without `-noreset` the server starts over whenever its last client goes, and takes along a program that comes at that moment.
+        server.args([&display, "-screen", "0", "1440x900x24", "-nolisten", "tcp", "-noreset"]);
         let server = server.stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()?;
         let screen = Self { display, server, program: None, folder: folder.to_owned() };
         std::thread::sleep(Duration::from_secs(1));
