@@ -236,7 +236,7 @@ fn an_export_that_was_killed_is_offered_and_ends_with_the_bytes_of_the_command_l
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path, 150);
+    make_small(&path, 100);
     let places = places(&folder);
     fs::create_dir_all(folder.path().join("config")).unwrap();
     window::preferences().save(&folder.path().join("config")).unwrap();

@@ -58,7 +58,7 @@ fn a_render_that_is_killed_again_and_again_ends_with_the_bytes_of_one_left_alone
     let (folder, project) = letters("flow");
     let args = |out: &'static str| {
         let out = folder.path().join(out).to_str().unwrap().to_owned();
-        ["render", text(&project), "--out", &out, "--passes", "300"].map(ToOwned::to_owned)
+        ["render", text(&project), "--out", &out, "--passes", "160"].map(ToOwned::to_owned)
     };
     let (alone, cut) = (args("alone"), args("cut"));
     let [alone, cut] = [&alone, &cut].map(|args| args.each_ref().map(String::as_str));
@@ -71,7 +71,7 @@ fn a_render_that_is_killed_again_and_again_ends_with_the_bytes_of_one_left_alone
     // Frames at the quality reached say that they are unfinished, and are finished by the next run.
     assert_eq!(cut_off(&cut, 85, "-TERM"), Some(143));
     let said = run(0, &["info", text(&out.join("frame.0005.exr"))]);
-    assert!(said.contains("passes_planned: 300") && !said.contains("  passes: 300"), "{said}");
+    assert!(said.contains("passes_planned: 160") && !said.contains("  passes: 160"), "{said}");
     assert!(run(4, &["verify", text(&out)]).contains("unfinished"));
     let said = run(0, &cut);
     assert!(said.contains("taken up after"), "{said}");
