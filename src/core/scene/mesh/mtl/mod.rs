@@ -120,7 +120,10 @@ impl MtlMaterial {
             return values.matt();
         };
         let (absorption, how) = values.absorption();
-        note(format!("taken as glass of index {ior}, by {hint}{how}"));
+        // Index and absorption together say that it is glass: nothing is guessed.
+        if values.absorption.is_none() {
+            note(format!("taken as glass of index {ior}, by {hint}{how}"));
+        }
         Material::Glass(Glass { ior, absorption, dispersion: None })
     }
 }
