@@ -21,6 +21,8 @@ use crate::editor::{menu, theme};
 
 /// Width of the panel on the right at first, and at least, points.
 const PANEL: [f32; 2] = [330.0, 290.0];
+/// Width in points at which the status bar has room for all it shows while work goes on.
+const ROOM: f32 = 1000.0;
 
 impl App {
     /// Shows everything; actions are appended to `actions`.
@@ -142,12 +144,17 @@ fn status(
         ui.add_sized([120.0, 18.0], egui::Label::new(RichText::new(doing).weak()).halign(Align::Min));
         ui.separator();
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (name, help) = drawn_by(gpu, renderer);
-            ui.weak(name).on_hover_text(help);
-            ui.separator();
-            panels::readouts::status_line(ui, editor);
+            // In a narrow window, what the panels show too gives way to work that goes on.
+            let is_busy = exports.is_busy() || tasks.iter().any(Option::is_some);
+            let has_room = !is_busy || ui.available_width() > ROOM;
+            if has_room {
+                let (name, help) = drawn_by(gpu, renderer);
+                ui.weak(name).on_hover_text(help);
+                ui.separator();
+                panels::readouts::status_line(ui, editor);
+            }
             clicked.notes = panels::readouts::note_count(ui, editor.preview.notes());
-            if let Some(light) = pixel {
+            if let Some(light) = pixel.filter(|_| has_room) {
                 ui.separator();
                 panels::readouts::pixel(ui, light, editor.document.project().render.view.exposure);
             }
