@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::math::tasks::Tasks as _;
+
 /// Rows per parallel task.
 const ROWS: usize = 8;
 /// Kernel values below this are zero: their products would be denormal.
@@ -34,7 +36,7 @@ impl Gaussian {
         let [width, _] = self.size;
         let Self { along_x, along_y, rows, .. } = self;
         let chunk = ROWS * width;
-        rows.par_chunks_mut(chunk).zip(density.par_chunks(chunk)).for_each(|(rows, density)| {
+        rows.par_chunks_mut(chunk).zip(density.par_chunks(chunk)).for_each_task(|(rows, density)| {
             for (out, row) in rows.chunks_exact_mut(width).zip(density.chunks_exact(width)) {
                 out.fill(0.0);
                 add_row(out, row, along_x);
@@ -44,7 +46,7 @@ impl Gaussian {
         let lit: Vec<usize> = (0..self.size[1])
             .filter(|&y| density[y * width..(y + 1) * width].iter().any(|value| *value != 0.0))
             .collect();
-        out.par_chunks_mut(chunk).enumerate().for_each(|(task, out)| {
+        out.par_chunks_mut(chunk).enumerate().for_each_task(|(task, out)| {
             for (i, out) in out.chunks_exact_mut(width).enumerate() {
                 out.fill(0.0);
                 let y = task * ROWS + i;

@@ -7,13 +7,17 @@ use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::wall_cells::WallCells;
+use crate::math::tasks::Tasks as _;
 
-/// Reach of one step, in cells to each side.
+/// Reach of one step, in cells to each side, and the cells along a side of its window.
 const REACH: usize = 4;
+const WINDOW: usize = 2 * REACH + 1;
+/// Cells of a row that are summed up at once, in registers.
+const BLOCK: usize = 16;
 /// Iterations that scale the rows of a kernel to sum 1.
 const SCALINGS: usize = 20;
-/// Cells per parallel task: a small grid is done before another thread has woken up.
-const PER_TASK: usize = 4096;
+/// Cells per parallel task: smaller grids are done before another thread has woken up.
+const PER_TASK: usize = 16_384;
 /// Densities below this count as none.
 const LEAST: f64 = 1e-290;
 
@@ -24,11 +28,26 @@ pub(super) struct StepKernel {
     /// Gaussian by distance along an axis, in cells.
     taps: [f64; REACH + 1],
     scale: Vec<f64>,
-    /// Cells with a wall in reach; their rows are explicit.
-    rows: Vec<u32>,
-    starts: Vec<u32>,
-    columns: Vec<u32>,
-    weights: Vec<f64>,
+    /// Cells with a wall in reach, ascending; the weights in their windows are explicit, 0 for cells that they do not see.
+    beside: Vec<u32>,
+    weights: Vec<[[f32; WINDOW]; WINDOW]>,
+}
+
+/// Columns for the intermediate values of a step.
+pub(super) struct Work {
+    /// The scaled density, with a border of zeros as wide as the reach.
+    scaled: Vec<f64>,
+    /// It spread along rows.
+    rows: Vec<f64>,
+}
+
+impl Work {
+    pub(super) fn new([width, height]: [usize; 2]) -> Self {
+        Self {
+            scaled: vec![0.0; (width + 2 * REACH) * (height + 2 * REACH)],
+            rows: vec![0.0; width * height],
+        }
+    }
 }
 
 impl StepKernel {
@@ -39,15 +58,13 @@ impl StepKernel {
             size: cells.size,
             taps,
             scale: vec![1.0; cells.count()],
-            rows: Vec::new(),
-            starts: vec![0],
-            columns: Vec::new(),
+            beside: Vec::new(),
             weights: Vec::new(),
         };
         if let Some(walls) = walls {
-            kernel.add_rows(cells, walls);
+            kernel.add_windows(cells, walls);
         }
-        let mut work = [vec![0.0; cells.count()], vec![0.0; cells.count()]];
+        let mut work = Work::new(cells.size);
         let mut product = vec![0.0; cells.count()];
         for _ in 0..SCALINGS {
             // K d with the scale inside: the rows of D K D are d (K d).
@@ -58,82 +75,109 @@ impl StepKernel {
         kernel
     }
 
-    fn window(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<'_> {
+    /// The cells of the grid in the window of a cell, each with its row and column there.
+    fn window(&self, cell: usize) -> impl Iterator<Item = (usize, [usize; 2])> + use<'_> {
         let [width, height] = self.size;
         let (column, row) = (cell % width, cell / width);
         let columns = column.saturating_sub(REACH)..(column + REACH + 1).min(width);
         let rows = row.saturating_sub(REACH)..(row + REACH + 1).min(height);
-        rows.flat_map(move |y| {
-            let along_y = self.taps[y.abs_diff(row)];
-            columns.clone().map(move |x| (y * width + x, along_y * self.taps[x.abs_diff(column)]))
-        })
+        let place = move |x: usize, y: usize| (y * width + x, [y + REACH - row, x + REACH - column]);
+        rows.flat_map(move |y| columns.clone().map(move |x| place(x, y)))
     }
 
-    /// Explicit rows for the cells that do not see all others within reach.
-    fn add_rows(&mut self, cells: &Cells, walls: &WallCells) {
+    /// Explicit weights for the cells that do not see all others within reach.
+    fn add_windows(&mut self, cells: &Cells, walls: &WallCells) {
         let seen = |cell: usize| {
             // A wall within reach of a cell is near some cell of its window.
             if !self.window(cell).any(|(other, _)| walls.near(other)) {
                 return None;
             }
             let centre = cells.centre(cell);
-            let row: Vec<(u32, f64)> = self
-                .window(cell)
-                .filter(|&(other, _)| other == cell || !walls.blocks(centre, cells.centre(other)))
-                .map(|(other, weight)| (other as u32, weight))
-                .collect();
-            Some((cell as u32, row))
+            let mut weights = [[0.0; WINDOW]; WINDOW];
+            for (other, [row, column]) in self.window(cell) {
+                if other == cell || !walls.blocks(centre, cells.centre(other)) {
+                    let [along_y, along_x] = [row, column].map(|place| self.taps[place.abs_diff(REACH)]);
+                    weights[row][column] = (along_y * along_x) as f32;
+                }
+            }
+            Some((cell as u32, weights))
         };
-        let rows: Vec<_> = (0..cells.count()).into_par_iter().filter_map(seen).collect();
-        for (cell, row) in rows {
-            self.rows.push(cell);
-            self.columns.extend(row.iter().map(|(other, _)| other));
-            self.weights.extend(row.iter().map(|(_, weight)| weight));
-            self.starts.push(self.columns.len() as u32);
+        (self.beside, self.weights) = (0..cells.count()).into_par_iter().filter_map(seen).unzip();
+    }
+
+    /// `out` = K `density`.
+    pub(super) fn spread(&self, density: &[f64], work: &mut Work, out: &mut [f64]) {
+        let [width, height] = self.size;
+        let stride = width + 2 * REACH;
+        let rows_per_task = PER_TASK.div_ceil(width);
+        let Work { scaled, rows } = work;
+        let inner = scaled[REACH * stride..][..height * stride].par_chunks_mut(rows_per_task * stride);
+        let tasks = inner.zip(rows.par_chunks_mut(rows_per_task * width)).enumerate();
+        tasks.for_each_task(|(task, (scaled, rows))| {
+            let rows = scaled.chunks_exact_mut(stride).zip(rows.chunks_exact_mut(width));
+            for (y, (scaled, row)) in (task * rows_per_task..).zip(rows) {
+                let values = density[y * width..].iter().zip(&self.scale[y * width..]);
+                let own = scaled[REACH..REACH + width].iter_mut();
+                own.zip(values).for_each(|(out, (value, scale))| *out = value * scale);
+                self.along_row(scaled, row);
+            }
+        });
+        let (scaled, rows) = (&*scaled, &*rows);
+        out.par_chunks_mut(rows_per_task * width).enumerate().for_each_task(|(task, out)| {
+            for (y, out) in (task * rows_per_task..).zip(out.chunks_exact_mut(width)) {
+                self.along_columns(y, rows, out);
+                let [first, last] =
+                    [y, y + 1].map(|y| self.beside.partition_point(|&cell| (cell as usize) < y * width));
+                for (&cell, weights) in self.beside[first..last].iter().zip(&self.weights[first..last]) {
+                    let x = cell as usize - y * width;
+                    out[x] = in_window(weights, &scaled[y * stride + x..], stride);
+                }
+                out.iter_mut().zip(&self.scale[y * width..]).for_each(|(out, scale)| *out *= scale);
+            }
+        });
+    }
+
+    /// Spreads a row, which has a border on either side, along itself.
+    fn along_row(&self, bordered: &[f64], out: &mut [f64]) {
+        for (out, window) in out.iter_mut().zip(bordered.array_windows::<WINDOW>()) {
+            let beside = (1..=REACH).map(|k| self.taps[k] * (window[REACH - k] + window[REACH + k]));
+            *out = self.taps[0] * window[REACH] + beside.sum::<f64>();
         }
     }
 
-    /// `out` = K `density`; `work` are two more columns.
-    pub(super) fn spread(&self, density: &[f64], work: &mut [Vec<f64>; 2], out: &mut [f64]) {
+    /// Row `y` of `rows` spread along columns.
+    fn along_columns(&self, y: usize, rows: &[f64], out: &mut [f64]) {
         let [width, height] = self.size;
-        let [scaled, rows] = work;
-        let per_task = PER_TASK.div_ceil(width);
-        let scaled_row = |y: usize, scaled: &mut [f64]| {
-            let values = density[y * width..].iter().zip(&self.scale[y * width..]);
-            scaled.iter_mut().zip(values).for_each(|(out, (value, scale))| *out = value * scale);
-        };
-        scaled
-            .par_chunks_mut(width)
-            .zip(rows.par_chunks_mut(width))
-            .enumerate()
-            .with_min_len(per_task)
-            .for_each(|(y, (scaled, row))| {
-                scaled_row(y, scaled);
-                row.iter_mut().zip(&*scaled).for_each(|(out, value)| *out = self.taps[0] * value);
-                for k in 1..=REACH.min(width - 1) {
-                    let tap = self.taps[k];
-                    row[k..].iter_mut().zip(&*scaled).for_each(|(out, value)| *out += tap * value);
-                    row.iter_mut().zip(&scaled[k..]).for_each(|(out, value)| *out += tap * value);
-                }
-            });
-        let (scaled, rows) = (&*scaled, &*rows);
-        out.par_chunks_mut(width).enumerate().with_min_len(per_task).for_each(|(y, out)| {
-            let first = self.rows.partition_point(|&cell| (cell as usize) < y * width);
-            out.fill(0.0);
-            for from in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {
-                let tap = self.taps[y.abs_diff(from)];
-                out.iter_mut().zip(&rows[from * width..]).for_each(|(out, value)| *out += tap * value);
+        let from = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
+        let (blocks, rest) = out.as_chunks_mut::<BLOCK>();
+        let begin = blocks.len() * BLOCK;
+        for (block, out) in blocks.iter_mut().enumerate() {
+            let mut sums = [0.0; BLOCK];
+            for row in from.clone() {
+                let tap = self.taps[y.abs_diff(row)];
+                let Some(values) = rows[row * width + block * BLOCK..].first_chunk::<BLOCK>() else { break };
+                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += tap * value);
             }
-            for (i, &cell) in self.rows[first..].iter().enumerate().map(|(i, cell)| (first + i, cell)) {
-                let Some(x) = (cell as usize).checked_sub(y * width).filter(|x| *x < width) else { break };
-                let entries = self.starts[i] as usize..self.starts[i + 1] as usize;
-                let columns = &self.columns[entries.clone()];
-                out[x] =
-                    columns.iter().zip(&self.weights[entries]).map(|(&j, w)| w * scaled[j as usize]).sum();
-            }
-            out.iter_mut().zip(&self.scale[y * width..]).for_each(|(out, scale)| *out *= scale);
-        });
+            *out = sums;
+        }
+        for (x, out) in rest.iter_mut().enumerate() {
+            *out = from.clone().map(|row| self.taps[y.abs_diff(row)] * rows[row * width + begin + x]).sum();
+        }
     }
+}
+
+/// The sum over a window that begins at the first of `values`, of rows of `stride`.
+fn in_window(weights: &[[f32; WINDOW]; WINDOW], values: &[f64], stride: usize) -> f64 {
+    // Lanes of their own for all columns but the last one.
+    let (mut lanes, mut last) = ([0.0; WINDOW - 1], 0.0);
+    for (row, weights) in weights.iter().enumerate() {
+        let Some(values) = values[row * stride..].first_chunk::<WINDOW>() else { break };
+        for i in 0..lanes.len() {
+            lanes[i] += f64::from(weights[i]) * values[i];
+        }
+        last += f64::from(weights[WINDOW - 1]) * values[WINDOW - 1];
+    }
+    lanes.iter().sum::<f64>() + last
 }
 
 /// The kernel over all steps with the factors that keep every cell below its cap.
@@ -148,7 +192,7 @@ pub(super) struct WallKernel {
     /// Factors at the begin of each step, at most 1, and the densities from both sides there.
     factors: Vec<Vec<f64>>,
     from: [Vec<Vec<f64>>; 2],
-    work: [Vec<f64>; 2],
+    work: Work,
     current: Vec<f64>,
     /// Whether both sides have spread, so that the light between them is known.
     known: [bool; 2],
@@ -165,6 +209,7 @@ impl WallKernel {
         cap: Vec<f64>,
     ) -> Self {
         let (steps, count) = (of_step.len(), cap.len());
+        let size = kernels.first().map_or([0; 2], |kernel| kernel.size);
         let columns = |value: f64| vec![vec![value; count]; steps + 1];
         let factors = (0..=steps).map(|k| soft[of_step[k.min(steps - 1)]].clone()).collect();
         Self {
@@ -174,7 +219,7 @@ impl WallKernel {
             soft,
             factors,
             from: [columns(1.0), columns(1.0)],
-            work: [vec![0.0; count], vec![0.0; count]],
+            work: Work::new(size),
             current: vec![0.0; count],
             known: [false; 2],
             ends: [vec![0.0; count], vec![0.0; count]],

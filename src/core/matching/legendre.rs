@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::lattice::Lattice;
 use super::poisson::transpose;
+use crate::math::tasks::Tasks as _;
 
 /// Rows per parallel task.
 const ROWS: usize = 16;
@@ -25,7 +26,7 @@ pub(super) fn c_transform(lattice: &Lattice, potential: &[f64]) -> Vec<f64> {
 
 /// `out[i] = min_j (i - j)^2 / 2 + f[j]` in every row of `width`.
 fn envelopes(f: &[f64], out: &mut [f64], width: usize) {
-    f.par_chunks(width * ROWS).zip(out.par_chunks_mut(width * ROWS)).for_each(|(f, out)| {
+    f.par_chunks(width * ROWS).zip(out.par_chunks_mut(width * ROWS)).for_each_task(|(f, out)| {
         let mut hull = Vec::with_capacity(width);
         for (f, out) in f.chunks_exact(width).zip(out.chunks_exact_mut(width)) {
             envelope(f, out, &mut hull);

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use rustdct::{DctPlanner, TransformType2And3};
 
 use super::lattice::Lattice;
+use crate::math::tasks::Tasks as _;
 
 /// Rows per parallel task.
 const ROWS: usize = 16;
@@ -70,7 +71,7 @@ impl Poisson {
     ) {
         let transform = &*self.transforms[direction];
         let width = self.size[direction];
-        values.par_chunks_mut(width * ROWS).for_each(|rows| {
+        values.par_chunks_mut(width * ROWS).for_each_task(|rows| {
             let mut scratch = vec![0.0; transform.get_scratch_len()];
             rows.chunks_exact_mut(width).for_each(|row| process(transform, row, &mut scratch));
         });
@@ -81,7 +82,7 @@ impl Poisson {
 pub(super) fn transpose(values: &[f64], width: usize) -> Vec<f64> {
     let height = values.len() / width;
     let mut transposed = vec![0.0; values.len()];
-    transposed.par_chunks_mut(height * ROWS).enumerate().for_each(|(block, columns)| {
+    transposed.par_chunks_mut(height * ROWS).enumerate().for_each_task(|(block, columns)| {
         for row in 0..height {
             let line = &values[row * width..(row + 1) * width];
             for (column, out) in columns.chunks_exact_mut(height).enumerate() {

@@ -25,5 +25,6 @@ mod sparse_cholesky;
 pub mod stencil;
 mod stiff_nodes;
 pub mod sum;
+pub mod tasks;
 pub mod transfer;
 pub mod vector;

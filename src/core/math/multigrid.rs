@@ -13,6 +13,7 @@ use super::normal_blocks::{NormalBlocks, Weights};
 use super::null_space::NullSpace;
 use super::operator::Operator;
 use super::stiff_nodes::stiff_nodes;
+use super::tasks::Tasks as _;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
 
@@ -202,7 +203,7 @@ impl Level {
         let parts = self.residual.rows_mut().par_chunks_mut(len * rows);
         let parts = parts.zip(new.rows_mut().par_chunks_mut(len * rows));
         let parts = parts.zip(self.solution.rows_mut().par_chunks_mut(len * rows)).enumerate();
-        parts.for_each(|(task, ((residual, new), solution))| {
+        parts.for_each_task(|(task, ((residual, new), solution))| {
             let parts = residual.chunks_exact_mut(len).zip(new.chunks_exact_mut(len));
             let parts = parts.zip(solution.chunks_exact_mut(len)).enumerate();
             for (i, ((residual, new), solution)) in parts {

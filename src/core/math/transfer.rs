@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::bspline::{EXTRA, REFINE};
 use super::real::Real;
+use super::tasks::Tasks as _;
 use super::vector::{GridVector, HALO, Layout};
 
 /// Nodes of an axis after its cells are merged in pairs; an odd number reaches half a coarse cell beyond the end.
@@ -88,7 +89,7 @@ impl<T: Real> Transfer<T> {
 fn for_lines<T: Real>(vector: &mut GridVector<T>, work: impl Fn(usize, &mut [T]) + Sync) {
     let Layout { stride, width, .. } = vector.layout;
     let lines = vector.layout.rows_per_task();
-    vector.rows_mut().par_chunks_mut(lines * stride).enumerate().for_each(|(task, part)| {
+    vector.rows_mut().par_chunks_mut(lines * stride).enumerate().for_each_task(|(task, part)| {
         for (i, line) in part.chunks_exact_mut(stride).enumerate() {
             work(task * lines + i, &mut line[HALO..HALO + width]);
         }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::real::Real;
+use super::tasks::Tasks as _;
 
 /// Zeros on every side: how far a cubic spline reaches.
 pub const HALO: usize = 3;
@@ -96,24 +97,24 @@ impl<T: Real> GridVector<T> {
     /// The scalar product, summed in an order that does not depend on the threads.
     pub fn dot(&self, other: &Self) -> f64 {
         let len = self.task_len();
-        let sums: Vec<f64> = (self.rows().par_chunks(len).zip(other.rows().par_chunks(len)))
-            .map(|(a, b)| {
-                let mut lanes = [0.0f64; 8];
-                for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
-                    for i in 0..8 {
-                        lanes[i] = a[i].to_f64().mul_add(b[i].to_f64(), lanes[i]);
-                    }
+        let mut sums = vec![0.0; self.rows().len().div_ceil(len)];
+        let tasks = self.rows().par_chunks(len).zip(other.rows().par_chunks(len));
+        sums.par_iter_mut().zip(tasks).for_each_task(|(sum, (a, b))| {
+            let mut lanes = [0.0f64; 8];
+            for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
+                for i in 0..8 {
+                    lanes[i] = a[i].to_f64().mul_add(b[i].to_f64(), lanes[i]);
                 }
-                lanes.iter().sum()
-            })
-            .collect();
+            }
+            *sum = lanes.iter().sum();
+        });
         sums.iter().sum()
     }
 
     /// self = `scale` self + `factor` other.
     pub fn combine(&mut self, scale: T, factor: T, other: &Self) {
         let len = self.task_len();
-        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each(|(a, b)| {
+        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each_task(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a = factor.fused(*b, scale * *a);
             }
@@ -131,7 +132,7 @@ impl<T: Real> GridVector<T> {
     /// self = `factor` other, in this vector's type.
     pub fn convert<U: Real>(&mut self, factor: f64, other: &GridVector<U>) {
         let len = self.task_len();
-        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each(|(a, b)| {
+        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each_task(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a = T::from_f64(factor * b.to_f64());
             }
