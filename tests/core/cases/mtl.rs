@@ -70,6 +70,8 @@ fn materials_are_what_their_lines_mean() {
         }
         assert!(words.iter().all(|word| notes.contains(word)), "{name}: {notes}");
         assert!(!notes.contains("d counts") || words.contains(&"d counts"), "{name}: {notes}");
+        // What says that it is glass is no guess to be told of.
+        assert!(!(text.contains("absorption") && notes.contains("taken as glass")), "{name}: {notes}");
     }
 }
 
