@@ -402,13 +402,17 @@ impl CommonArgs {
         Ok(Project { seed: self.seed.unwrap_or(project.seed), ..project })
     }
 
-    /// Sets the number of threads for the whole process; it is set once.
+    /// Starts the threads of the whole process, of which this one is the first; done once. From a thread outside, each parallel loop
+    /// would be handed over and waited for, which takes some 50 us: more than many loops of solvers and plans.
     pub(crate) fn set_threads(&self) -> Result<()> {
-        let Some(threads) = self.threads else { return Ok(()) };
-        if !(1..=1024).contains(&threads) {
-            return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
+        let mut pool = rayon::ThreadPoolBuilder::new().use_current_thread();
+        if let Some(threads) = self.threads {
+            if !(1..=1024).contains(&threads) {
+                return Err(Error::value("--threads", format!("{threads} is out of range; give 1 to 1024")));
+            }
+            pool = pool.num_threads(threads);
         }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|error| {
+        pool.build_global().map_err(|error| {
             let refused =
                 std::error::Error::source(&error).and_then(|source| source.downcast_ref::<io::Error>());
             let kind = refused.map_or(io::ErrorKind::Other, io::Error::kind);

@@ -32,7 +32,7 @@ impl MeetingFilm {
     /// A fit that fails; photons that cannot be paired; cancelled.
     pub(crate) fn new(
         segment: &MeetingSegment,
-        refine: impl FnOnce(BridgeSettings) -> BridgeSettings,
+        refine: impl FnOnce(BridgeSettings) -> BridgeSettings + Send,
         progress: &Progress,
     ) -> Result<Self> {
         let MeetingFit { fields, fits, plan } = fit_meeting_with(segment, refine, progress)?;

@@ -2,10 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::math::tasks::Tasks as _;
+use crate::math::tasks::rows_per_task;
 
-/// Rows per parallel task.
-const ROWS: usize = 8;
 /// Kernel values below this are zero: their products would be denormal.
 const LEAST: f64 = 1e-290;
 
@@ -33,23 +31,23 @@ impl Gaussian {
 
     /// `out` = K `density`.
     pub(super) fn spread(&mut self, density: &[f64], out: &mut [f64]) {
-        let [width, _] = self.size;
+        let [width, height] = self.size;
         let Self { along_x, along_y, rows, .. } = self;
-        let chunk = ROWS * width;
-        rows.par_chunks_mut(chunk).zip(density.par_chunks(chunk)).for_each_task(|(rows, density)| {
+        let chunk = width * rows_per_task(width, width);
+        rows.par_chunks_mut(chunk).zip(density.par_chunks(chunk)).for_each(|(rows, density)| {
             for (out, row) in rows.chunks_exact_mut(width).zip(density.chunks_exact(width)) {
                 out.fill(0.0);
                 add_row(out, row, along_x);
             }
         });
         let rows = &*rows;
-        let lit: Vec<usize> = (0..self.size[1])
+        let lit: Vec<usize> = (0..height)
             .filter(|&y| density[y * width..(y + 1) * width].iter().any(|value| *value != 0.0))
             .collect();
-        out.par_chunks_mut(chunk).enumerate().for_each_task(|(task, out)| {
-            for (i, out) in out.chunks_exact_mut(width).enumerate() {
+        let per_task = rows_per_task(width, height);
+        out.par_chunks_mut(per_task * width).enumerate().for_each(|(task, out)| {
+            for (y, out) in (task * per_task..).zip(out.chunks_exact_mut(width)) {
                 out.fill(0.0);
-                let y = task * ROWS + i;
                 let row = |from: usize| &rows[from * width..][..width];
                 let weight = |from: usize| along_y[y.abs_diff(from)];
                 let groups = lit.chunks_exact(4);

@@ -80,6 +80,7 @@ mod renewal;
 mod self_transport;
 mod settings;
 mod sight;
+mod step_kernel;
 mod velocities;
 mod wall_cells;
 mod wall_kernel;

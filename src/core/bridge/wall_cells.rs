@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::settings::WallsFrom;
+use super::sight::Sight;
 use crate::constraint::barrier::Barriers;
 
 /// Cells from a wall up to which sight is tested.
@@ -20,6 +21,7 @@ pub(super) struct WallCells<'a> {
     distances: Vec<f32>,
     /// Whether a cell sees the next one along x and along y.
     open: Vec<[bool; 2]>,
+    sight: Sight,
 }
 
 impl<'a> WallCells<'a> {
@@ -34,7 +36,7 @@ impl<'a> WallCells<'a> {
             [i % width + 1 < width && sees(i, i + 1), i / width + 1 < height && sees(i, i + width)]
         };
         let open = (0..cells.count()).into_par_iter().map(faces).collect();
-        Self { cells: cells.clone(), barriers, distances, open }
+        Self { cells: cells.clone(), barriers, distances, open, sight: Sight::new(cells, barriers) }
     }
 
     /// The walls.
@@ -65,7 +67,7 @@ impl<'a> WallCells<'a> {
     /// The cells around a point that it sees, with weights of sum 1; of sum 0 where it sees none.
     pub(super) fn around(&self, p: Vec2) -> [(usize, f32); 4] {
         let mut around = self.cells.around(p);
-        if !around.iter().any(|&(cell, _)| self.near(cell)) {
+        if self.sight.is_open(around[0].0) {
             return around;
         }
         for (cell, weight) in &mut around {

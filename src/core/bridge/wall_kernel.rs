@@ -3,182 +3,12 @@
 use std::ops::Range;
 
 use glam::Vec2;
-use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::wall_cells::WallCells;
-use crate::math::tasks::Tasks as _;
+use super::step_kernel::{Leaving, StepKernel};
 
-/// Reach of one step, in cells to each side, and the cells along a side of its window.
-const REACH: usize = 4;
-const WINDOW: usize = 2 * REACH + 1;
-/// Cells of a row that are summed up at once, in registers.
-const BLOCK: usize = 16;
-/// Iterations that scale the rows of a kernel to sum 1.
-const SCALINGS: usize = 20;
-/// Cells per parallel task: smaller grids are done before another thread has woken up.
-const PER_TASK: usize = 16_384;
 /// Densities below this count as none.
 const LEAST: f64 = 1e-290;
-
-/// One short step: a Gaussian over the cells that see each other, scaled so that rows and columns sum to 1, which makes
-/// walls and borders reflect.
-pub(super) struct StepKernel {
-    size: [usize; 2],
-    /// Gaussian by distance along an axis, in cells.
-    taps: [f64; REACH + 1],
-    scale: Vec<f64>,
-    /// Cells with a wall in reach, ascending; the weights in their windows are explicit, 0 for cells that they do not see.
-    beside: Vec<u32>,
-    weights: Vec<[[f32; WINDOW]; WINDOW]>,
-}
-
-/// Columns for the intermediate values of a step.
-pub(super) struct Work {
-    /// The scaled density, with a border of zeros as wide as the reach.
-    scaled: Vec<f64>,
-    /// It spread along rows.
-    rows: Vec<f64>,
-}
-
-impl Work {
-    pub(super) fn new([width, height]: [usize; 2]) -> Self {
-        Self {
-            scaled: vec![0.0; (width + 2 * REACH) * (height + 2 * REACH)],
-            rows: vec![0.0; width * height],
-        }
-    }
-}
-
-impl StepKernel {
-    /// The step of variance `variance`, squared cells along each axis; without walls where `walls` is none.
-    pub(super) fn new(cells: &Cells, walls: Option<&WallCells>, variance: f64) -> Self {
-        let taps = std::array::from_fn(|i| (-(i as f64).powi(2) / (2.0 * variance)).exp());
-        let mut kernel = Self {
-            size: cells.size,
-            taps,
-            scale: vec![1.0; cells.count()],
-            beside: Vec::new(),
-            weights: Vec::new(),
-        };
-        if let Some(walls) = walls {
-            kernel.add_windows(cells, walls);
-        }
-        let mut work = Work::new(cells.size);
-        let mut product = vec![0.0; cells.count()];
-        for _ in 0..SCALINGS {
-            // K d with the scale inside: the rows of D K D are d (K d).
-            let scale = std::mem::replace(&mut kernel.scale, vec![1.0; cells.count()]);
-            kernel.spread(&scale, &mut work, &mut product);
-            kernel.scale = scale.iter().zip(&product).map(|(d, sum)| (d / sum).sqrt()).collect();
-        }
-        kernel
-    }
-
-    /// The cells of the grid in the window of a cell, each with its row and column there.
-    fn window(&self, cell: usize) -> impl Iterator<Item = (usize, [usize; 2])> + use<'_> {
-        let [width, height] = self.size;
-        let (column, row) = (cell % width, cell / width);
-        let columns = column.saturating_sub(REACH)..(column + REACH + 1).min(width);
-        let rows = row.saturating_sub(REACH)..(row + REACH + 1).min(height);
-        let place = move |x: usize, y: usize| (y * width + x, [y + REACH - row, x + REACH - column]);
-        rows.flat_map(move |y| columns.clone().map(move |x| place(x, y)))
-    }
-
-    /// Explicit weights for the cells that do not see all others within reach.
-    fn add_windows(&mut self, cells: &Cells, walls: &WallCells) {
-        let seen = |cell: usize| {
-            // A wall within reach of a cell is near some cell of its window.
-            if !self.window(cell).any(|(other, _)| walls.near(other)) {
-                return None;
-            }
-            let centre = cells.centre(cell);
-            let mut weights = [[0.0; WINDOW]; WINDOW];
-            for (other, [row, column]) in self.window(cell) {
-                if other == cell || !walls.blocks(centre, cells.centre(other)) {
-                    let [along_y, along_x] = [row, column].map(|place| self.taps[place.abs_diff(REACH)]);
-                    weights[row][column] = (along_y * along_x) as f32;
-                }
-            }
-            Some((cell as u32, weights))
-        };
-        (self.beside, self.weights) = (0..cells.count()).into_par_iter().filter_map(seen).unzip();
-    }
-
-    /// `out` = K `density`.
-    pub(super) fn spread(&self, density: &[f64], work: &mut Work, out: &mut [f64]) {
-        let [width, height] = self.size;
-        let stride = width + 2 * REACH;
-        let rows_per_task = PER_TASK.div_ceil(width);
-        let Work { scaled, rows } = work;
-        let inner = scaled[REACH * stride..][..height * stride].par_chunks_mut(rows_per_task * stride);
-        let tasks = inner.zip(rows.par_chunks_mut(rows_per_task * width)).enumerate();
-        tasks.for_each_task(|(task, (scaled, rows))| {
-            let rows = scaled.chunks_exact_mut(stride).zip(rows.chunks_exact_mut(width));
-            for (y, (scaled, row)) in (task * rows_per_task..).zip(rows) {
-                let values = density[y * width..].iter().zip(&self.scale[y * width..]);
-                let own = scaled[REACH..REACH + width].iter_mut();
-                own.zip(values).for_each(|(out, (value, scale))| *out = value * scale);
-                self.along_row(scaled, row);
-            }
-        });
-        let (scaled, rows) = (&*scaled, &*rows);
-        out.par_chunks_mut(rows_per_task * width).enumerate().for_each_task(|(task, out)| {
-            for (y, out) in (task * rows_per_task..).zip(out.chunks_exact_mut(width)) {
-                self.along_columns(y, rows, out);
-                let [first, last] =
-                    [y, y + 1].map(|y| self.beside.partition_point(|&cell| (cell as usize) < y * width));
-                for (&cell, weights) in self.beside[first..last].iter().zip(&self.weights[first..last]) {
-                    let x = cell as usize - y * width;
-                    out[x] = in_window(weights, &scaled[y * stride + x..], stride);
-                }
-                out.iter_mut().zip(&self.scale[y * width..]).for_each(|(out, scale)| *out *= scale);
-            }
-        });
-    }
-
-    /// Spreads a row, which has a border on either side, along itself.
-    fn along_row(&self, bordered: &[f64], out: &mut [f64]) {
-        for (out, window) in out.iter_mut().zip(bordered.array_windows::<WINDOW>()) {
-            let beside = (1..=REACH).map(|k| self.taps[k] * (window[REACH - k] + window[REACH + k]));
-            *out = self.taps[0] * window[REACH] + beside.sum::<f64>();
-        }
-    }
-
-    /// Row `y` of `rows` spread along columns.
-    fn along_columns(&self, y: usize, rows: &[f64], out: &mut [f64]) {
-        let [width, height] = self.size;
-        let from = y.saturating_sub(REACH)..(y + REACH + 1).min(height);
-        let (blocks, rest) = out.as_chunks_mut::<BLOCK>();
-        let begin = blocks.len() * BLOCK;
-        for (block, out) in blocks.iter_mut().enumerate() {
-            let mut sums = [0.0; BLOCK];
-            for row in from.clone() {
-                let tap = self.taps[y.abs_diff(row)];
-                let Some(values) = rows[row * width + block * BLOCK..].first_chunk::<BLOCK>() else { break };
-                sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += tap * value);
-            }
-            *out = sums;
-        }
-        for (x, out) in rest.iter_mut().enumerate() {
-            *out = from.clone().map(|row| self.taps[y.abs_diff(row)] * rows[row * width + begin + x]).sum();
-        }
-    }
-}
-
-/// The sum over a window that begins at the first of `values`, of rows of `stride`.
-fn in_window(weights: &[[f32; WINDOW]; WINDOW], values: &[f64], stride: usize) -> f64 {
-    // Lanes of their own for all columns but the last one.
-    let (mut lanes, mut last) = ([0.0; WINDOW - 1], 0.0);
-    for (row, weights) in weights.iter().enumerate() {
-        let Some(values) = values[row * stride..].first_chunk::<WINDOW>() else { break };
-        for i in 0..lanes.len() {
-            lanes[i] += f64::from(weights[i]) * values[i];
-        }
-        last += f64::from(weights[WINDOW - 1]) * values[WINDOW - 1];
-    }
-    lanes.iter().sum::<f64>() + last
-}
 
 /// The kernel over all steps with the factors that keep every cell below its cap.
 pub(super) struct WallKernel {
@@ -189,11 +19,10 @@ pub(super) struct WallKernel {
     cap: Vec<f64>,
     /// The share of light that is let stay beside walls in one step, by kernel and cell.
     soft: Vec<Vec<f64>>,
-    /// Factors at the begin of each step, at most 1, and the densities from both sides there.
-    factors: Vec<Vec<f64>>,
+    /// The densities from both sides at the begin of each step.
     from: [Vec<Vec<f64>>; 2],
-    work: Work,
-    current: Vec<f64>,
+    /// Those on their way through a step and the next one.
+    leaving: [Leaving; 2],
     /// Whether both sides have spread, so that the light between them is known.
     known: [bool; 2],
     /// The factors of both ends.
@@ -209,18 +38,15 @@ impl WallKernel {
         cap: Vec<f64>,
     ) -> Self {
         let (steps, count) = (of_step.len(), cap.len());
-        let size = kernels.first().map_or([0; 2], |kernel| kernel.size);
-        let columns = |value: f64| vec![vec![value; count]; steps + 1];
-        let factors = (0..=steps).map(|k| soft[of_step[k.min(steps - 1)]].clone()).collect();
+        let size = kernels.first().map_or([0; 2], StepKernel::size);
+        let columns = || vec![vec![1.0; count]; steps + 1];
         Self {
             kernels,
             of_step,
             cap,
             soft,
-            factors,
-            from: [columns(1.0), columns(1.0)],
-            work: Work::new(size),
-            current: vec![0.0; count],
+            from: [columns(), columns()],
+            leaving: [Leaving::none(size), Leaving::none(size)],
             known: [false; 2],
             ends: [vec![0.0; count], vec![0.0; count]],
             range: 0..steps,
@@ -235,28 +61,30 @@ impl WallKernel {
     /// `out` = the density of `side` (0: from the begin on, 1: from the end back) at the other end.
     pub(super) fn spread(&mut self, side: usize, density: &[f64], out: &mut [f64]) {
         let Range { start, end } = self.range;
-        self.current.copy_from_slice(density);
         self.known[side] = true;
         self.ends[side].copy_from_slice(density);
-        let capped = self.known == [true; 2];
-        for k in 0..end - start {
-            let (step, to) = if side == 0 { (start + k, start + k + 1) } else { (end - 1 - k, end - 1 - k) };
-            let kernel = &self.kernels[self.of_step[step]];
-            kernel.spread(&self.current, &mut self.work, &mut self.from[side][to]);
-            if to == start || to == end {
-                break;
+        let (first, last) = if side == 0 { (start, end) } else { (end, start) };
+        let [now, next] = &mut self.leaving;
+        let kernel_from =
+            |place: usize| &self.kernels[self.of_step[if side == 0 { place } else { place - 1 }]];
+        kernel_from(first).leave(density, now);
+        let (a, b) = self.from.split_at_mut(1);
+        let (own, other) = if side == 0 { (&mut a[0], &b[0]) } else { (&mut b[0], &a[0]) };
+        let cap = (self.known == [true; 2]).then_some(&*self.cap);
+        let mut place = first;
+        loop {
+            let kernel = kernel_from(place);
+            place = if side == 0 { place + 1 } else { place - 1 };
+            if place == last {
+                kernel.arrive(now, out);
+                own[last].copy_from_slice(out);
+                return;
             }
-            let [a, b] = &self.from;
-            let soft = &self.soft[self.of_step[to]];
-            let columns = self.current.iter_mut().zip(&mut self.factors[to]).zip(&self.cap);
-            for (i, ((current, factor), cap)) in columns.enumerate() {
-                if capped {
-                    *factor = (cap / (a[to][i] * b[to][i]).max(LEAST)).min(soft[i]);
-                }
-                *current = *factor * self.from[side][to][i];
-            }
+            let (factors, other) = (Factors { cap, soft: &self.soft[self.of_step[place]] }, &other[place]);
+            let kept = |cell: usize, density: f64| density * factors.of(cell, density * other[cell]);
+            kernel.arrive_and_leave(now, &mut own[place], (kernel_from(place), kept), next);
+            std::mem::swap(now, next);
         }
-        out.copy_from_slice(&self.from[side][if side == 0 { end } else { start }]);
     }
 
     /// The factor of the later end that was spread last.
@@ -272,8 +100,9 @@ impl WallKernel {
     /// The light between the ends at the begin of step `k`, which is not the first: share of the light in each cell.
     pub(super) fn density(&self, k: usize) -> Vec<f64> {
         let [a, b] = &self.from;
-        let columns = a[k].iter().zip(&b[k]).zip(&self.factors[k]);
-        columns.map(|((a, b), factor)| a * b * factor).collect()
+        let factors = self.factors(k);
+        let light = |(cell, (a, b)): (usize, (&f64, &f64))| a * b * factors.of(cell, a * b);
+        a[k].iter().zip(&b[k]).enumerate().map(light).collect()
     }
 
     /// The velocity of the planned light in step `k` in each cell, plane units per step: half the mean move of the light that
@@ -300,15 +129,25 @@ impl WallKernel {
         if k == [self.range.start, self.range.end][side] {
             return self.ends[side].clone();
         }
-        self.from[side][k].iter().zip(&self.factors[k]).map(|(density, factor)| density * factor).collect()
+        let (factors, [own, other]) = (self.factors(k), [side, 1 - side].map(|side| &self.from[side][k]));
+        let kept = |(cell, (own, other)): (usize, (&f64, &f64))| own * factors.of(cell, own * other);
+        own.iter().zip(other).enumerate().map(kept).collect()
+    }
+
+    /// The factors at the begin of step `k`.
+    fn factors(&self, k: usize) -> Factors<'_> {
+        let cap = (self.known == [true; 2]).then_some(&*self.cap);
+        Factors { cap, soft: &self.soft[self.of_step[k.min(self.of_step.len() - 1)]] }
     }
 
     /// The mean move from each cell to where `light` is, as far as step `k` reaches.
     pub(super) fn moves_towards(&mut self, k: usize, light: &[f64], cells: &Cells) -> Vec<Vec2> {
         let kernel = &self.kernels[self.of_step[k]];
+        let [leaving, _] = &mut self.leaving;
         let mut spread = |values: &[f64]| {
             let mut out = vec![0.0; values.len()];
-            kernel.spread(values, &mut self.work, &mut out);
+            kernel.leave(values, leaving);
+            kernel.arrive(leaving, &mut out);
             out
         };
         let weighted = |axis: usize| -> Vec<f64> {
@@ -326,10 +165,33 @@ impl WallKernel {
 
     /// `out` = `density` after `times` steps with the walls of step `k`.
     pub(super) fn blur(&mut self, k: usize, times: usize, density: &[f64], out: &mut [f64]) {
-        out.copy_from_slice(density);
-        for _ in 0..times {
-            self.current.copy_from_slice(out);
-            self.kernels[self.of_step[k]].spread(&self.current, &mut self.work, out);
+        if times == 0 {
+            out.copy_from_slice(density);
+            return;
         }
+        let kernel = &self.kernels[self.of_step[k]];
+        let [now, next] = &mut self.leaving;
+        kernel.leave(density, now);
+        for _ in 1..times {
+            kernel.arrive_and_leave(now, out, (kernel, |_, density| density), next);
+            std::mem::swap(now, next);
+        }
+        kernel.arrive(now, out);
+    }
+}
+
+/// The factors of the light at one time, at most 1: what the cap and the softness of walls let stay.
+#[derive(Clone, Copy)]
+struct Factors<'a> {
+    /// The cap, once the light is known.
+    cap: Option<&'a [f64]>,
+    soft: &'a [f64],
+}
+
+impl Factors<'_> {
+    /// That of a cell in which the densities from both sides have this product.
+    fn of(self, cell: usize, product: f64) -> f64 {
+        let soft = self.soft[cell];
+        self.cap.map_or(soft, |cap| (cap[cell] / product.max(LEAST)).min(soft))
     }
 }

@@ -11,8 +11,9 @@ use super::gradient::{BLUR, floor, gather, gradients};
 use super::regions::Regions;
 use super::renewal::{Grid, Renewal};
 use super::settings::BridgeSettings;
+use super::step_kernel::StepKernel;
 use super::wall_cells::{StandingWalls, WallCells};
-use super::wall_kernel::{StepKernel, WallKernel};
+use super::wall_kernel::WallKernel;
 use crate::{Progress, Result};
 
 /// Sweeps of the factors at most, and the misplaced share of the light at which they end.

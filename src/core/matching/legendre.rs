@@ -4,10 +4,10 @@ use rayon::prelude::*;
 
 use super::lattice::Lattice;
 use super::poisson::transpose;
-use crate::math::tasks::Tasks as _;
+use crate::math::tasks::rows_per_task;
 
-/// Rows per parallel task.
-const ROWS: usize = 16;
+/// Operations for each value of an envelope.
+const OPERATIONS: usize = 20;
 
 /// phi^c(x) = min over cells y of |x - y|^2 / 2 - phi(y), at every cell x; cell units.
 ///
@@ -26,7 +26,8 @@ pub(super) fn c_transform(lattice: &Lattice, potential: &[f64]) -> Vec<f64> {
 
 /// `out[i] = min_j (i - j)^2 / 2 + f[j]` in every row of `width`.
 fn envelopes(f: &[f64], out: &mut [f64], width: usize) {
-    f.par_chunks(width * ROWS).zip(out.par_chunks_mut(width * ROWS)).for_each_task(|(f, out)| {
+    let part = width * rows_per_task(width, OPERATIONS);
+    f.par_chunks(part).zip(out.par_chunks_mut(part)).for_each(|(f, out)| {
         let mut hull = Vec::with_capacity(width);
         for (f, out) in f.chunks_exact(width).zip(out.chunks_exact_mut(width)) {
             envelope(f, out, &mut hull);

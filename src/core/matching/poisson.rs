@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use rustdct::{DctPlanner, TransformType2And3};
 
 use super::lattice::Lattice;
-use crate::math::tasks::Tasks as _;
+use crate::math::tasks::rows_per_task;
 
-/// Rows per parallel task.
-const ROWS: usize = 16;
+/// Operations for each value of a cosine transform, and of a transposition.
+const TRANSFORM: usize = 40;
+const TRANSPOSE: usize = 4;
 
 /// Solves -Laplace p = f with zero normal derivative on the border (five-point stencil, cell units).
 pub(super) struct Poisson {
@@ -71,7 +72,7 @@ impl Poisson {
     ) {
         let transform = &*self.transforms[direction];
         let width = self.size[direction];
-        values.par_chunks_mut(width * ROWS).for_each_task(|rows| {
+        values.par_chunks_mut(width * rows_per_task(width, TRANSFORM)).for_each(|rows| {
             let mut scratch = vec![0.0; transform.get_scratch_len()];
             rows.chunks_exact_mut(width).for_each(|row| process(transform, row, &mut scratch));
         });
@@ -82,11 +83,12 @@ impl Poisson {
 pub(super) fn transpose(values: &[f64], width: usize) -> Vec<f64> {
     let height = values.len() / width;
     let mut transposed = vec![0.0; values.len()];
-    transposed.par_chunks_mut(height * ROWS).enumerate().for_each_task(|(block, columns)| {
+    let per_task = rows_per_task(height, TRANSPOSE);
+    transposed.par_chunks_mut(height * per_task).enumerate().for_each(|(task, columns)| {
         for row in 0..height {
             let line = &values[row * width..(row + 1) * width];
             for (column, out) in columns.chunks_exact_mut(height).enumerate() {
-                out[row] = line[block * ROWS + column];
+                out[row] = line[task * per_task + column];
             }
         }
     });

@@ -13,7 +13,6 @@ use super::normal_blocks::{NormalBlocks, Weights};
 use super::null_space::NullSpace;
 use super::operator::Operator;
 use super::stiff_nodes::stiff_nodes;
-use super::tasks::Tasks as _;
 use super::transfer::{Transfer, coarse_nodes};
 use super::vector::{GridVector, Layout};
 
@@ -198,12 +197,12 @@ impl Level {
     fn step(&mut self, keep: f64, factor: f64) {
         let (operator, inverse) = (&self.operator, &self.operator.inverse_diagonal);
         let [old, new] = &mut self.steps;
-        let (len, rows) = (old.row_len(), operator.layout.rows_per_task());
+        let (len, rows) = (old.row_len(), operator.rows_per_task());
         let (old_rows, old, keep, factor) = (old.rows(), &*old, keep as f32, factor as f32);
         let parts = self.residual.rows_mut().par_chunks_mut(len * rows);
         let parts = parts.zip(new.rows_mut().par_chunks_mut(len * rows));
         let parts = parts.zip(self.solution.rows_mut().par_chunks_mut(len * rows)).enumerate();
-        parts.for_each_task(|(task, ((residual, new), solution))| {
+        parts.for_each(|(task, ((residual, new), solution))| {
             let parts = residual.chunks_exact_mut(len).zip(new.chunks_exact_mut(len));
             let parts = parts.zip(solution.chunks_exact_mut(len)).enumerate();
             for (i, ((residual, new), solution)) in parts {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::normal_blocks::{NormalBlocks, Weights};
 use super::real::Real;
 use super::stencil::{OFFSETS, Stencil, offset, offset_index};
-use super::tasks::Tasks as _;
+use super::tasks;
 use super::vector::{GridVector, HALO, Layout};
 
 /// A symmetric positive semidefinite matrix over a grid.
@@ -91,8 +91,8 @@ impl<T: Real> Operator<T> {
             }
         }
         let mut sums = GridVector::zero(layout, components);
-        let (len, rows) = (sums.row_len(), layout.rows_per_task());
-        sums.rows_mut().par_chunks_mut(len * rows).enumerate().for_each_task(|(task, part)| {
+        let (len, rows) = (sums.row_len(), self.rows_per_task());
+        sums.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
             for (i, sums) in part.chunks_exact_mut(len).enumerate() {
                 let row = task * rows + i;
                 self.subtract_row::<true>(row, &scale, sums);
@@ -105,10 +105,15 @@ impl<T: Real> Operator<T> {
         self.inverse_diagonal = sums;
     }
 
+    /// Rows in a parallel task of a product of this matrix and a vector: the stored half of each block is used twice.
+    pub fn rows_per_task(&self) -> usize {
+        tasks::rows_per_task(self.components * self.layout.stride, self.components * 2 * OFFSETS)
+    }
+
     /// `out` -= M `vector`, where M is this matrix.
     pub fn subtract_product(&self, vector: &GridVector<T>, out: &mut GridVector<T>) {
-        let (len, rows) = (out.row_len(), self.layout.rows_per_task());
-        out.rows_mut().par_chunks_mut(len * rows).enumerate().for_each_task(|(task, part)| {
+        let (len, rows) = (out.row_len(), self.rows_per_task());
+        out.rows_mut().par_chunks_mut(len * rows).enumerate().for_each(|(task, part)| {
             for (i, out) in part.chunks_exact_mut(len).enumerate() {
                 self.subtract_row::<false>(task * rows + i, vector, out);
             }

@@ -6,11 +6,14 @@ use rayon::prelude::*;
 
 use super::bspline::REFINE;
 use super::real::Real;
-use super::tasks::Tasks as _;
+use super::tasks::rows_per_task;
 use super::vector::{HALO, Layout};
 
 /// Stored offsets (dx, dy): dy = 0 with dx 0..=3, then dy 1..=3 with dx -3..=3.
 pub const OFFSETS: usize = 25;
+
+/// Operations for each entry of a matrix that is filled.
+const OPERATIONS: usize = 10;
 
 /// Index of a stored offset.
 #[inline(always)]
@@ -64,7 +67,7 @@ impl<T: Real> Stencil<T> {
 
     /// Sets all to zero.
     pub fn clear(&mut self) {
-        self.values.par_chunks_mut(1 << 16).for_each_task(|part| part.fill(T::default()));
+        self.values.par_chunks_mut(1 << 16).for_each(|part| part.fill(T::default()));
     }
 
     /// Entry of node (x, y) and its neighbour at (x + dx, y + dy), from the stored half; `sign` is -1 for an
@@ -82,9 +85,12 @@ impl<T: Real> Stencil<T> {
     /// Fills each row of each offset: `fill(row, dx, dy, entries)`, entries without halo.
     pub fn fill_rows(&mut self, fill: impl Fn(usize, isize, isize, &mut [T]) + Sync) {
         let (len, Layout { width, stride, .. }) = (self.row_len(), self.layout);
-        self.rows_mut().par_chunks_mut(len).enumerate().for_each_task(|(row, values)| {
-            for ((dx, dy), values) in offsets().zip(values.chunks_exact_mut(stride)) {
-                fill(row, dx, dy, &mut values[HALO..HALO + width]);
+        let rows = rows_per_task(len, OPERATIONS);
+        self.rows_mut().par_chunks_mut(rows * len).enumerate().for_each(|(task, part)| {
+            for (row, values) in (task * rows..).zip(part.chunks_exact_mut(len)) {
+                for ((dx, dy), values) in offsets().zip(values.chunks_exact_mut(stride)) {
+                    fill(row, dx, dy, &mut values[HALO..HALO + width]);
+                }
             }
         });
     }

@@ -4,8 +4,11 @@ use rayon::prelude::*;
 
 use super::bspline::{EXTRA, REFINE};
 use super::real::Real;
-use super::tasks::Tasks as _;
+use super::tasks::rows_per_task;
 use super::vector::{GridVector, HALO, Layout};
+
+/// Operations for each number that is restricted or prolonged.
+const OPERATIONS: usize = 8;
 
 /// Nodes of an axis after its cells are merged in pairs; an odd number reaches half a coarse cell beyond the end.
 pub fn coarse_nodes(nodes: usize) -> usize {
@@ -88,8 +91,8 @@ impl<T: Real> Transfer<T> {
 /// Runs over all lines (rows of one component, halo left out) of a vector.
 fn for_lines<T: Real>(vector: &mut GridVector<T>, work: impl Fn(usize, &mut [T]) + Sync) {
     let Layout { stride, width, .. } = vector.layout;
-    let lines = vector.layout.rows_per_task();
-    vector.rows_mut().par_chunks_mut(lines * stride).enumerate().for_each_task(|(task, part)| {
+    let lines = rows_per_task(stride, OPERATIONS);
+    vector.rows_mut().par_chunks_mut(lines * stride).enumerate().for_each(|(task, part)| {
         for (i, line) in part.chunks_exact_mut(stride).enumerate() {
             work(task * lines + i, &mut line[HALO..HALO + width]);
         }

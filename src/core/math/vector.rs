@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 
 use super::real::Real;
-use super::tasks::Tasks as _;
+use super::tasks::rows_per_task;
 
 /// Zeros on every side: how far a cubic spline reaches.
 pub const HALO: usize = 3;
+/// Operations for each number of a vector in a sum or product of vectors.
+const OPERATIONS: usize = 2;
 
 /// The nodes of a grid and the memory layout of a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,11 +26,6 @@ impl Layout {
     pub fn new(nodes: [usize; 2]) -> Self {
         let width = nodes[0].next_multiple_of(8);
         Self { nodes, width, stride: (width + 2 * HALO).next_multiple_of(8) }
-    }
-
-    /// Rows a parallel task takes. Fixed by the grid alone, so that sums do not depend on the number of threads.
-    pub fn rows_per_task(&self) -> usize {
-        (4096 / self.width).max(4)
     }
 }
 
@@ -91,7 +88,7 @@ impl<T: Real> GridVector<T> {
     }
 
     fn task_len(&self) -> usize {
-        self.row_len() * self.layout.rows_per_task()
+        self.row_len() * rows_per_task(self.row_len(), OPERATIONS)
     }
 
     /// The scalar product, summed in an order that does not depend on the threads.
@@ -99,7 +96,7 @@ impl<T: Real> GridVector<T> {
         let len = self.task_len();
         let mut sums = vec![0.0; self.rows().len().div_ceil(len)];
         let tasks = self.rows().par_chunks(len).zip(other.rows().par_chunks(len));
-        sums.par_iter_mut().zip(tasks).for_each_task(|(sum, (a, b))| {
+        sums.par_iter_mut().zip(tasks).for_each(|(sum, (a, b))| {
             let mut lanes = [0.0f64; 8];
             for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
                 for i in 0..8 {
@@ -114,7 +111,7 @@ impl<T: Real> GridVector<T> {
     /// self = `scale` self + `factor` other.
     pub fn combine(&mut self, scale: T, factor: T, other: &Self) {
         let len = self.task_len();
-        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each_task(|(a, b)| {
+        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a = factor.fused(*b, scale * *a);
             }
@@ -132,7 +129,7 @@ impl<T: Real> GridVector<T> {
     /// self = `factor` other, in this vector's type.
     pub fn convert<U: Real>(&mut self, factor: f64, other: &GridVector<U>) {
         let len = self.task_len();
-        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each_task(|(a, b)| {
+        self.rows_mut().par_chunks_mut(len).zip(other.rows().par_chunks(len)).for_each(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a = T::from_f64(factor * b.to_f64());
             }

@@ -296,7 +296,7 @@ impl LivePreview {
     /// its newest version.
     pub fn is_shown(&self) -> bool {
         let is_newest = |light: &Arc<Preview>| {
-            self.found.previews.iter().flatten().any(|newest| Arc::ptr_eq(newest, light))
+            self.found.previews.iter().flatten().any(|newest| newest.has_light_of(light, self.frame))
         };
         let shown = [self.pictures.painted().light, self.orbit.seen().light];
         let camera = !self.shows_shot || self.background.is_newest();

@@ -49,12 +49,27 @@ impl<T> PartialEq for Same<T> {
     }
 }
 
+/// The light of a preview at one frame: the same in all that are handed out while the preview grows.
+pub(super) struct FrameLight {
+    pub(super) preview: Option<Arc<Preview>>,
+    pub(super) frame: i32,
+}
+
+impl PartialEq for FrameLight {
+    fn eq(&self, other: &Self) -> bool {
+        self.frame == other.frame
+            && match (&self.preview, &other.preview) {
+                (Some(a), Some(b)) => a.has_light_of(b, self.frame),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+    }
+}
+
 /// The inputs of the pictures at one frame.
 #[derive(PartialEq)]
 pub(super) struct PictureKey {
-    pub(super) previews: [Same<Preview>; 2],
+    pub(super) lights: [FrameLight; 2],
     pub(super) shot: Same<Shot>,
-    pub(super) frame: i32,
     pub(super) shown: Vec<bool>,
     pub(super) view: ViewSettings,
     pub(super) paper: PlaneMaterial,

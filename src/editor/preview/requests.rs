@@ -8,7 +8,7 @@ use lightloom_core::render::PlaneMaterial;
 
 use super::orbit_worker::OrbitRequest;
 use super::picture_worker::{Moment, PictureRequest};
-use super::requested::{BackgroundKey, PictureKey, Requests, Same, Wanted};
+use super::requested::{BackgroundKey, FrameLight, PictureKey, Requests, Same, Wanted};
 use super::{LivePreview, Subject};
 use crate::editor::session::Session;
 
@@ -26,9 +26,9 @@ impl LivePreview {
         let other = self.other_preview();
         let shot = wanted.shot.and_then(|_| self.shot());
         let painting = PictureKey {
-            previews: [Same(preview.clone()), Same(other.clone())],
+            lights: [preview.clone(), other.clone()]
+                .map(|preview| FrameLight { preview, frame: session.playhead }),
             shot: Same(shot.clone()),
-            frame: session.playhead,
             shown: preview
                 .iter()
                 .flat_map(|s| (0..s.groups().len()).map(|g| session.shows_group(g)))

@@ -110,6 +110,9 @@ impl Lookup {
         if !step.is_finite() {
             return false;
         }
+        if self.is_free(p, step.abs().max_element()) {
+            return false;
+        }
         let Some((mut t, end)) = self.clip(p, step) else { return false };
         let per_cell = 1.0 / step.abs().max_element().max(f64::MIN_POSITIVE);
         loop {
@@ -153,6 +156,16 @@ impl Lookup {
         }
         let free = f64::from(self.free[y as usize * self.size[0] + x as usize]);
         free - 1.0 <= f64::from(reach) * self.scale
+    }
+
+    /// Whether no edge is within `reach` of `p` along either axis, in cells; false where that is not known.
+    #[inline]
+    fn is_free(&self, p: DVec2, reach: f64) -> bool {
+        let (x, y) = (p.x as usize, p.y as usize);
+        p.cmpge(DVec2::ZERO).all()
+            && x < self.size[0]
+            && y < self.size[1]
+            && f64::from(self.free[y * self.size[0] + x]) - 1.0 > reach
     }
 
     fn cells_from_plane(&self, p: Vec2) -> DVec2 {

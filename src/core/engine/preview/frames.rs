@@ -116,6 +116,16 @@ impl Preview {
         self.frames[self.slot(frame)].as_deref()
     }
 
+    /// Whether another preview has the same light at a frame, known or not, because both are of the same work.
+    pub fn has_light_of(&self, other: &Self, frame: i32) -> bool {
+        let [a, b] = [self, other].map(|preview| &preview.frames[preview.slot(frame)]);
+        let same_photons = match (a, b) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same_photons && Arc::ptr_eq(&self.keys, &other.keys)
+    }
+
     /// RGB flux of all photons at a frame, watts, into `out`, which grows or shrinks to fit.
     pub fn flux(&self, frame: i32, out: &mut Vec<Vec3>) {
         out.resize(self.photons(), Vec3::ZERO);

@@ -72,6 +72,15 @@ pub fn fit_meeting(segment: &MeetingSegment, progress: &Progress) -> Result<Meet
 /// As [`fit_meeting`].
 pub fn fit_meeting_with(
     segment: &MeetingSegment,
+    refine: impl FnOnce(BridgeSettings) -> BridgeSettings + Send,
+    progress: &Progress,
+) -> Result<MeetingFit> {
+    // Inside the thread pool the many small parallel loops need not wake it up each time.
+    rayon::scope(|_| fit_in_pool(segment, refine, progress))
+}
+
+fn fit_in_pool(
+    segment: &MeetingSegment,
     refine: impl FnOnce(BridgeSettings) -> BridgeSettings,
     progress: &Progress,
 ) -> Result<MeetingFit> {
