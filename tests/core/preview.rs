@@ -133,27 +133,32 @@ fn photons_start_at_the_physical_caustic_and_end_at_their_targets() {
 }
 
 #[test]
-fn the_segment_under_the_playhead_comes_first() {
-    let (project, engine) = example("loop");
-    let keys: Vec<i32> = project.keys.iter().map(|key| key.frame).collect();
-    let last = keys[keys.len() - 2]..keys[keys.len() - 1];
-    let playhead = (last.start + last.end) / 2;
-    let (mut alone, mut grew, mut before) = (None, true, 0);
-    let mut watch = |preview: &Arc<Preview>| {
-        let ready = |frames: std::ops::Range<i32>| frames.filter(|f| preview.is_ready(*f)).count();
-        // Nothing but the keys of the other segments was there when the frame came.
-        if preview.is_ready(playhead) && alone.is_none() {
-            alone = Some(ready(keys[0]..last.start) == keys.len() - 2);
-        }
-        let now = ready(keys[0]..last.end + 1);
-        grew &= now >= before;
-        before = now;
-    };
-    let progress = Progress::new();
-    let preview = engine.preview(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
-    assert_eq!(alone, Some(true));
-    assert!(grew);
-    assert_eq!(before, preview.frames().count());
+fn the_frame_under_the_playhead_comes_first_and_stays_the_same() {
+    for (name, playhead) in [("loop", None), ("bottles", Some(50))] {
+        let (mut project, engine) = example(name);
+        let keys: Vec<i32> = project.keys.iter().map(|key| key.frame).collect();
+        let playhead = playhead.unwrap_or((keys[keys.len() - 2] + keys[keys.len() - 1]) / 2);
+        let (mut first, mut grew, mut same, mut before) = (None::<Arc<Preview>>, true, true, 0);
+        let ready = |preview: &Preview| preview.frames().filter(|f| preview.is_ready(*f)).count();
+        let mut watch = |preview: &Arc<Preview>| {
+            match &first {
+                Some(first) => same &= preview.has_light_of(first, playhead),
+                None if preview.is_ready(playhead) => first = Some(preview.clone()),
+                None => (),
+            }
+            grew &= ready(preview) >= before;
+            before = ready(preview);
+        };
+        let progress = Progress::new();
+        let preview = engine.preview(&project, Quality::Draft, playhead, &progress, &mut watch).unwrap();
+        let first = first.unwrap();
+        assert_eq!(ready(&first), keys.len() + 1, "{name}: it and the keys");
+        assert!(grew && same && preview.has_light_of(&first, playhead), "{name}");
+        assert!(!preview.has_light_of(&first, playhead + 1), "{name}: known by now alone");
+        assert_eq!(before, preview.frames().count(), "{name}");
+        project.flow.gamma = 0.9;
+        assert!(!draft(&engine, &project).has_light_of(&preview, playhead), "{name}: of other work");
+    }
 }
 
 #[test]

@@ -19,7 +19,7 @@ use super::walk::{MapsFrom, Walk};
 use crate::constraint::{ActiveLine, ActiveWall};
 use crate::flow::meeting::meeting_report;
 use crate::flow::{
-    FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots,
+    FlowReport, FlowSettings, MotionMethod, PathTrajectories, Segment, SegmentFlow, Snapshots, Trajectories,
     fit_with_snapshots, path_report,
 };
 use crate::project::Project;
@@ -80,8 +80,15 @@ type ShowSample<'a> = dyn FnMut(&[usize], usize, &[Vec2]) + 'a;
 pub(super) struct LayerSamples<'a> {
     /// Times within 0..=1, rising.
     pub(super) times: &'a [f64],
+    /// The time that is shown first where all are known at once.
+    pub(super) first: Option<usize>,
     /// Called with each.
     pub(super) show: &'a mut ShowSample<'a>,
+}
+
+/// The numbers below `count`, one of them before the others.
+pub(super) fn with_first(first: Option<usize>, count: usize) -> impl Iterator<Item = usize> {
+    first.into_iter().chain((0..count).filter(move |i| Some(*i) != first))
 }
 
 impl SegmentPhotons {
@@ -111,7 +118,7 @@ impl SegmentPhotons {
             };
             let (flow, report) = match &mut samples {
                 None => fit_layer(project.method, &segment, midpoint_offsets, None, meter, progress)?,
-                Some(LayerSamples { times, show }) => {
+                Some(LayerSamples { times, show, .. }) => {
                     let show = &mut |i: usize, positions: &[Vec2]| show(groups, i, positions);
                     let samples = Some(Snapshots { times, show });
                     fit_layer(project.method, &segment, midpoint_offsets, samples, meter, progress)?
@@ -130,12 +137,12 @@ impl SegmentPhotons {
         meeting: &MeetingFlow,
         mut samples: Option<LayerSamples>,
     ) -> Result<(Vec<Layer>, Vec<FlowReport>)> {
+        if let Some(samples) = &mut samples {
+            self.show_samples(&meeting.layers, samples, job.progress)?;
+        }
         let mut reports = Vec::new();
         for (layer, fits) in meeting.layers.iter().zip(&meeting.fits) {
             let SegmentFlow::Meeting(fields) = &*layer.flow else { continue };
-            if let Some(LayerSamples { times, show }) = &mut samples {
-                self.show_samples(layer, times, show, job.progress)?;
-            }
             let [source, target] = self.columns(&layer.groups);
             let guides = (job.extent, job.project.flow.guides as usize);
             let report = || meeting_report(fields, (&source, &target), guides, fits, job.progress);
@@ -144,31 +151,37 @@ impl SegmentPhotons {
         Ok((meeting.layers.clone(), reports))
     }
 
-    /// Shows the photons of a layer at some times.
+    /// Shows the photons of all layers, time after time.
     fn show_samples(
         &self,
-        layer: &Layer,
-        times: &[f64],
-        show: &mut ShowSample,
+        layers: &[Layer],
+        LayerSamples { times, first, show }: &mut LayerSamples,
         progress: &Progress,
     ) -> Result<()> {
-        let group = |&group: &usize| {
+        let mut layers: Vec<_> = layers.iter().map(|layer| (layer, self.trajectories(layer))).collect();
+        for i in with_first(*first, times.len()) {
+            for (layer, groups) in &mut layers {
+                let mut positions = vec![Vec2::ZERO; groups.iter().map(|(count, _)| count).sum()];
+                let mut rest = &mut *positions;
+                for (count, trajectories) in groups {
+                    let (own, others) = std::mem::take(&mut rest).split_at_mut(*count);
+                    trajectories.light_at(times[i], own, &progress.inner())?;
+                    rest = others;
+                }
+                show(&layer.groups, i, &positions);
+            }
+        }
+        Ok(())
+    }
+
+    /// Of each group of a layer: the number of its photons, and their trajectories.
+    fn trajectories<'a>(&'a self, layer: &'a Layer) -> Vec<(usize, Box<dyn Trajectories + 'a>)> {
+        let of_group = |&group: &usize| {
             let (from, to) = (&self.from[group].positions, &self.to[group].positions);
             let tracks = self.tracks.get(group).and_then(Option::as_ref);
             (from.len(), layer.flow.trajectories(from, to, &[], tracks))
         };
-        let mut groups: Vec<_> = layer.groups.iter().map(group).collect();
-        let mut positions = vec![Vec2::ZERO; groups.iter().map(|(count, _)| count).sum()];
-        for (i, &time) in times.iter().enumerate() {
-            let mut rest = &mut *positions;
-            for (count, trajectories) in &mut groups {
-                let (own, others) = std::mem::take(&mut rest).split_at_mut(*count);
-                trajectories.light_at(time, own, &progress.inner())?;
-                rest = others;
-            }
-            show(&layer.groups, i, &positions);
-        }
-        Ok(())
+        layer.groups.iter().map(of_group).collect()
     }
 
     /// The positions of some groups at both key frames, one group after the other.

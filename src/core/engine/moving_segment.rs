@@ -151,7 +151,7 @@ impl MovingSegment {
                 rest = others;
             }
         };
-        let samples = Some(LayerSamples { times: &[0.5], show });
+        let samples = Some(LayerSamples { times: &[0.5], first: None, show });
         let drawn = (&*self.lines, &*self.walls);
         let (start, meter) = (Instant::now(), Meter::quick());
         let (_, reports) =

@@ -66,6 +66,12 @@ impl<'a> Growing<'a> {
         self.preview.moment(self.first).segment
     }
 
+    /// Which of these slots has the frame on screen.
+    pub(super) fn first_of(&self, slots: &[usize]) -> Option<usize> {
+        let first = self.preview.slot(self.first);
+        slots.iter().position(|&slot| slot == first)
+    }
+
     /// Adds the photons at the frame of a slot.
     pub(super) fn add(&mut self, slot: usize, positions: &Arc<[Vec2]>) {
         if self.preview.frames[slot].is_some() {

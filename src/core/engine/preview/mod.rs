@@ -41,7 +41,7 @@ pub use shot::Shot;
 
 impl Engine {
     /// The photons at all frames of a project, at one of [`Quality::LIVE`]. `ready` gets the preview as it grows: first the
-    /// key frames, then frame after frame, those of the segment around the frame `first` before the others. The same
+    /// key frames, then the frame `first`, the others of its segment, and then those of the others. The same
     /// project gives the same photons, whatever was previewed before, for any number of threads.
     ///
     /// # Errors

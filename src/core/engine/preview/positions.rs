@@ -6,7 +6,7 @@ use glam::Vec2;
 
 use super::growing::{Composition, Growing};
 use crate::engine::fitted_segment::FittedSegment;
-use crate::engine::flow::{LayerSamples, fit_segment};
+use crate::engine::flow::{LayerSamples, fit_segment, with_first};
 use crate::engine::job::Job;
 use crate::engine::memo::Same;
 use crate::engine::memo_keys::PositionsInput;
@@ -26,17 +26,18 @@ impl Growing<'_> {
     ) -> Result<(Arc<FittedSegment>, Option<Frames>)> {
         let (slots, times) = self.between_keys(photons.number);
         let mut composition = Composition::new(&photons.from, photons.layers.len(), times.len());
-        let mut frames = Vec::new();
+        let first = self.first_of(&slots);
+        let mut frames = vec![None; slots.len()];
         let show = &mut |groups: &[usize], moment: usize, positions: &[Vec2]| {
             let composed = composition.as_mut().and_then(|c| c.take(groups, moment, positions));
             if let Some(positions) = composed {
                 self.add(slots[moment], &positions);
-                frames.push(positions);
+                frames[moment] = Some(positions);
             }
         };
-        let samples = Some(LayerSamples { times: &times, show });
+        let samples = Some(LayerSamples { times: &times, first, show });
         let fitted = fit_segment(job, photons, samples)?;
-        Ok((fitted, Some(frames).filter(|frames| frames.len() == times.len())))
+        Ok((fitted, frames.into_iter().collect()))
     }
 
     /// Carries the photons of a segment through its frames along a fitted flow; `known` are the frames where they were
@@ -56,14 +57,13 @@ impl Growing<'_> {
             None => job.meter.measure("carry", || {
                 let mut trajectories =
                     SegmentTrajectories::with_tracks(fitted, (&photons.from, &photons.to), &photons.tracks);
-                let mut frames = Vec::with_capacity(slots.len());
+                let mut frames = vec![Arc::default(); slots.len()];
                 job.progress.begin("carry", slots.len() as u64);
-                for (&slot, &time) in slots.iter().zip(&input.times) {
+                for i in with_first(self.first_of(&slots), slots.len()) {
                     let mut positions = vec![Vec2::ZERO; trajectories.len()];
-                    trajectories.light_at(time, &mut positions, &job.progress.inner())?;
-                    let positions = Arc::from(positions);
-                    self.add(slot, &positions);
-                    frames.push(positions);
+                    trajectories.light_at(input.times[i], &mut positions, &job.progress.inner())?;
+                    frames[i] = Arc::from(positions);
+                    self.add(slots[i], &frames[i]);
                     job.progress.advance(1);
                 }
                 Ok::<_, Error>(Arc::new(frames))

@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use glam::Vec2;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::fields::MeetingFields;
 use super::leading_fit::LeadingFit;
 use super::segment::MeetingSegment;
 use super::tracks::advance;
-use crate::bridge::{Bridge, BridgeSettings, WallsFrom};
+use crate::bridge::{Bridge, BridgeSettings, CellVelocities, WallsFrom};
 use crate::constraint::VisibilityGraph;
-use crate::flow::field::Grid;
-use crate::flow::fit::{DirectedLines, LineTerm};
+use crate::flow::field::{Field, Grid};
+use crate::flow::fit::{DirectedLines, FitReport, LineTerm};
 use crate::flow::fit_segment::fit_settings;
 use crate::flow::observer::FitStatistics;
 use crate::flow::report::FlowReport;
@@ -112,13 +113,31 @@ struct MeetingFitter<'a> {
     fields: MeetingFields,
     /// By group.
     bridges: Vec<Bridge<'a>>,
-    /// Guide photons of each group on either side.
-    photons: Vec<[Vec<Vec2>; 2]>,
-    fits: [LeadingFit; 2],
-    lines: [DirectedLines<'a>; 2],
+    halves: [Half<'a>; 2],
     grid: Grid,
     statistics: FitStatistics,
     plan: BridgeReport,
+}
+
+/// One half between steps.
+struct Half<'a> {
+    /// 0 for that of the earlier key frame, 1 for that of the later.
+    side: usize,
+    /// Guide photons by group.
+    photons: Vec<Vec<Vec2>>,
+    fit: LeadingFit,
+    lines: DirectedLines<'a>,
+}
+
+/// The fit of one step of a half.
+struct FittedStep {
+    field: Field,
+    beside_walls: Option<(CellVelocities, Option<Field>)>,
+    time: f64,
+    report: FitReport,
+    /// What the field was fitted to.
+    positions: Vec<Vec2>,
+    velocities: Vec<Vec2>,
 }
 
 impl<'a> MeetingFitter<'a> {
@@ -145,16 +164,18 @@ impl<'a> MeetingFitter<'a> {
         };
         let plan = refine(plan);
         let liquid = LIQUID * f64::from(settings.hold);
-        let of_half = |_| DirectedLines::new(lines, settings.beta, fit.grid);
         let widths = lines.iter().map(|line| line.width);
         let line_width = (settings.beta > 0.0).then(|| widths.reduce(f32::min)).flatten();
-        let leading = || LeadingFit::new(fit, liquid, line_width);
+        let bridges = photons.iter().map(|_| Bridge::new(plan, standing)).collect();
+        let (earlier, later) = photons.into_iter().map(|[earlier, later]| (earlier, later)).unzip();
+        let half = |side: usize, photons: Vec<Vec<Vec2>>| {
+            let lines = DirectedLines::new(lines, settings.beta, fit.grid);
+            Ok(Half { side, photons, fit: LeadingFit::new(fit, liquid, line_width)?, lines })
+        };
         Ok(Self {
             fields,
-            bridges: photons.iter().map(|_| Bridge::new(plan, standing)).collect(),
-            photons,
-            fits: [leading()?, leading()?],
-            lines: [0, 1].map(of_half),
+            bridges,
+            halves: [half(0, earlier)?, half(1, later)?],
             grid: fit.grid,
             statistics: FitStatistics::default(),
             plan: BridgeReport { cells: plan.cells, ..BridgeReport::default() },
@@ -165,18 +186,14 @@ impl<'a> MeetingFitter<'a> {
         let half = self.fields.steps() / 2;
         progress.begin("plan", 1);
         self.renew(0, progress)?;
-        progress.begin("fit", 2 * half as u64);
+        progress.begin("fit", half as u64);
         for done in 0..half {
             if done > 0 && done + UNPLANNED < half {
                 self.renew(done, progress)?;
             }
-            for side in [0, 1] {
-                self.fit(side, done, segment.extent, progress)?;
-                for photons in &mut self.photons {
-                    advance(&self.fields, side, done, &mut photons[side], progress)?;
-                }
-                progress.advance(1);
-            }
+            self.fit(done, segment.extent, progress)?;
+            self.advance(done, progress)?;
+            progress.advance(1);
         }
         Ok(MeetingFit { fields: self.fields, fits: self.statistics.report(), plan: self.plan })
     }
@@ -184,16 +201,16 @@ impl<'a> MeetingFitter<'a> {
     /// Makes the plans of all groups anew.
     fn renew(&mut self, done: usize, progress: &Progress) -> Result<()> {
         let start = std::time::Instant::now();
-        for (bridge, [a, b]) in self.bridges.iter_mut().zip(&self.photons) {
-            bridge.renew(done, [a, b], progress)?;
-        }
+        let [earlier, later] = self.halves.each_ref().map(|half| &half.photons);
+        let bridges = self.bridges.par_iter_mut().zip(earlier).zip(later);
+        bridges.try_for_each(|((bridge, a), b)| bridge.renew(done, [a, b], progress))?;
         if done == 0 {
             for bridge in &self.bridges {
                 self.plan.error = self.plan.error.max(bridge.error());
                 let shut_off = bridge.shut_off();
                 self.plan.shut_off = [0, 1].map(|side| self.plan.shut_off[side].max(shut_off[side]));
             }
-            let counts = self.photons.iter().map(|[a, _]| a.len());
+            let counts = earlier.iter().map(Vec::len);
             let sum: f32 =
                 self.bridges.iter().zip(counts.clone()).map(|(b, count)| b.mean_speed() * count as f32).sum();
             self.fields.set_mean_way(sum / counts.sum::<usize>().max(1) as f32);
@@ -202,30 +219,65 @@ impl<'a> MeetingFitter<'a> {
         Ok(())
     }
 
-    /// Fits the field of one step of a half to the planned velocities, and keeps it.
-    fn fit(&mut self, side: usize, done: usize, extent: Vec2, progress: &Progress) -> Result<()> {
+    /// Fits the fields of one step of both halves to the planned velocities, and keeps them.
+    fn fit(&mut self, done: usize, extent: Vec2, progress: &Progress) -> Result<()> {
         let start = std::time::Instant::now();
-        let sign = if side == 0 { 1.0 } else { -1.0 };
-        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
-        for (bridge, photons) in self.bridges.iter().zip(&self.photons) {
-            let first = positions.len();
-            positions.extend(one_in_each_place(&photons[side], self.grid, extent));
-            velocities.extend(positions[first..].iter().map(|&p| sign * bridge.velocity(side, p)));
+        let Self { fields, bridges, grid, halves: [earlier, later], .. } = self;
+        let (plan, grid) = ((&*fields, &**bridges), *grid);
+        let places = |photons: &[Vec2]| one_in_each_place(photons, grid, extent);
+        let (earlier, later) = rayon::join(
+            || earlier.fit(plan, done, places, progress),
+            || later.fit(plan, done, places, progress),
+        );
+        for (side, step) in [earlier?, later?].into_iter().enumerate() {
+            let FittedStep { field, beside_walls, time, report, positions, velocities } = step;
+            self.statistics.fitted((&field, &self.fields.noise(time)), &report, &positions, &velocities);
+            self.fields.push(side, field, beside_walls);
         }
-        let steps = self.fields.steps();
-        let t = if side == 0 { done as f64 } else { (steps - done) as f64 } / steps as f64;
-        let lines = &mut self.lines[side];
-        let rows = lines.act_at(t).then(|| lines.rows(t, &positions, &velocities));
-        let lines = rows.as_ref().map(|(rows, mask)| LineTerm { rows, mask });
-        let part = 2.0 * done as f64 / steps as f64;
-        let (field, pull, report) = self.fits[side].fit(part, (&positions, &velocities), lines, progress)?;
-        self.statistics.fitted((&field, &self.fields.noise(t)), &report, &positions, &velocities);
-        // One plan stands beside walls for all groups that share the field: that of the first, whose walls are the same.
-        let walls = self.fields.obstacles().is_some();
-        let beside_walls = walls.then(|| (self.bridges[0].velocities(side, sign), pull));
-        self.fields.push(side, field, beside_walls);
         self.plan.seconds[1] += start.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Advances the photons of both halves by one step.
+    fn advance(&mut self, done: usize, progress: &Progress) -> Result<()> {
+        for Half { side, photons, .. } in &mut self.halves {
+            for photons in photons {
+                advance(&self.fields, *side, done, photons, progress)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Half<'_> {
+    /// Fits the field of one step to the planned velocities, at those `places` of photons that count.
+    fn fit(
+        &mut self,
+        (fields, bridges): (&MeetingFields, &[Bridge]),
+        done: usize,
+        places: impl Fn(&[Vec2]) -> Vec<Vec2>,
+        progress: &Progress,
+    ) -> Result<FittedStep> {
+        let side = self.side;
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+        for (bridge, photons) in bridges.iter().zip(&self.photons) {
+            let first = positions.len();
+            positions.extend(places(photons));
+            velocities.extend(positions[first..].iter().map(|&p| sign * bridge.velocity(side, p)));
+        }
+        let steps = fields.steps();
+        let time = if side == 0 { done as f64 } else { (steps - done) as f64 } / steps as f64;
+        let lines = &mut self.lines;
+        let rows = lines.act_at(time).then(|| lines.rows(time, &positions, &velocities));
+        let lines = rows.as_ref().map(|(rows, mask)| LineTerm { rows, mask });
+        let part = 2.0 * done as f64 / steps as f64;
+        let (field, pull, report) = self.fit.fit(part, (&positions, &velocities), lines, progress)?;
+        drop(rows);
+        // One plan stands beside walls for all groups that share the field: that of the first, whose walls are the same.
+        let walls = fields.obstacles().is_some();
+        let beside_walls = walls.then(|| (bridges[0].velocities(side, sign), pull));
+        Ok(FittedStep { field, beside_walls, time, report, positions, velocities })
     }
 }
 

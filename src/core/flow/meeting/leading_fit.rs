@@ -7,6 +7,7 @@
 //! not arrive: a liquid sets out as a liquid, and gathers on its way. What directed lines change is a smooth fit on top.
 
 use glam::Vec2;
+use rayon::prelude::*;
 
 use crate::flow::field::Field;
 use crate::flow::fit::{Blend, FitReport, FitSettings, Fitter, LineTerm, Rows};
@@ -99,7 +100,8 @@ impl LeadingFit {
 
 /// What a field leaves of velocities at positions.
 fn left(field: &Field, positions: &[Vec2], velocities: &[Vec2]) -> Vec<Vec2> {
-    positions.iter().zip(velocities).map(|(&p, &v)| v - field.velocity(p)).collect()
+    let rows = positions.par_iter().zip(velocities).with_min_len(512);
+    rows.map(|(&p, &v)| v - field.velocity(p)).collect()
 }
 
 fn add(field: &mut Field, other: &Field, share: f32) {
