@@ -34,7 +34,9 @@ fn main() -> io::Result<()> {
         io::Error::other(format!("{what}; use: {usage}"))
     })?;
     let program = program.map_or_else(|| build(target.as_deref()), Ok)?;
-    let needed = glibc::newest(&fs::read(&program)?);
+    let bytes =
+        fs::read(&program).map_err(|error| io::Error::other(format!("{}: {error}", program.display())))?;
+    let needed = glibc::newest(&bytes);
     glibc::require(needed, target.as_deref()).map_err(io::Error::other)?;
     let name = format!("lightloom-{}-{}-linux", env!("CARGO_PKG_VERSION"), env::consts::ARCH);
     fs::create_dir_all(&out)?;

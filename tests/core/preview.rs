@@ -82,6 +82,32 @@ fn a_picture_that_was_painted_over_is_read_again() {
 }
 
 #[test]
+fn a_mesh_is_read_again_when_it_or_a_file_that_it_names_was_changed() {
+    let (stage, mut project, engine) = two_balls();
+    let file = |name: &str| stage.folder.path().join(name);
+    let obj = std::fs::read_to_string(file("left ball.obj")).unwrap();
+    let glass = |ior: &str| {
+        let text = format!("newmtl glass\nKs 1 1 1\nTf 1 1 1\nNi {ior}\nd 0.2\nillum 7\nabsorption 0 0 0\n");
+        std::fs::write(file("glass.mtl"), text).unwrap();
+    };
+    std::fs::write(file("left ball.obj"), format!("mtllib glass.mtl\nusemtl glass\n{obj}")).unwrap();
+    project.scene.as_mut().unwrap().meshes[0].material = None;
+    // Of another length each: files of one moment may have the same time.
+    glass("1.5");
+    let before = draft(&engine, &project);
+    let named = before.mesh_files().iter().any(|path| path.ends_with("glass.mtl"));
+    assert!(named, "{:?}", before.mesh_files());
+    assert!(!stages(&draft(&engine, &project)).contains(&"trace"));
+    glass("1.35");
+    let after = draft(&engine, &project);
+    assert!(stages(&after).contains(&"trace"));
+    assert_ne!(bits(&before), bits(&after));
+    std::fs::remove_file(file("left ball.obj")).unwrap();
+    let gone = engine.preview(&project, Quality::Draft, 1, &Progress::new(), &mut |_| ());
+    assert!(matches!(gone, Err(Error::Io { .. }) | Err(Error::Value { .. })), "{:?}", gone.err());
+}
+
+#[test]
 fn every_example_is_previewed_whole() {
     for name in EXAMPLES {
         let (project, engine) = example(name);

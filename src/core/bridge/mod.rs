@@ -36,7 +36,8 @@
 //! Regions that walls shut off have plans of their own.
 //!
 //! Where walls leave most straight ways open, the plan is renewed as in free motion, and bodies keep their size; close to walls
-//! light also spreads by half the diffusion, or it would gather there in threads. Else, or where walls come and go, a plan is made once:
+//! light also spreads by half the diffusion, or it would gather there in threads. Where they block a third of the ways, or come and
+//! go, a plan is made once (in between both are mixed):
 //! with f from the one side and b from the other, s^2/2 grad ln(b / f) is the velocity that carries exactly the planned density,
 //! which is below the cap everywhere (Chen, Georgiou, Pavon 2016). It puffs bodies up on the way, with a rim around them. What the
 //! photons and the fit make of the velocity drifts away from the plan, so light diffuses down the gradient of its density over
@@ -66,6 +67,8 @@
 //! | **renewed** | .009 | .001 .003 .000 | 4.7 | .0035 |
 //! | *bottles*: once | .000 | .038 .059 .000 | 4.0 | .0074 |
 //! | **renewed** | .000 | .038 .045 .000 | 4.1 | .0067 |
+//! | a slit: **once** | .032 | .017 .017 .000 | 1.5 | .0059 |
+//! | renewed | .090 | .005 .005 .000 | 1.7 | .0061 |
 //! | a slalom: **once** | .022 | .209 .199 .008 | 2.5 | .0363 |
 //! | renewed | .183 | .415 .340 .027 | 2.6 | .0218 |
 
@@ -141,13 +144,10 @@ impl<'a> Bridge<'a> {
     /// `Cancelled`.
     pub fn renew(&mut self, done: usize, photons: [&[Vec2]; 2], progress: &Progress) -> Result<()> {
         self.done = done;
-        let renewed = match &mut self.plan {
-            Plan::Free(plan) => Some(plan.velocities(&self.cells, done, photons, progress)?),
+        self.velocities = match &mut self.plan {
+            Plan::Free(plan) => plan.velocities(&self.cells, done, photons, progress)?,
             Plan::Walls(plan) => plan.velocities((&self.cells, &self.walls), done, photons, progress)?,
         };
-        if let Some(velocities) = renewed {
-            self.velocities = velocities;
-        }
         if done == 0 {
             self.limit = SPEED_LIMIT * self.mean_speed_of(photons);
         }

@@ -5,6 +5,7 @@ use super::wall_cells::{StandingWalls, WallCells};
 
 /// Groups of cells that light can reach from each other over the whole time, by the cells of the earlier and of the later
 /// key frame.
+#[derive(Clone)]
 pub(super) struct Regions {
     /// Group of each cell at the begin and at the end.
     groups: [Vec<u32>; 2],

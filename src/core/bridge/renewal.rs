@@ -30,6 +30,7 @@ const BESIDE: f32 = 1.0;
 pub(super) struct Renewal {
     own: [SelfTransport; 2],
     relative: [RelativeDensity; 2],
+    velocities: [Vec<Vec2>; 2],
 }
 
 /// What stays the same from renewal to renewal: the cells, the walls and the regions among them, the variance of a step in plane
@@ -43,17 +44,17 @@ pub(super) struct Grid<'a> {
 }
 
 impl Renewal {
-    /// The velocities in cells of both sides after `done` steps, each towards the other; none where the last ones hold. `kernel` has
-    /// the plan before, and has the renewed one then.
+    /// The velocities in cells of both sides after `done` steps, each towards the other. `kernel` has the plan before, and has the
+    /// renewed one then.
     pub(super) fn velocities(
         &mut self,
         kernel: &mut WallKernel,
         (settings, grid): (&BridgeSettings, &Grid),
         (done, photons): (usize, [&[Vec2]; 2]),
         progress: &Progress,
-    ) -> Result<Option<[Vec<Vec2>; 2]>> {
+    ) -> Result<&[Vec<Vec2>; 2]> {
         if !done.is_multiple_of(EVERY) {
-            return Ok(None);
+            return Ok(&self.velocities);
         }
         let mut ends = photons.map(|photons| End::new(gather(grid.cells, grid.walls, photons)));
         if done > 0 {
@@ -66,9 +67,10 @@ impl Renewal {
             let tolerance = TOLERANCE / f64::from(settings.sweeps);
             scale_in_turn(&mut ends, (settings.sweeps(SWEEPS), tolerance, RELAXATION), spread, progress)?;
         }
-        Ok(Some([0, 1].map(|side| {
+        self.velocities = [0, 1].map(|side| {
             self.side_velocities(kernel, (settings, grid), (side, done), (&ends[side].density, photons[side]))
-        })))
+        });
+        Ok(&self.velocities)
     }
 
     /// The mean move of the light of a side towards the other end. Of it is taken, as in free motion, that of its transport onto

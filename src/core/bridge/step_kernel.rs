@@ -18,6 +18,7 @@ const OPERATIONS: usize = 50;
 
 /// One short step: a Gaussian over the cells that see each other, scaled so that rows and columns sum to 1, which makes
 /// walls and borders reflect.
+#[derive(Clone)]
 pub(super) struct StepKernel {
     size: [usize; 2],
     /// Gaussian by distance along an axis, in cells.
@@ -29,6 +30,7 @@ pub(super) struct StepKernel {
 }
 
 /// A density on its way through a step.
+#[derive(Clone)]
 pub(super) struct Leaving {
     /// The density as the kernel scales it, with a border of zeros as wide as the reach.
     scaled: Vec<f64>,

@@ -11,6 +11,7 @@ use super::step_kernel::{Leaving, StepKernel};
 const LEAST: f64 = 1e-290;
 
 /// The kernel over all steps with the factors that keep every cell below its cap.
+#[derive(Clone)]
 pub(super) struct WallKernel {
     /// The kernels, and which of them each step has.
     kernels: Vec<StepKernel>,

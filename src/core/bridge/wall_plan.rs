@@ -14,6 +14,7 @@ use super::settings::BridgeSettings;
 use super::step_kernel::StepKernel;
 use super::wall_cells::{StandingWalls, WallCells};
 use super::wall_kernel::WallKernel;
+use crate::math::smoothstep::smoothstep;
 use crate::{Progress, Result};
 
 /// Sweeps of the factors at most, and the misplaced share of the light at which they end.
@@ -30,22 +31,29 @@ const SOFTNESS: f64 = 20.0;
 /// Diffusion down the density over the planned one, over that of the bridge. With 1 the gap at the meeting is .0037 and .0159 in
 /// place of .0026 and .0139 (*letters*, *bottles*); with 4 it is no smaller.
 const FEEDBACK: f64 = 2.0;
-/// Share of the straight ways between both key frames that walls block, below which the plan is renewed on the way, and the number of
-/// ways that are looked at. Where light squeezes through a slit, or goes around a bar or a C, renewed plans crack it.
-const MOST_BLOCKED: f64 = 0.5;
+/// Share of the straight ways between both key frames that walls block, up to which the plan is renewed on the way, and from which on it
+/// is followed as it was made; the flow of a wall that is dragged changes little by little. Where light squeezes through a slit, or goes
+/// around a bar or a C, renewed plans crack it.
+const FEW_BLOCKED: f64 = 0.28;
+const MANY_BLOCKED: f64 = 0.36;
+/// The number of ways that are looked at.
 const WAYS: usize = 1024;
 /// Share of the light whose cells set the cap; brighter ones keep their own density.
 const CAP_SHARE: f64 = 0.9;
 
-/// The plan of motion around walls.
+/// The plan of motion around walls, once it is made.
 pub(super) struct WallPlan {
     settings: BridgeSettings,
-    made: Option<Made>,
-    /// Where the same walls stand all the time, and leave most ways open.
-    renewal: Option<Renewal>,
+    /// Followed as it was made.
+    followed: Option<Made>,
+    /// Renewed, where the same walls stand all the time and leave most ways open.
+    renewed: Option<(Made, Renewal)>,
+    /// Share of the renewed plan in the velocities.
+    share: f32,
 }
 
 /// A plan that is made.
+#[derive(Clone)]
 struct Made {
     kernel: WallKernel,
     regions: Regions,
@@ -60,43 +68,64 @@ struct Made {
 
 impl WallPlan {
     pub(super) fn new(settings: BridgeSettings) -> Self {
-        Self { settings, made: None, renewal: None }
+        Self { settings, followed: None, renewed: None, share: 0.0 }
+    }
+
+    fn made(&self) -> Option<&Made> {
+        self.followed.as_ref().or(self.renewed.as_ref().map(|(made, _)| made))
     }
 
     /// The misplaced share of the light.
     pub(super) fn error(&self) -> f64 {
-        self.made.as_ref().map_or(0.0, |made| made.error)
+        self.made().map_or(0.0, |made| made.error)
     }
 
     /// Share of the light of either key frame that walls shut off from the other.
     pub(super) fn shut_off(&self) -> [f64; 2] {
-        self.made.as_ref().map_or([0.0; 2], |made| made.regions.shut_off())
+        self.made().map_or([0.0; 2], |made| made.regions.shut_off())
     }
 
-    /// The velocities in cells of both sides after `done` steps, each towards the other; none where the last ones hold. The first call
-    /// makes the plan.
+    /// The velocities in cells of both sides after `done` steps, each towards the other. The first call makes the plan.
     pub(super) fn velocities(
         &mut self,
         (cells, walls): (&Cells, &StandingWalls),
         done: usize,
         photons: [&[Vec2]; 2],
         progress: &Progress,
-    ) -> Result<Option<[Vec<Vec2>; 2]>> {
-        if self.made.is_none() {
-            self.made = Some(Made::new(&self.settings, (cells, walls), photons, None, progress)?);
-            let is_renewed = walls.runs().count() == 1 && blocked(walls.of(0, 0), photons) < MOST_BLOCKED;
-            self.renewal = is_renewed.then(Renewal::default);
+    ) -> Result<[Vec<Vec2>; 2]> {
+        if self.made().is_none() {
+            let made = Made::new(&self.settings, (cells, walls), photons, None, progress)?;
+            self.share = match walls.runs().count() {
+                1 => renewed_share(blocked(walls.of(0, 0), photons)),
+                _ => 0.0,
+            };
+            self.followed = (self.share < 1.0).then(|| made.clone());
+            self.renewed = (self.share > 0.0).then(|| (made, Renewal::default()));
         }
-        let Some(made) = &mut self.made else { return Err(crate::Error::Cancelled) };
-        if let Some(renewal) = &mut self.renewal {
+        let mut velocities = [(); 2].map(|()| vec![Vec2::ZERO; cells.count()]);
+        let mut add = |share: f32, plan: &[Vec<Vec2>; 2]| {
+            for (sum, velocities) in velocities.iter_mut().zip(plan) {
+                sum.iter_mut().zip(velocities).for_each(|(sum, velocity)| *sum += share * *velocity);
+            }
+        };
+        if let Some(made) = &mut self.followed {
+            let mut followed = |side: usize| {
+                made.side_velocities(&self.settings, (cells, walls), (side, done), photons[side])
+            };
+            add(1.0 - self.share, &[followed(0), followed(1)]);
+        }
+        if let Some((made, renewal)) = &mut self.renewed {
             let Made { kernel, regions, variance, blur, .. } = made;
             let grid = Grid { cells, walls: walls.of(0, 0), regions, variance: *variance, blur: *blur };
-            return renewal.velocities(kernel, (&self.settings, &grid), (done, photons), progress);
+            add(self.share, renewal.velocities(kernel, (&self.settings, &grid), (done, photons), progress)?);
         }
-        let mut velocity =
-            |side: usize| made.side_velocities(&self.settings, (cells, walls), (side, done), photons[side]);
-        Ok(Some([velocity(0), velocity(1)]))
+        Ok(velocities)
     }
+}
+
+/// The share of the renewed plan where walls block this share of the ways.
+fn renewed_share(blocked: f64) -> f32 {
+    (1.0 - smoothstep((blocked - FEW_BLOCKED) / (MANY_BLOCKED - FEW_BLOCKED))) as f32
 }
 
 impl Made {

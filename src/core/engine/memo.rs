@@ -46,6 +46,16 @@ impl FileStamp {
         let state = path.metadata().ok().and_then(|file| Some((file.modified().ok()?, file.len())));
         Self { path: path.to_owned(), state }
     }
+
+    /// Whether the file is still the same.
+    pub(super) fn is_current(&self) -> bool {
+        *self == Self::of(&self.path)
+    }
+
+    /// The file's path.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
 }
 
 /// The user on whose behalf results are kept.
@@ -116,11 +126,28 @@ impl<I: PartialEq, O: Clone> Memo<I, O> {
         progress: &Progress,
         make: impl FnOnce(&I) -> Result<O>,
     ) -> Result<O> {
+        self.get_if(|_| true, slot, input, progress, make)
+    }
+
+    /// As [`Self::get`]; a remembered result counts only if it `holds` by what else it was made from.
+    ///
+    /// # Errors
+    /// As [`Self::get`].
+    pub(super) fn get_if(
+        &self,
+        holds: impl Fn(&O) -> bool,
+        slot: Slot,
+        input: I,
+        progress: &Progress,
+        make: impl FnOnce(&I) -> Result<O>,
+    ) -> Result<O> {
         let input = Arc::new(input);
         loop {
             let mut entries = self.lock();
-            if let Some(output) = entries.take(slot, &input) {
-                return Ok(output);
+            match entries.take(slot, &input) {
+                Some(output) if holds(&output) => return Ok(output),
+                Some(_) => entries.made.retain(|entry| *entry.input != *input),
+                None => (),
             }
             // A paused maker may rest for hours; its result is made twice then.
             let awaited = |making: &Making<I>| *making.input == *input && !making.progress.is_paused();

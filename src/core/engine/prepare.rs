@@ -37,7 +37,7 @@ pub(super) struct Prepared {
     /// Photons of one pass.
     pub(super) photons: usize,
     /// The files that meshes were read from, in the order of their names.
-    pub(super) mesh_files: Arc<Vec<PathBuf>>,
+    pub(super) mesh_files: Arc<[PathBuf]>,
     /// Results of an earlier process, where there may be some.
     pub(super) bake: Option<Arc<Bake>>,
 }
@@ -88,7 +88,8 @@ impl Stages {
         );
         let photons = plan.photons;
         let (project, quality) = (project.clone(), Quality::Final);
-        let mesh_files = mesh_files.unwrap_or_default();
+        let mesh_files = mesh_files.iter().flat_map(|files| files.iter());
+        let mesh_files = mesh_files.map(|file| file.path().to_owned()).collect();
         Ok(Prepared {
             project,
             quality,

@@ -1,6 +1,6 @@
 //! The stages of the engine, with what they remember.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -23,7 +23,7 @@ use crate::{Note, Progress, Result};
 /// All stages up to the positions of photons and the picture without caustics. Each remembers its results.
 pub(super) struct Stages {
     pub(super) assets: AssetFolder,
-    geometry: Memo<MeshInput, WithFiles<Noted<Geometry>>>,
+    geometry: Memo<Vec<MeshDesc>, WithFiles<Noted<Geometry>>>,
     scenes: Memo<(SceneDesc, Same<Geometry>), Noted<Scene>>,
     sources: Memo<SourceInput, Arc<KeySource>>,
     plates: Memo<PlateInput, Arc<Plate>>,
@@ -39,14 +39,11 @@ pub(super) struct Stages {
     pub(super) still: Memo<StillInput, Arc<StillLight>>,
 }
 
-/// The meshes of a scene, and the state of their files.
-type MeshInput = (Vec<MeshDesc>, Vec<FileStamp>);
-
 /// A plate, the size of the frame, and the state of the plate's file.
 type PlateInput = (PlateSettings, [usize; 2], FileStamp);
 
-/// A result, and the files that meshes were read from.
-type WithFiles<T> = (T, Arc<Vec<PathBuf>>);
+/// A result, and the files that meshes were read from, in the order of their names: their own, and those that these name.
+type WithFiles<T> = (T, Arc<Vec<FileStamp>>);
 
 /// A result, and notes for the artist.
 pub(super) type Noted<T> = (Arc<T>, Arc<Vec<Note>>);
@@ -86,20 +83,21 @@ impl Stages {
         desc.check("scene")?;
         // A scene without meshes is the bare plane of a project that has no scene; it takes no slot from the others.
         let slot = Slot { client, quality: Quality::Final, index: usize::from(desc.meshes.is_empty()) };
-        // A file that cannot be found has no stamp; reading it tells why.
-        let stamp = |mesh: &MeshDesc| Some(FileStamp::of(&self.assets.resolve(&mesh.file, "").ok()?));
-        let input = (desc.meshes.clone(), desc.meshes.iter().filter_map(stamp).collect());
-        let ((geometry, of_meshes), files) = self.geometry.get(slot, input, progress, |(meshes, _)| {
-            let files = Mutex::new(BTreeSet::new());
+        let are_current = |(_, files): &WithFiles<_>| files.iter().all(FileStamp::is_current);
+        let load = |meshes: &Vec<MeshDesc>| {
+            let files = Mutex::new(BTreeMap::new());
             let resolve = |path: &str, place: &str| {
                 let file = self.assets.resolve(path, place)?;
-                files.lock().unwrap_or_else(PoisonError::into_inner).insert(file.clone());
+                let mut files = files.lock().unwrap_or_else(PoisonError::into_inner);
+                files.entry(file.clone()).or_insert_with(|| FileStamp::of(&file));
                 Ok(file)
             };
             let geometry = Geometry::load(meshes, &resolve, progress).map(noted)?;
             let files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
-            Ok((geometry, Arc::new(files.into_iter().collect())))
-        })?;
+            Ok((geometry, Arc::new(files.into_values().collect())))
+        };
+        let ((geometry, of_meshes), files) =
+            self.geometry.get_if(are_current, slot, desc.meshes.clone(), progress, load)?;
         let input = (desc.clone(), Same::of(&geometry));
         let (scene, of_scene) =
             self.scenes.get(slot, input, progress, |_| Scene::with_geometry(desc, geometry).map(noted))?;

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui;
-use lightloom_core::project::Project;
 
 use super::App;
 use crate::editor::preferences;
@@ -15,6 +14,7 @@ impl App {
     /// Sends changes since the last frame to the file threads. Copies pointers only.
     pub(super) fn autosave(&mut self, ctx: &egui::Context) {
         self.note_project();
+        self.watch();
         let last_sent = &mut self.files.last_sent;
         if last_sent.preferences.as_ref() != Some(&self.preferences) {
             let first = last_sent.preferences.replace(self.preferences.clone()).is_none();
@@ -39,11 +39,15 @@ impl App {
         }
     }
 
-    /// Has the files of the project watched.
-    fn watch(&mut self, project: &Project) {
+    /// Has the files of the project watched, and those that its meshes name.
+    fn watch(&mut self) {
+        let (project, light) = (self.editor.document.project(), self.editor.preview.preview());
         let base = templates::file_of(&self.editor.document);
         let folder = base.parent().map(Path::to_owned).unwrap_or_default();
-        let files: Vec<PathBuf> = project.files().into_iter().map(|file| folder.join(file)).collect();
+        let mut files: Vec<PathBuf> = project.files().into_iter().map(|file| folder.join(file)).collect();
+        let named =
+            light.map_or(&[][..], |light| light.mesh_files()).iter().filter(|file| !files.contains(file));
+        files.extend(named.cloned().collect::<Vec<_>>());
         if let Some(watch) = self.files.watch.as_ref().filter(|_| files != self.files.last_sent.watched) {
             watch.look_at(files.clone());
             self.files.last_sent.watched = files;
@@ -56,7 +60,6 @@ impl App {
             return;
         }
         let first = self.files.last_sent.project.replace(project.clone()).is_none();
-        self.watch(&project);
         let Ok(file) = self.editor.document.file() else { return };
         let Some(journal) = &self.files.journal else { return };
         if !self.editor.document.is_unsaved() {

@@ -1,6 +1,7 @@
 //! A preview: photons at every frame, and the fields that moved them.
 
 use std::ops::{Range, RangeInclusive};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
@@ -51,6 +52,7 @@ pub(super) struct Keys {
     pub(super) groups: Vec<(Option<String>, Range<usize>)>,
     pub(super) caustics: Vec<CausticFlux>,
     pub(super) left_out: Vec<LeftOut>,
+    pub(super) mesh_files: Arc<[PathBuf]>,
     /// Area that the photons cover, plane units squared, as a mean over the keys.
     pub(super) covered: f32,
     /// Brightness requested at later keys than the first.
@@ -124,6 +126,11 @@ impl Preview {
             (a, b) => a.is_none() && b.is_none(),
         };
         same_photons && Arc::ptr_eq(&self.keys, &other.keys)
+    }
+
+    /// The files that the meshes of the scene were read from, with those that these name.
+    pub fn mesh_files(&self) -> &[PathBuf] {
+        &self.keys.mesh_files
     }
 
     /// RGB flux of all photons at a frame, watts, into `out`, which grows or shrinks to fit.

@@ -151,7 +151,7 @@ impl Run<'_> {
     }
 
     fn keys(&self, lights: Vec<KeyLight>, groups: &[KeyPhotons], caustics: Vec<CausticFlux>) -> Keys {
-        let Prepared { project, extent, times, plan, .. } = self.whole;
+        let Prepared { project, extent, times, plan, mesh_files, .. } = self.whole;
         let grouping = self.job.sources.grouping();
         let mut end = 0;
         let group = |(group, at): (usize, &KeyPhotons)| {
@@ -171,6 +171,7 @@ impl Run<'_> {
             groups: groups.iter().enumerate().map(group).collect(),
             caustics,
             left_out: plan.left_out.clone(),
+            mesh_files: mesh_files.clone(),
             rho: project.flow.rho.into(),
         }
     }
