@@ -214,9 +214,12 @@ fn blocked(walls: Option<&WallCells>, [earlier, later]: [&[Vec2]; 2]) -> f64 {
     let (Some(walls), false, false) = (walls, earlier.is_empty(), later.is_empty()) else { return 0.0 };
     let photon = |photons: &[Vec2], share: f64| photons[(share * photons.len() as f64) as usize];
     let is_blocked = |way: &usize| {
-        let from = photon(earlier, *way as f64 / WAYS as f64);
-        // By the golden ratio, so that rows in some order do not pair neighbours.
-        walls.blocks(from, photon(later, (*way as f64 * GOLDEN_RATIO).fract()))
+        // By the golden ratio, so that rows in some order do not pair neighbours; both ways around, so that exchanged key frames have
+        // the same share.
+        let number = (way / 2) as f64;
+        let places = [2.0 * number / WAYS as f64, (number * GOLDEN_RATIO).fract()];
+        let [from, to] = if way % 2 == 0 { places } else { [places[1], places[0]] };
+        walls.blocks(photon(earlier, from), photon(later, to))
     };
     (0..WAYS).filter(is_blocked).count() as f64 / WAYS as f64
 }
