@@ -218,7 +218,7 @@ fn blocked(walls: Option<&WallCells>, [earlier, later]: [&[Vec2]; 2]) -> f64 {
         // the same share.
         let number = (way / 2) as f64;
         let places = [2.0 * number / WAYS as f64, (number * GOLDEN_RATIO).fract()];
-        let [from, to] = if way % 2 == 0 { places } else { [places[1], places[0]] };
+        let [from, to] = if way.is_multiple_of(2) { places } else { [places[1], places[0]] };
         walls.blocks(photon(earlier, from), photon(later, to))
     };
     (0..WAYS).filter(is_blocked).count() as f64 / WAYS as f64
