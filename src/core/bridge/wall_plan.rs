@@ -99,8 +99,11 @@ impl WallPlan {
                 1 => renewed_share(blocked(walls.of(0, 0), photons)),
                 _ => 0.0,
             };
-            self.followed = (self.share < 1.0).then(|| made.clone());
-            self.renewed = (self.share > 0.0).then(|| (made, Renewal::default()));
+            (self.followed, self.renewed) = match self.share {
+                0.0 => (Some(made), None),
+                1.0 => (None, Some((made, Renewal::default()))),
+                _ => (Some(made.clone()), Some((made, Renewal::default()))),
+            };
         }
         let mut velocities = [(); 2].map(|()| vec![Vec2::ZERO; cells.count()]);
         let mut add = |share: f32, plan: &[Vec<Vec2>; 2]| {

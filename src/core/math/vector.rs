@@ -94,17 +94,17 @@ impl<T: Real> GridVector<T> {
     /// The scalar product, summed in an order that does not depend on the threads.
     pub fn dot(&self, other: &Self) -> f64 {
         let len = self.task_len();
-        let mut sums = vec![0.0; self.rows().len().div_ceil(len)];
-        let tasks = self.rows().par_chunks(len).zip(other.rows().par_chunks(len));
-        sums.par_iter_mut().zip(tasks).for_each(|(sum, (a, b))| {
-            let mut lanes = [0.0f64; 8];
-            for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
-                for i in 0..8 {
-                    lanes[i] = a[i].to_f64().mul_add(b[i].to_f64(), lanes[i]);
+        let sums: Vec<f64> = (self.rows().par_chunks(len).zip(other.rows().par_chunks(len)))
+            .map(|(a, b)| {
+                let mut lanes = [0.0f64; 8];
+                for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
+                    for i in 0..8 {
+                        lanes[i] = a[i].to_f64().mul_add(b[i].to_f64(), lanes[i]);
+                    }
                 }
-            }
-            *sum = lanes.iter().sum();
-        });
+                lanes.iter().sum()
+            })
+            .collect();
         sums.iter().sum()
     }
 

@@ -149,13 +149,7 @@ impl Lookup {
 
     /// Whether an edge may lie within `reach` of `p`.
     pub(super) fn nearby(&self, p: Vec2, reach: f32) -> bool {
-        let at = self.cells_from_plane(p);
-        let (x, y) = (at.x.floor(), at.y.floor());
-        if x < 0.0 || y < 0.0 || x >= self.size[0] as f64 || y >= self.size[1] as f64 {
-            return true;
-        }
-        let free = f64::from(self.free[y as usize * self.size[0] + x as usize]);
-        free - 1.0 <= f64::from(reach) * self.scale
+        !self.is_free(self.cells_from_plane(p), f64::from(reach) * self.scale)
     }
 
     /// Whether no edge is within `reach` of `p` along either axis, in cells; false where that is not known.
