@@ -56,7 +56,7 @@ pub fn run(project: Option<&Path>, safe_mode: bool) -> Result<(), String> {
         let graphics = card.map_or_else(|| "none".to_owned(), described);
         tracing::info!("graphics: {graphics}");
         let gpu = card.map_or(Gpu::None, |card| prepare_gpu(card, &device, &context.egui_ctx));
-        let dialogs = Arc::new(Native);
+        let dialogs = Arc::new(Native::over(context));
         let setup = Setup {
             document,
             message,

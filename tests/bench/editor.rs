@@ -35,14 +35,18 @@ fn main() {
             flow.gamma = (i % 10) as f32 / 10.0 + 0.05;
             Edit::Flow(flow)
         });
-        measure(name, "wall", |project, i| {
-            let x = 0.3 + 0.4 * i as f32 / EDITS as f32;
-            let wall = Constraint::Wall(Wall::new(vec![[x, 0.2], [x + 0.1, 0.5]]));
-            let mut constraints = project.constraints.clone();
-            constraints.truncate(4);
-            constraints.push(wall);
-            Edit::Constraints(constraints)
-        });
+        // The project's own walls and one that moves; then four more, so that light finds few straight ways.
+        for (what, more) in [("wall", 0), ("walls", 4)] {
+            let mut own = None;
+            measure(name, what, |project, i| {
+                let own = own.get_or_insert_with(|| project.constraints.clone());
+                let wall = |x: f32| Constraint::Wall(Wall::new(vec![[x, 0.2], [x + 0.1, 0.5]]));
+                let x = 0.3 + 0.4 * i as f32 / EDITS as f32;
+                let more = (0..more).map(|j| 0.3 + 0.008 * j as f32);
+                let constraints = own.iter().cloned().chain(more.chain([x]).map(wall)).collect();
+                Edit::Constraints(constraints)
+            });
+        }
     }
 }
 
@@ -55,7 +59,7 @@ fn asked(name: &str, what: &str) -> bool {
 }
 
 /// Edits one after the other, half a second apart: the work of the last is still going on.
-fn measure(name: &str, what: &str, edit: impl Fn(&Project, usize) -> Edit) {
+fn measure(name: &str, what: &str, mut edit: impl FnMut(&Project, usize) -> Edit) {
     if !asked(name, what) {
         return;
     }

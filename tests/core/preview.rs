@@ -8,6 +8,7 @@ use lightloom_core::engine::{Engine, Preview, Quality};
 use lightloom_core::flow::MotionMethod;
 use lightloom_core::photon::Tracer;
 use lightloom_core::project::{AssetFolder, Ease, Project};
+use lightloom_core::scene::light::{LightRole, PointLight};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
 use serde_json::json;
@@ -68,6 +69,25 @@ fn a_moved_light_traces_anew_and_a_moved_camera_does_not() {
     let Some(LightDesc::Point(lamp)) = project.scene.as_mut().unwrap().lights.first_mut() else { panic!() };
     lamp.position[0] += 0.02;
     assert_eq!(stages(&draft(&engine, &project)), ["load", "trace", "plan", "fit", "match", "watch"]);
+}
+
+#[test]
+fn a_lamp_for_the_background_alone_leaves_the_light_as_it_is() {
+    let (_stage, mut project, engine) = two_balls();
+    let lights = |project: &mut Project, role| {
+        let lamp = PointLight { role, position: [0.4, 1.5, 0.3], ..Default::default() };
+        project.scene.as_mut().unwrap().lights[2] = LightDesc::Point(lamp);
+    };
+    project.scene.as_mut().unwrap().lights.push(LightDesc::Point(PointLight::default()));
+    lights(&mut project, LightRole::Background);
+    let before = draft(&engine, &project);
+    let LightDesc::Point(lamp) = &mut project.scene.as_mut().unwrap().lights[2] else { panic!() };
+    lamp.position = [0.0, 2.0, 0.0];
+    let after = draft(&engine, &project);
+    assert_eq!(stages(&after), ["load"]);
+    assert_eq!(bits(&before), bits(&after));
+    lights(&mut project, LightRole::All);
+    assert!(stages(&draft(&engine, &project)).contains(&"trace"));
 }
 
 #[test]

@@ -102,21 +102,19 @@ fn endless(place: &Place, exports: &mut Exports) -> Arc<ExportJob> {
     job
 }
 
-#[cfg(unix)]
-#[test]
-fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
-    let place = Place::new(2, 2000);
-    struct State {
-        editor: Editor,
-        window: ExportWindow,
-        exports: Exports,
-        picker: Picker,
-    }
-    let document = Document::new(Project::load(&place.file()).unwrap(), Some(place.file()));
+struct State {
+    editor: Editor,
+    window: ExportWindow,
+    exports: Exports,
+    picker: Picker,
+}
+
+/// The export window over a project in a file.
+fn opened(project: Project, file: PathBuf) -> Harness<'static, State> {
     let mut window = ExportWindow::default();
     window.open = true;
     let state = State {
-        editor: Editor::new(document),
+        editor: Editor::new(Document::new(project, Some(file))),
         window,
         exports: exports(),
         picker: Picker::new(Arc::new(Scripted::default())),
@@ -131,6 +129,33 @@ fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
         state,
     );
     harness.run_ok();
+    harness
+}
+
+#[test]
+fn a_long_folder_shows_its_end_and_the_whole_to_who_edits_it() {
+    let place = Place::new(1, 1000);
+    let folders = "a folder with a long name/one more of a length that no field has room for";
+    let mut harness = opened(Project::load(&place.file()).unwrap(), place.path(folders).join("shot.json"));
+    let folder =
+        |harness: &Harness<State>| harness.get_by_role_and_label(Role::TextInput, "Folder").value().unwrap();
+    let shown = folder(&harness);
+    assert!(shown.starts_with('…') && shown.chars().count() < 40, "{shown}");
+    harness.get_by_role_and_label(Role::TextInput, "Folder").focus();
+    harness.run_ok();
+    let whole = folder(&harness);
+    assert!(whole.contains(folders) && whole.ends_with(shown.trim_start_matches('…')), "{whole}");
+    harness.get_by_role_and_label(Role::TextInput, "Folder").type_text("/day two");
+    harness.run_ok();
+    let line = harness.get_by_label("Command line").value().unwrap();
+    assert!(line.contains(&format!("{whole}/day two")), "{line}");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_window_exports_the_same_bytes_as_the_command_line_that_it_shows() {
+    let place = Place::new(2, 2000);
+    let mut harness = opened(Project::load(&place.file()).unwrap(), place.file());
     let line = harness.get_by_label("Command line").value().unwrap();
     harness.get_by_role_and_label(Role::Button, "Export 2 frames").click();
     harness.run_ok();

@@ -87,7 +87,7 @@ impl<'a> Job<'a> {
         let Some(desc) = &self.project.scene else { return learn() };
         let input = GuideInput {
             geometry: Same::of(scene.geometry()),
-            lights: desc.lights.clone(),
+            lights: desc.lights.iter().map(|light| light.casts_caustics().then(|| light.clone())).collect(),
             receiver: desc.receiver.clone(),
             seed: self.sources.seed(),
         };

@@ -14,7 +14,8 @@ use crate::scene::{Geometry, LightDesc, ReceiverDesc, Scene};
 #[derive(PartialEq)]
 pub(super) struct GuideInput {
     pub(super) geometry: Same<Geometry>,
-    pub(super) lights: Vec<LightDesc>,
+    /// Of the same number of lights those that cast caustics.
+    pub(super) lights: Vec<Option<LightDesc>>,
     pub(super) receiver: ReceiverDesc,
     pub(super) seed: u64,
 }

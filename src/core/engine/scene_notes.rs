@@ -3,15 +3,13 @@
 use crate::Note;
 use crate::note::About;
 use crate::render::{ReceiverView, RenderSettings, receiver_view};
-use crate::scene::light::LightRole;
 use crate::scene::{LightDesc, Mesh, Scene};
 use crate::setting::format::number;
 
 /// Notes on a camera that sees no light, and on lamps around what they shall light.
 pub(super) fn scene_notes(scene: &Scene, render: &RenderSettings) -> Vec<Note> {
     let mut notes: Vec<Note> = camera_note(scene, render).into_iter().collect();
-    let casts = |light: &LightDesc| light.is_enabled() && light.role() != LightRole::Background;
-    let lamps = scene.lights().iter().enumerate().filter(|(_, light)| casts(light));
+    let lamps = scene.lights().iter().enumerate().filter(|(_, light)| light.casts_caustics());
     let specular = || scene.meshes().iter().filter(|mesh| mesh.material.is_specular());
     notes.extend(lamps.flat_map(|(i, light)| {
         About::Light(i).notes(specular().filter_map(|mesh| lamp_note(light, mesh)).collect::<Vec<_>>())

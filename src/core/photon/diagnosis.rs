@@ -5,7 +5,6 @@ use glam::{BVec3, Vec3};
 use super::FluxBalance;
 use super::lamp_light::power;
 use crate::Error;
-use crate::scene::light::LightRole;
 use crate::scene::material::Material;
 use crate::scene::{LightDesc, Mesh, Ray, Scene};
 
@@ -49,7 +48,7 @@ fn casting<'a>(
     balances: &'a [FluxBalance],
 ) -> impl Iterator<Item = (usize, (&'a LightDesc, &'a FluxBalance))> {
     let all = scene.lights().iter().zip(balances).enumerate();
-    all.filter(|(_, (light, _))| light.is_enabled() && light.role() != LightRole::Background)
+    all.filter(|(_, (light, _))| light.casts_caustics())
 }
 
 /// The lights, by index, of which no trial path reached the receiver, each with a note on the reason.

@@ -1,8 +1,8 @@
 //! The domains of emission guiding: which rays of which light go to which caster.
 
 use crate::math::rng::Stream;
-use crate::scene::light::{Emission, LightRole, Sphere};
-use crate::scene::{LightDesc, Media, Ray, Scene};
+use crate::scene::light::{Emission, Sphere};
+use crate::scene::{Media, Ray, Scene};
 
 /// Most casters with bounding spheres of their own; more of them share one.
 const MAX_CASTERS: usize = 16;
@@ -65,8 +65,7 @@ pub(super) fn domains(scene: &Scene, guiding: EmissionGuiding) -> Vec<Domain> {
     }
     let mut domains = Vec::new();
     let lights = scene.lights().iter().enumerate();
-    let casts = |desc: &LightDesc| desc.is_enabled() && desc.role() != LightRole::Background;
-    for (light, desc) in lights.filter(|(_, desc)| casts(desc)) {
+    for (light, desc) in lights.filter(|(_, desc)| desc.casts_caustics()) {
         let in_glass = specular().any(|mesh| desc.overlaps_box(mesh.lower, mesh.upper));
         let domain = |target, before: &[Sphere]| Domain {
             light: light as u16,

@@ -18,6 +18,7 @@ mod geometry;
 mod media;
 mod object;
 mod resolve;
+mod sunk;
 mod surface;
 
 use std::sync::Arc;

@@ -229,7 +229,7 @@ impl Receiver {
     }
 
     /// Whether the floor reaches there.
-    fn reaches(&self, plane: Vec2) -> bool {
+    pub(super) fn reaches(&self, plane: Vec2) -> bool {
         let (lower, upper) = self.reach();
         plane.cmpge(lower).all() && plane.cmple(upper).all()
     }

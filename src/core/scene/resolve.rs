@@ -7,6 +7,7 @@ use super::check;
 use super::contact::OnReceiver;
 use super::geometry::Geometry;
 use super::object::Mesh;
+use super::sunk::sunk_notes;
 use super::{Scene, SceneDesc};
 use crate::note::About;
 use crate::{Note, Progress, Result};
@@ -41,6 +42,7 @@ impl Scene {
             geometry.meshes().iter().filter_map(|mesh| size_hint(mesh, size)).collect();
         let (on_receiver, of_contact) = OnReceiver::new(&geometry, &receiver);
         notes.extend(of_contact);
+        notes.extend(sunk_notes(&geometry, &receiver));
         let scene = Self {
             has_contacts: on_receiver.is_some() || geometry.has_contacts(),
             on_receiver,

@@ -17,6 +17,11 @@ use crate::{Error, Progress, Result};
 /// Larger pictures are averaged down to at most this many cells a side: finer than any plane texture.
 const MAX_CELLS: usize = 2048;
 
+/// Points of a picture by which it is told how much of it lies beyond the edge.
+const PROBES: usize = 4096;
+/// Share of a picture that is missed.
+const SEEN: f32 = 0.01;
+
 /// The sampling distribution of a picture that lies on the plane.
 #[derive(Clone, Debug)]
 pub struct PictureSampler {
@@ -69,7 +74,24 @@ impl PictureSampler {
         let frame = (centre, right * picture.aspect, up);
         let block = cells.block;
         let colours = if target.colour { cells.relative_colours() } else { Vec::new() };
-        Ok(Self { brightness, colours, block, size, frame, notes })
+        let mut sampler = Self { brightness, colours, block, size, frame, notes };
+        sampler.notes.extend(sampler.note_on_place(path, extent, place));
+        Ok(sampler)
+    }
+
+    /// A note on a picture of which some lies beyond the plane's edge.
+    fn note_on_place(&self, path: &Path, extent: Vec2, place: &str) -> Option<String> {
+        let points = self.sample(0, 0, PROBES).positions;
+        let is_beyond = |point: &&Vec2| **point != point.clamp(Vec2::ZERO, extent);
+        let share = points.iter().filter(is_beyond).count() as f32 / PROBES as f32;
+        (share > SEEN).then(|| {
+            format!(
+                "{:.0} % of the light of '{}' lies beyond the edge, where it is lost; move the picture ({place}.placement.centre), or make \
+                 it smaller ({place}.placement.width)",
+                100.0 * share,
+                path.display()
+            )
+        })
     }
 
     /// Warnings about the file.

@@ -6,10 +6,10 @@ use rfd::{AsyncFileDialog, FileHandle};
 
 use super::request::{Answer, PickRequest, PickResult};
 
-/// Begins a dialog.
-pub(super) fn begin(request: &PickRequest) -> Answer {
+/// Begins the dialog that a blank one becomes by a request.
+pub(super) fn begin(blank: AsyncFileDialog, request: &PickRequest) -> Answer {
     // macOS wants the dialog itself made here, on the main thread.
-    let dialog = dialog(request);
+    let dialog = dialog(blank, request);
     Box::pin(async {
         #[cfg(all(unix, not(target_os = "macos")))]
         if !super::portal::has_file_dialogs().await {
@@ -19,9 +19,12 @@ pub(super) fn begin(request: &PickRequest) -> Answer {
     })
 }
 
-fn dialog(request: &PickRequest) -> Pin<Box<dyn Future<Output = Option<FileHandle>> + Send>> {
+fn dialog(
+    blank: AsyncFileDialog,
+    request: &PickRequest,
+) -> Pin<Box<dyn Future<Output = Option<FileHandle>> + Send>> {
     let (kind, endings) = request.purpose.files();
-    let mut dialog = AsyncFileDialog::new().set_title(request.purpose.title());
+    let mut dialog = blank.set_title(request.purpose.title());
     if let Some(folder) = &request.folder {
         dialog = dialog.set_directory(folder);
     }

@@ -4,6 +4,7 @@ use egui::{Button, DragValue, Grid, TextEdit, Ui};
 use lightloom_core::export::{FilmFormat, FrameFormat};
 
 use super::options::{self, ExportOptions};
+use super::path_field::path_field;
 use crate::editor::context::EditorContext;
 use crate::editor::dialogs::{PickRequest, Picker, Purpose};
 use crate::editor::panels::layer_boxes;
@@ -71,12 +72,7 @@ pub(super) fn show(
         ui.end_row();
         let tip = "The output folder; created if it does not exist.";
         row(ui, "Folder", tip, &mut options.folder, &own.folder, |ui, folder| {
-            let mut text = folder.to_string_lossy().into_owned();
-            let tooltip = text.clone();
-            let field = TextEdit::singleline(&mut text).desired_width(FOLDER);
-            if ui.add(field).accessible_name("Folder").on_hover_text(tooltip).changed() {
-                *folder = text.into();
-            }
+            path_field(ui, folder, FOLDER, "Folder");
             if ui.button("Browse…").clicked() {
                 let start = folder.parent().map(ToOwned::to_owned);
                 picker.ask(PickRequest::new(Purpose::ExportFolder).in_folder(start), ui.ctx());

@@ -5,6 +5,7 @@ mod form;
 mod job;
 mod job_list;
 mod options;
+mod path_field;
 mod queue;
 mod record;
 mod status_line;

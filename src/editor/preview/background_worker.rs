@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lightloom_core::engine::Shot;
+use lightloom_core::progress::Snapshot;
 use lightloom_core::{Error, Result};
 
 use super::subject::Subject;
@@ -82,6 +83,11 @@ impl BackgroundWorker {
     /// The newest look.
     pub(super) fn shot(&self) -> Option<Arc<Shot>> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).shot.clone()
+    }
+
+    /// The progress of the work under way; none while it waits.
+    pub(super) fn progress(&self) -> Option<Snapshot> {
+        self.worker.progress()
     }
 
     /// What a panic of the worker said, once.

@@ -213,7 +213,8 @@ impl LivePreview {
             ));
             self.coverage.fill(State::Failed);
         }
-        self.activity = self.previews.progress().and_then(|seen| {
+        let background = || self.background.progress().filter(|_| self.shows_shot);
+        self.activity = self.previews.progress().or_else(background).and_then(|seen| {
             let fraction = seen.fraction as f32;
             Some(Activity { stage: seen.stage?, fraction })
         });

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use glam::{Vec2, vec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb, RgbImage};
-use lightloom_core::targets::{Brightness, ImageTarget, PictureSampler};
+use lightloom_core::targets::{Brightness, ImageTarget, PictureSampler, Placement};
 
 use super::picture_colours;
 
@@ -188,4 +188,22 @@ fn what_is_not_read_is_named_with_the_way_out() {
     let error =
         brightness(b"version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 9\n", 2).unwrap_err();
     assert!(error.contains("git lfs pull"), "{error}");
+}
+
+#[test]
+fn a_picture_beyond_the_edge_is_named_with_its_share() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("white.png");
+    RgbImage::from_pixel(8, 8, Rgb([255; 3])).save(&path).unwrap();
+    let notes = |centre: [f32; 2]| {
+        let placement = Placement { centre: Some(centre), width: Some(0.4), rotate: 0.0 };
+        let target = ImageTarget { placement, ..ImageTarget::new("white.png") };
+        PictureSampler::load(&path, &target, Vec2::ONE, "keys[1].shows.image").unwrap().notes().join("\n")
+    };
+    assert_eq!(notes([0.2, 0.8]), "", "it touches two edges");
+    // A quarter of the square, and the half of it.
+    for (centre, share) in [([0.9, 0.5], "25 %"), ([0.5, 0.0], "50 %")] {
+        let text = notes(centre);
+        assert!(text.contains(share) && text.contains("(keys[1].shows.image.placement.centre)"), "{text}");
+    }
 }

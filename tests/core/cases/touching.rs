@@ -305,3 +305,22 @@ fn what_touches_is_named() {
     assert!(near.contains("'box' nearly touches the receiver, up to 1e-6 m apart"), "{near}");
     assert_eq!(notes(&on_tilted(1e-4, false)), Vec::<String>::new());
 }
+
+#[test]
+fn glass_that_the_receiver_cuts_off_is_named() {
+    let sphere = |height: f32| {
+        let at = vec3(0.0, height, 0.0);
+        notes(&stage((ABOVE, 20.0), |s| _ = s.mesh("ball", sphere_obj(3, at, 0.1), glass(1.5)))).join("\n")
+    };
+    // Its lowest vertex is a pole.
+    let sunk = sphere(0.06);
+    assert!(sunk.contains("'ball' stands 0.04 m deep in the receiver"), "{sunk}");
+    assert!(sunk.contains("scene.meshes[0].transform.translate"), "{sunk}");
+    assert!(sphere(-0.2).contains("'ball' lies behind the receiver"));
+    // By a hair, as it is done to make things touch.
+    assert!(!sphere(0.0995).contains("deep in the receiver"));
+    let mut beside =
+        stage((ABOVE, 20.0), |s| _ = s.mesh("ball", sphere_obj(3, vec3(9.0, 0.0, 0.0), 0.1), glass(1.5)));
+    beside.desc.receiver.surround = 0.0;
+    assert!(!notes(&beside).join("\n").contains("receiver"), "over the edge of the table");
+}

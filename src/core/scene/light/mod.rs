@@ -101,6 +101,11 @@ impl LightDesc {
         }
     }
 
+    /// Whether its light through glass and mirrors is traced: it is on, and not there for the background alone.
+    pub fn casts_caustics(&self) -> bool {
+        self.is_enabled() && self.role() != LightRole::Background
+    }
+
     /// Its position, world (m); none for a directional one.
     pub fn position(&self) -> Option<Vec3> {
         match self {
