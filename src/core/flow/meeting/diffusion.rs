@@ -4,6 +4,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::fields::MeetingFields;
+use super::made_up::MadeUp;
 use super::tears::tears;
 use crate::flow::spatial_order::spatial_order;
 use crate::flow::walls::{Clearance, SUBSTEPS, bounce};
@@ -34,12 +35,18 @@ const BESIDE: [f32; 2] = [0.18, 0.3];
 const WIDEST: [f32; 2] = [0.5, 0.08];
 const CLOSES: [f32; 2] = [1.0, 1.5];
 
+/// Standard deviation over what a photon has made up for of its gap: where the gap of neighbours differs, light is spread over the
+/// seam between them.
+const MADE_UP: f32 = 0.5;
+
 /// The displacement of each photon about its trajectory, plane units: 0 at both key frames, largest half way.
 pub(super) struct Diffusion {
     /// By row, of standard deviation 1 along each axis.
     directions: Vec<Vec2>,
     /// Standard deviations half way everywhere, by row.
     even: Vec<f32>,
+    /// The gaps at the meeting, by row.
+    gaps: Vec<Vec2>,
     /// Those beside the tears of the body of either key frame; of all, the widest counts.
     torn: [Torn; 2],
     /// The mean of the standard deviations everywhere.
@@ -47,12 +54,16 @@ pub(super) struct Diffusion {
 }
 
 impl Diffusion {
-    /// For photons from `source` to `targets` that are at `meeting` half way, those of either key frame. Those that move less than
+    /// For photons between both `keys` that `meet` half way, those of either key frame. Those that move less than
     /// pieces hold together have less of it, so that light at rest stays as it is. Neighbours have displacements of low
     /// discrepancy: light that is even stays so.
-    pub(super) fn new(hold: f32, keys: [&[Vec2]; 2], meeting: [&[Vec2]; 2]) -> Self {
+    pub(super) fn new(hold: f32, keys: [&[Vec2]; 2], meet: [&[Vec2]; 2]) -> Self {
+        let ends = || meet[0].par_iter().zip(meet[1]);
+        // With the gap made up for: where that jumps, light tears as well.
+        let meeting: Vec<Vec2> = ends().map(|(a, b)| a.midpoint(*b)).collect();
+        let gaps = ends().map(|(a, b)| b - a).collect();
         let mut directions = vec![Vec2::ZERO; keys[0].len()];
-        for (index, row) in spatial_order(meeting[0]).into_iter().enumerate() {
+        for (index, row) in spatial_order(&meeting).into_iter().enumerate() {
             let [x, y] = sobol::scrambled(index as u32, 0);
             let radius = (-2.0 * (1.0 - x).ln()).sqrt().min(FARTHEST) as f32;
             directions[row as usize] = radius * Vec2::from_angle(std::f32::consts::TAU * y as f32);
@@ -60,9 +71,9 @@ impl Diffusion {
         let moved = keys[0].par_iter().zip(keys[1]).map(|(a, b)| a.distance(*b).min(hold));
         let even: Vec<f32> = moved.map(|moved| SHARE * moved).collect();
         let mean = even.iter().copied().map(f64::from).sum::<f64>() / even.len().max(1) as f64;
-        let torn = |side: usize| Torn::new(hold, keys[side], meeting[side]);
+        let torn = |side: usize| Torn::new(hold, keys[side], &meeting);
         let torn = rayon::join(|| torn(0), || torn(1)).into();
-        Self { directions, even, torn, mean: mean as f32 }
+        Self { directions, even, gaps, torn, mean: mean as f32 }
     }
 
     /// The mean standard deviation along each axis at time `t`, without those beside tears, plane units.
@@ -74,13 +85,16 @@ impl Diffusion {
     pub(super) fn displace(&self, fields: &MeetingFields, t: f64, positions: &mut [Vec2]) {
         let share = share(t);
         let closes = [self.torn[0].closes(t), self.torn[1].closes(1.0 - t)];
+        let made_up = MadeUp::at(t.min(1.0 - t) as f32, fields.hold());
         let step = ((t * (fields.steps() * SUBSTEPS) as f64) as usize).min(fields.steps() * SUBSTEPS - 1);
         let obstacles = fields.obstacles();
         let walls = obstacles.and_then(|walls| Some((walls.clearance(step)?, walls.graph(step)?.barriers())));
         positions.par_iter_mut().enumerate().with_min_len(4096).for_each(|(row, position)| {
             let torn = [0, 1].map(|side| closes[side] * self.torn[side].deviation[row]);
             // The widest: as a sum, all of a body with many tears would be out of focus half way.
-            let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]);
+            let gap = self.gaps[row];
+            let seam = MADE_UP * made_up.share(gap) * gap.length();
+            let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]).max(seam);
             let most = |(clearance, _): (&Clearance, _)| NEAR_WALLS * clearance.at(*position).max(0.0);
             let by = deviation.min(walls.map_or(f32::INFINITY, most)) * self.directions[row];
             *position = match walls {
@@ -139,7 +153,7 @@ mod tests {
         let targets: Vec<Vec2> =
             source.iter().enumerate().map(|(i, p)| if i < 1000 { *p } else { *p + 0.2 }).collect();
         let fields = MeetingFields::new(4, 0.1, None, None).with_hold(0.05);
-        let diffusion = Diffusion::new(fields.hold(), [&source, &targets], [&source, &targets]);
+        let diffusion = Diffusion::new(fields.hold(), [&source, &targets], [&source, &source]);
         for t in [0.0, 1.0] {
             let mut at = source.clone();
             diffusion.displace(&fields, t, &mut at);

@@ -163,8 +163,7 @@ impl Trajectories for MeetingTrajectories<'_> {
         self.positions_at(t, out, progress)?;
         let Self { fields, source, targets, .. } = *self;
         let Some([forward, backward]) = &self.halves else { return Ok(0.0) };
-        let meeting = [forward.end(), backward.end()];
-        let new = || Diffusion::new(fields.hold(), [source, targets], meeting);
+        let new = || Diffusion::new(fields.hold(), [source, targets], [forward.end(), backward.end()]);
         let diffusion = self.diffusion.get_or_insert_with(new);
         diffusion.displace(fields, t, out);
         Ok(diffusion.deviation(t))
