@@ -297,9 +297,12 @@ fn unknowns(project: &Project, extent: Vec2) -> f64 {
 
 /// Measured on the examples: the peak is in the passes.
 fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
-    let moving = project.keys.len() > 1;
-    // Both keys' positions and flux, the pairing, the tracks, and copies of them; what is remembered of the first pass.
-    let photons = plan.photons as f64 * if moving { 600.0 } else { 150.0 };
+    // Of a photon: both keys' positions and flux, the pairing, the tracks, and copies of them; what is remembered of the first pass,
+    // for further segments, too; what is known of it where it is traced.
+    let segments = project.keys.len().saturating_sub(1);
+    let moving = if segments > 0 { 575.0 + 25.0 * segments as f64 } else { 150.0 };
+    let traced = if project.traces() { 130.0 } else { 0.0 };
+    let photons = plan.photons as f64 * (moving + traced);
     let layers: usize = (1..project.keys.len()).map(|key| layers(project, key)).sum();
     let fields = if project.fits() {
         8.0 * layers as f64 * unknowns(project, extent) * f64::from(project.flow.steps + 1)
@@ -307,7 +310,7 @@ fn memory_mib(project: &Project, extent: Vec2, plan: &Plan) -> f64 {
         0.0
     };
     let noises = match swirls(project) {
-        Some(turbulence) => project.keys.len().saturating_sub(1) as f64 * turbulence.bytes(extent) as f64,
+        Some(turbulence) => segments as f64 * turbulence.bytes(extent) as f64,
         None => 0.0,
     };
     let pixels = f64::from(project.render.width) * f64::from(project.render.height);
