@@ -91,9 +91,9 @@ impl Diffusion {
         let walls = obstacles.and_then(|walls| Some((walls.clearance(step)?, walls.graph(step)?.barriers())));
         positions.par_iter_mut().enumerate().with_min_len(4096).for_each(|(row, position)| {
             let torn = [0, 1].map(|side| closes[side] * self.torn[side].deviation[row]);
-            // The widest: as a sum, all of a body with many tears would be out of focus half way.
             let gap = self.gaps[row];
             let seam = MADE_UP * made_up.share(gap) * gap.length();
+            // The widest: as a sum, all of a body with many tears would be out of focus half way.
             let deviation = (share * self.even[row]).max(torn[0]).max(torn[1]).max(seam);
             let most = |(clearance, _): (&Clearance, _)| NEAR_WALLS * clearance.at(*position).max(0.0);
             let by = deviation.min(walls.map_or(f32::INFINITY, most)) * self.directions[row];
@@ -175,5 +175,26 @@ mod tests {
             "{}",
             diffusion.deviation(0.5)
         );
+    }
+    #[test]
+    fn where_the_gap_jumps_light_is_spread_as_far_as_the_seam_opens() {
+        // One body whose right half has another gap than the left; it rests but for that.
+        let at: Vec<Vec2> = (0..4000).map(|i| Vec2::new(i as f32 / 4000.0, 0.5)).collect();
+        let gap = Vec2::new(0.0, 0.02);
+        let met: Vec<Vec2> =
+            at.iter().enumerate().map(|(i, p)| if i < 2000 { *p } else { *p + gap }).collect();
+        let fields = MeetingFields::new(4, 0.1, None, None).with_hold(0.05);
+        let diffusion = Diffusion::new(fields.hold(), [&at, &at], [&at, &met]);
+        for t in [0.2, 0.5, 0.8] {
+            let mut spread = at.clone();
+            diffusion.displace(&fields, t, &mut spread);
+            let moved = |row: usize| spread[row].distance_squared(at[row]);
+            assert!((0..2000).all(|row| moved(row) == 0.0), "light without a gap moves at {t}");
+            let opens = MadeUp::at(t.min(1.0 - t) as f32, fields.hold()).share(gap) * gap.length();
+            let mean = (2000..4000).map(moved).sum::<f32>() / 2000.0;
+            // As above: 2 sigma^2, known to 1/sqrt(2000) and the 1 % cut off.
+            let expected = 2.0 * (MADE_UP * opens).powi(2);
+            assert!((mean / expected - 1.0).abs() < 0.08, "mean square {mean}, expected {expected} at {t}");
+        }
     }
 }
