@@ -34,9 +34,12 @@ fn end_of(ui: &Ui, path: &Path, width: f32) -> String {
         galley.size().x <= room
     };
     let whole = path.to_string_lossy();
-    let ends = whole.char_indices().filter(|(at, c)| *at > 0 && std::path::is_separator(*c));
-    let mut candidates: Vec<String> = ends.map(|(at, _)| format!("…{}", &whole[at..])).collect();
-    candidates.insert(0, whole.clone().into_owned());
-    let last = candidates.last().cloned().unwrap_or_default();
-    candidates.into_iter().find(|text| fits(text)).unwrap_or(last)
+    let mut shown = whole.clone().into_owned();
+    for (at, _) in whole.char_indices().filter(|(at, c)| *at > 0 && std::path::is_separator(*c)) {
+        if fits(&shown) {
+            break;
+        }
+        shown = format!("…{}", &whole[at..]);
+    }
+    shown
 }

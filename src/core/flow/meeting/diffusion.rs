@@ -176,6 +176,7 @@ mod tests {
             diffusion.deviation(0.5)
         );
     }
+
     #[test]
     fn where_the_gap_jumps_light_is_spread_as_far_as_the_seam_opens() {
         // One body whose right half has another gap than the left; it rests but for that.
