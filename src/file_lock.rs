@@ -8,7 +8,7 @@ use std::io::{Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-use lightloom_core::files::try_hold;
+use lightloom_core::files::{is_at, try_hold};
 use serde::{Deserialize, Serialize};
 
 /// How often the owner shows that it lives.
@@ -124,20 +124,6 @@ impl Owner {
             false => format!("another editor (process {} on {})", self.process, self.host),
         }
     }
-}
-
-/// Whether the open file is still the one at its path.
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt as _;
-    let (Ok(open), Ok(there)) = (file.metadata(), std::fs::metadata(path)) else { return false };
-    (open.dev(), open.ino()) == (there.dev(), there.ino())
-}
-
-/// Whether there is a file at the path; a file that is open cannot be replaced on this system.
-#[cfg(not(unix))]
-fn is_at(_: &File, path: &Path) -> bool {
-    path.exists()
 }
 
 #[cfg(test)]

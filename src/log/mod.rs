@@ -13,6 +13,7 @@ use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use lightloom_core::files::make_private;
 use lightloom_core::{Error, Result};
 use tracing::level_filters::LevelFilter;
 use tracing_subscriber::Layer as _;
@@ -20,7 +21,7 @@ use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt as _;
 use tracing_subscriber::util::SubscriberInitExt as _;
 
-use crate::editor::store::{self, Folders};
+use crate::editor::store::Folders;
 pub(crate) use choice::LogChoice;
 pub use report::report;
 use sink::{RUN, Sink};
@@ -59,7 +60,7 @@ pub(crate) fn begin(choice: &LogChoice, folders: Option<&Folders>) -> Result<()>
 
 /// A new log in the folder of logs.
 fn in_folder(logs: &Path) -> Result<(File, PathBuf)> {
-    store::make_private(logs)?;
+    make_private(logs)?;
     folder::make_room(logs)?;
     create(folder::new_file(logs))
 }

@@ -244,7 +244,7 @@ fn sigterm_keeps_the_frames_as_ctrl_c_does() {
         let out = folder.path().join("out");
         let mut program = Command::new(env!("CARGO_BIN_EXE_lightloom"))
             // More passes than anybody waits for.
-            .args(["render", text(&project), "--out", text(&out), "--passes", "20000"])
+            .args(["render", text(&project), "--out", text(&out), "--passes", "6000"])
             .stdout(std::process::Stdio::piped())
             .spawn()
             .unwrap();

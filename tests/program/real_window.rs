@@ -3,8 +3,6 @@
 //!
 //! The same window without a screen tells where everything stands.
 
-use crate::window;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -19,6 +17,9 @@ use lightloom::editor::command::Command as EditorCommand;
 use lightloom::editor::export::ExportOptions;
 use lightloom_core::constraint::Constraint;
 use lightloom_core::project::Project;
+
+use crate::small::make_small;
+use crate::window;
 
 /// Xvfb and the program on it; both end with it.
 struct Screen {
@@ -160,15 +161,6 @@ fn export_five_frames(screen: &Screen, Places { frames, export, .. }: &Places) {
     screen.click(middle(*export));
 }
 
-/// The example with frames that are rendered in no time.
-fn make_small(path: &Path, passes: usize) {
-    let text = fs::read_to_string(path).unwrap();
-    let size = r#""width": 720, "height": 720, "photons": 500000, "passes": 8"#;
-    assert!(text.contains(size), "the example says its size in other words");
-    let small = format!(r#""width": 96, "height": 96, "photons": 6000, "passes": {passes}"#);
-    fs::write(path, text.replace(size, &small)).unwrap();
-}
-
 #[test]
 fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
     let folder = window::examples();
@@ -177,7 +169,7 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path, 1);
+    make_small(&path, [96, 96], 1);
     let original = fs::read(&path).unwrap();
     let places = places(&folder);
     let (plane, gamma) = (places.plane, places.gamma);
@@ -236,7 +228,7 @@ fn an_export_that_was_killed_is_offered_and_ends_with_the_bytes_of_the_command_l
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path, 100);
+    make_small(&path, [96, 96], 100);
     let places = places(&folder);
     fs::create_dir_all(folder.path().join("config")).unwrap();
     window::preferences().save(&folder.path().join("config")).unwrap();

@@ -7,8 +7,8 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use crate::root;
-use crate::small::{letters, lightloom};
+use crate::small::{letters, lightloom, make_small};
+use crate::window;
 
 fn text(path: &Path) -> &str {
     path.to_str().unwrap()
@@ -118,16 +118,16 @@ fn frames_of_another_render_are_refused_replaced_or_kept_as_asked() {
 #[test]
 fn parts_that_start_from_a_bake_have_the_bytes_of_one_render() {
     let (letters_folder, letters) = letters("guided");
-    let glass = root().join("projects/dark_glass.json");
-    let bottles = root().join("projects/bottles.json");
-    let small = ["--size", "32x24", "--photons", "3000", "--passes", "2", "--frames"];
+    let examples = window::examples();
+    let [glass, bottles] = ["dark_glass", "bottles"].map(|name| {
+        let path = window::project(&examples, name);
+        make_small(&path, [32, 24], 2);
+        path
+    });
     for (name, project) in [("letters", &letters), ("glass", &glass), ("bottles", &bottles)] {
         let place = |part: &str| letters_folder.path().join(format!("{name}_{part}"));
         let (whole, parts, bake) = (place("whole"), place("parts"), place("bake"));
-        let with = |head: &[&str], frames: &str| {
-            let all = [head, &small, &[frames]].concat();
-            run(0, &all)
-        };
+        let with = |head: &[&str], frames: &str| run(0, &[head, &["--frames", frames]].concat());
         let project = text(project);
         with(&["render", project, "--out", text(&whole)], "1,4,8-9");
         with(&["fit", project, "--bake", text(&bake)], "1");
@@ -147,9 +147,7 @@ fn parts_that_start_from_a_bake_have_the_bytes_of_one_render() {
         run(0, &["verify", text(&parts), "--bake", text(&bake), "--frames", "1,4,8-9"]);
         let other =
             ["render", project, "--out", text(&parts), "--bake", text(&bake), "--frames", "1", "--seed", "9"];
-        assert!(
-            run(2, &[&other[..], &small[..6]].concat()).contains("another content, size, quality or seed")
-        );
+        assert!(run(2, &other).contains("another content, size, quality or seed"));
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use serde_json::json;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// A folder with a small letters project: C becomes S over frames 1 to 9, no scene.
@@ -26,6 +26,19 @@ pub(crate) fn letters(method: &str) -> (TempDir, PathBuf) {
     let path = folder.path().join("letters.json");
     fs::write(&path, project.to_string()).unwrap();
     (folder, path)
+}
+
+/// Makes the project at `path` small: a coarse flow, few photons, small frames.
+pub(crate) fn make_small(path: &Path, [width, height]: [u32; 2], passes: usize) {
+    let mut project: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
+    let small = json!({
+        "flow": { "grid": 32, "steps": 12, "guides": 4000 },
+        "render": { "width": width, "height": height, "photons": 6000, "passes": passes }
+    });
+    for (part, settings) in small.as_object().unwrap() {
+        settings.as_object().unwrap().iter().for_each(|(name, value)| project[part][name] = value.clone());
+    }
+    fs::write(path, serde_json::to_string_pretty(&project).unwrap()).unwrap();
 }
 
 /// Starts the program and waits for its end.

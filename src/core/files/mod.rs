@@ -7,7 +7,7 @@ pub mod npz;
 mod space;
 
 pub(crate) use copy::{copy_new, is_same_content};
-pub use hold::try_hold;
+pub use hold::{is_at, try_hold};
 pub use space::{free_bytes, reserve};
 
 use std::fs::File;
@@ -93,6 +93,18 @@ fn folder_of(path: &Path) -> &Path {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     }
+}
+
+/// Creates a folder and its parents, accessible to this user only; existing folders stay as they are.
+///
+/// # Errors
+/// `Io` when the system refuses.
+pub fn make_private(folder: &Path) -> Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder).map_err(Error::io("create", folder))
 }
 
 fn require_regular(path: &Path, metadata: &std::fs::Metadata) -> Result<()> {

@@ -43,6 +43,7 @@ settings! { KeyFrame {
         Choice { value: "linear", help: "constant pace" },
         Choice { value: "in", help: "starts at rest, arrives at full pace" },
         Choice { value: "out", help: "starts at full pace, comes to rest" },
+        Choice { value: "settle", help: "starts at rest, is soon at full pace, comes to rest slowly" },
     ]);
 } }
 
@@ -60,9 +61,14 @@ pub enum Ease {
     In,
     /// x (2 - x).
     Out,
+    /// x^2 (6 - 8 x + 3 x^2), whose pace x (1 - x)^2 is the highest after a third of the frames.
+    Settle,
 }
 
 impl Ease {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Smooth, Self::Linear, Self::In, Self::Out, Self::Settle];
+
     /// The eased time in the segment for the linear share `x` of its frames; both 0..=1.
     pub fn apply(self, x: f64) -> f64 {
         let x = x.clamp(0.0, 1.0);
@@ -71,6 +77,7 @@ impl Ease {
             Self::Linear => x,
             Self::In => x * x,
             Self::Out => x * (2.0 - x),
+            Self::Settle => x * x * (6.0 - x * (8.0 - 3.0 * x)),
         }
     }
 }
@@ -170,9 +177,20 @@ mod tests {
     }
 
     #[test]
-    fn every_ease_begins_at_the_key_and_ends_at_the_next() {
-        for ease in [Ease::Smooth, Ease::Linear, Ease::In, Ease::Out] {
+    fn every_ease_goes_from_key_to_key_and_rests_where_it_says_so() {
+        for ease in Ease::ALL {
             assert_eq!((ease.apply(0.0), ease.apply(1.0)), (0.0, 1.0));
+            let times: Vec<f64> = (0..=100).map(|i| ease.apply(f64::from(i) / 100.0)).collect();
+            assert!(times.is_sorted(), "{ease:?} goes back");
+            // At rest the way of the first hundredth is of second order: at most 6 of its squares.
+            let rests = [times[1], 1.0 - times[99]].map(|way| way < 6e-4);
+            let says = match ease {
+                Ease::Smooth | Ease::Settle => [true, true],
+                Ease::Linear => [false, false],
+                Ease::In => [true, false],
+                Ease::Out => [false, true],
+            };
+            assert_eq!(rests, says, "{ease:?}");
         }
     }
 

@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, editor: &mut EditorContext) {
     ui.add_space(4.0);
     let mut changed = key.clone();
     frame(ui, keys, index, &mut changed);
-    EASE.choose(ui, &mut changed.ease, &[Ease::Smooth, Ease::Linear, Ease::In, Ease::Out]);
+    EASE.choose(ui, &mut changed.ease, &Ease::ALL);
     if let Some(Some(shows)) =
         shows::show(ui, editor, &TargetSlot { key: index, caustic: None }, Some(&key.shows))
     {

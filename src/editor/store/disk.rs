@@ -1,11 +1,10 @@
 //! File operations shared by the store.
 
-use std::fs::DirBuilder;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
-use lightloom_core::{Error, Result, files};
+use lightloom_core::{Result, files};
 use serde::{Deserialize, Serialize};
 
 /// Age from which a temporary file counts as abandoned.
@@ -29,19 +28,10 @@ impl Fingerprint {
     }
 }
 
-/// Creates a folder and its parents, accessible to this user only; existing folders stay as they are.
-pub(crate) fn make_private(folder: &Path) -> Result<()> {
-    let mut builder = DirBuilder::new();
-    builder.recursive(true);
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.create(folder).map_err(Error::io("create", folder))
-}
-
 /// Writes a file of the editor atomically and durably, creating its folder if needed.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     if let Some(folder) = path.parent() {
-        make_private(folder)?;
+        files::make_private(folder)?;
     }
     files::write_atomic(path, |file| file.write_all(bytes))?;
     files::sync_folder_of(path)

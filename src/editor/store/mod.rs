@@ -28,7 +28,6 @@ pub use attached::Hold;
 pub use backups::Backup;
 pub use collect::{CollectRequest, collect};
 pub use disk::Fingerprint;
-pub(crate) use disk::make_private;
 pub use folders::Folders;
 pub use journal::{Journal, Note};
 pub use preferences::{PhotonRenderer, Preferences, Theme};

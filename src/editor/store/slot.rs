@@ -4,10 +4,8 @@
 use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
 
-use lightloom_core::files::try_hold;
+use lightloom_core::files::{make_private, try_hold};
 use lightloom_core::{Error, Result};
-
-use super::disk;
 
 /// Attempts to create a name that no other editor removes at the same moment.
 const TRIES: usize = 16;
@@ -23,7 +21,7 @@ pub(super) struct JournalSlot {
 impl JournalSlot {
     /// A new slot with a random name; the file itself does not exist yet.
     pub(super) fn new(folder: &Path) -> Result<Self> {
-        disk::make_private(folder)?;
+        make_private(folder)?;
         for _ in 0..TRIES {
             let lock = tempfile::Builder::new().prefix("").suffix(".lock").rand_bytes(12).tempfile_in(folder);
             let (lock, lock_path) =

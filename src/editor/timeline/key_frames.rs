@@ -23,10 +23,6 @@ const PICTURE: f32 = 44.0;
 /// Distance of the diamonds' centres from the bottom of the lane.
 const DIAMOND: f32 = 13.0;
 
-/// The easings with their names.
-const EASES: [(Ease, &str); 4] =
-    [(Ease::Smooth, "Smooth"), (Ease::Linear, "Linear"), (Ease::In, "Ease in"), (Ease::Out, "Ease out")];
-
 impl Timeline {
     /// Shows the lane and asks for edits of the key frames.
     pub(super) fn keys(&mut self, ui: &mut Ui, rect: Rect, scale: &Scale, editor: &mut EditorContext) {
@@ -210,8 +206,8 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
         } else {
             "Easing, once a key follows"
         });
-        for (ease, name) in EASES {
-            if ease_item(ui, ease, name, project.keys[index].ease == ease) {
+        for ease in Ease::ALL {
+            if ease_item(ui, ease, project.keys[index].ease == ease) {
                 let mut keys = project.keys.clone();
                 keys[index].ease = ease;
                 step(editor, Edit::Keys(keys));
@@ -240,7 +236,14 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
 }
 
 /// A menu item with an easing curve.
-fn ease_item(ui: &mut Ui, ease: Ease, name: &str, chosen: bool) -> bool {
+fn ease_item(ui: &mut Ui, ease: Ease, chosen: bool) -> bool {
+    let name = match ease {
+        Ease::Smooth => "Smooth",
+        Ease::Linear => "Linear",
+        Ease::In => "Ease in",
+        Ease::Out => "Ease out",
+        Ease::Settle => "Settle",
+    };
     let place = IdSalt::new("curve");
     let shown = Button::selectable(chosen, (Atom::custom(place, vec2(22.0, 16.0)), name)).atom_ui(ui);
     if let Some(square) = shown.rect(place) {
