@@ -7,7 +7,7 @@ use glam::Vec2;
 use lightloom_core::engine::{Engine, Preview, Quality};
 use lightloom_core::flow::MotionMethod;
 use lightloom_core::photon::Tracer;
-use lightloom_core::project::{AssetFolder, Ease, Project};
+use lightloom_core::project::{AssetFolder, Ease, Project, Shows};
 use lightloom_core::scene::light::{LightRole, PointLight};
 use lightloom_core::scene::{LightDesc, Scene};
 use lightloom_core::{Error, Progress};
@@ -168,8 +168,11 @@ fn photons_start_at_the_physical_caustic_and_end_at_their_targets() {
     let (first, last) = (*preview.frames().start(), *preview.frames().end());
     assert_eq!(sorted(preview.positions(first).unwrap()), sorted(&photons.positions));
     assert_eq!(preview.positions(last).unwrap(), preview.targets(first));
-    // The flower stands at (0.65, 0.31) and is 0.4 wide.
-    let inside = |p: &Vec2| (*p - Vec2::new(0.65, 0.31)).abs().max_element() <= 0.2 + 1e-5;
+    // On the picture, a square.
+    let Shows::Image(flower) = &project.keys[1].shows else { panic!("the example ends with a picture") };
+    let (centre, width) = (Vec2::from(flower.placement.centre.unwrap()), flower.placement.width.unwrap());
+    let upright = Vec2::from_angle(-flower.placement.rotate.to_radians());
+    let inside = |p: &Vec2| upright.rotate(*p - centre).abs().max_element() <= 0.5 * width + 1e-5;
     assert!(preview.targets(first).iter().all(inside));
     let track = preview.track(17);
     assert_eq!(track.len(), preview.frames().count());

@@ -13,7 +13,7 @@ use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 const FRAME: Control = Control::new("Frame", KeyFrame::FRAME);
-const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "In", "Out"]);
+const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "In", "Out", "Settle"]);
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] = &[FRAME, EASE];
