@@ -13,7 +13,9 @@ use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
 
 const FRAME: Control = Control::new("Frame", KeyFrame::FRAME);
-const EASE: Control = Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "In", "Out", "Settle"]);
+/// How the time runs to the next key frame, with the names of [`Ease::ALL`].
+pub(in crate::editor) const EASE: Control =
+    Control::new("Ease", KeyFrame::EASE).labels(&["Smooth", "Linear", "Ease in", "Ease out", "Settle"]);
 
 /// The settings of this panel.
 pub(super) const CONTROLS: &[Control] = &[FRAME, EASE];

@@ -20,6 +20,7 @@ use egui::{Button, ScrollArea, Ui};
 
 pub use control::Control;
 pub(crate) use drawn::row::title;
+pub(in crate::editor) use keys::EASE;
 pub use pictures::Trio;
 pub use presets::{PRESETS, Preset};
 pub(in crate::editor) use render::layer_boxes;

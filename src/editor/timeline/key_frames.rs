@@ -14,6 +14,7 @@ use super::thumbnails::Thumbnail;
 use super::{Timeline, edits, icons};
 use crate::editor::context::EditorContext;
 use crate::editor::document::Edit;
+use crate::editor::panels::EASE;
 use crate::editor::session::Panel;
 use crate::editor::templates;
 use crate::editor::theme;
@@ -206,8 +207,8 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
         } else {
             "Easing, once a key follows"
         });
-        for ease in Ease::ALL {
-            if ease_item(ui, ease, project.keys[index].ease == ease) {
+        for (ease, name) in Ease::ALL.into_iter().zip(EASE.labels) {
+            if ease_item(ui, ease, name, project.keys[index].ease == ease) {
                 let mut keys = project.keys.clone();
                 keys[index].ease = ease;
                 step(editor, Edit::Keys(keys));
@@ -236,14 +237,7 @@ fn menu(response: &Response, index: usize, editor: &mut EditorContext, project: 
 }
 
 /// A menu item with an easing curve.
-fn ease_item(ui: &mut Ui, ease: Ease, chosen: bool) -> bool {
-    let name = match ease {
-        Ease::Smooth => "Smooth",
-        Ease::Linear => "Linear",
-        Ease::In => "Ease in",
-        Ease::Out => "Ease out",
-        Ease::Settle => "Settle",
-    };
+fn ease_item(ui: &mut Ui, ease: Ease, name: &str, chosen: bool) -> bool {
     let place = IdSalt::new("curve");
     let shown = Button::selectable(chosen, (Atom::custom(place, vec2(22.0, 16.0)), name)).atom_ui(ui);
     if let Some(square) = shown.rect(place) {
