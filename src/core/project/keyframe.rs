@@ -61,7 +61,7 @@ pub enum Ease {
     In,
     /// x (2 - x).
     Out,
-    /// x^2 (6 - 8 x + 3 x^2), whose pace x (1 - x)^2 is the highest after a third of the frames.
+    /// x^2 (6 - 8 x + 3 x^2); its pace, 12 x (1 - x)^2, is the highest after a third of the frames.
     Settle,
 }
 
