@@ -169,7 +169,7 @@ fn a_hand_draws_a_wall_tunes_undoes_saves_and_exports() {
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path, [96, 96], 1);
+    make_small(&path, 1);
     let original = fs::read(&path).unwrap();
     let places = places(&folder);
     let (plane, gamma) = (places.plane, places.gamma);
@@ -228,7 +228,7 @@ fn an_export_that_was_killed_is_offered_and_ends_with_the_bytes_of_the_command_l
         return;
     };
     let path = window::project(&folder, "letters_free");
-    make_small(&path, [96, 96], 100);
+    make_small(&path, 100);
     let places = places(&folder);
     fs::create_dir_all(folder.path().join("config")).unwrap();
     window::preferences().save(&folder.path().join("config")).unwrap();

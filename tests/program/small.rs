@@ -19,26 +19,25 @@ pub(crate) fn letters(method: &str) -> (TempDir, PathBuf) {
         "lightloom": 1,
         "name": "Small letters",
         "keys": [key(1, "letter_c.png"), key(9, "letter_s.png")],
-        "method": method,
-        "flow": { "grid": 32, "steps": 8, "guides": 4000 },
-        "render": { "width": 96, "height": 96, "photons": 6000, "passes": 2 }
+        "method": method
     });
     let path = folder.path().join("letters.json");
     fs::write(&path, project.to_string()).unwrap();
+    make_small(&path, 2);
     (folder, path)
 }
 
 /// Makes the project at `path` small: a coarse flow, few photons, small frames.
-pub(crate) fn make_small(path: &Path, [width, height]: [u32; 2], passes: usize) {
+pub(crate) fn make_small(path: &Path, passes: usize) {
     let mut project: Value = serde_json::from_slice(&fs::read(path).unwrap()).unwrap();
     let small = json!({
-        "flow": { "grid": 32, "steps": 12, "guides": 4000 },
-        "render": { "width": width, "height": height, "photons": 6000, "passes": passes }
+        "flow": { "grid": 32, "steps": 8, "guides": 4000 },
+        "render": { "width": 96, "height": 96, "photons": 6000, "passes": passes }
     });
     for (part, settings) in small.as_object().unwrap() {
         settings.as_object().unwrap().iter().for_each(|(name, value)| project[part][name] = value.clone());
     }
-    fs::write(path, serde_json::to_string_pretty(&project).unwrap()).unwrap();
+    fs::write(path, project.to_string()).unwrap();
 }
 
 /// Starts the program and waits for its end.
